@@ -1,0 +1,26 @@
+"""Name the axes of every array, so that a signature says what a comment would.
+
+The aliases are checked at run time in the tests (jaxtyping with beartype) and cost nothing in production.
+"""
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+Samples = Float[np.ndarray, " samples"]
+SampleMask = Bool[np.ndarray, " samples"]
+JointSeries = Float[np.ndarray, "samples joints"]
+JointMask = Bool[np.ndarray, "samples joints"]
+JointVector = Float[np.ndarray, " joints"]
+Vector3 = Float[np.ndarray, "3"]
+Vector = Float[np.ndarray, " values"]
+Rotation = Float[np.ndarray, "3 3"]
+Transform = Float[np.ndarray, "4 4"]
+PseudoInertia = Float[np.ndarray, "4 4"]
+LinkParameters = Float[np.ndarray, "10"]
+LinkTable = Float[np.ndarray, "links 10"]
+Parameters = Float[np.ndarray, " parameters"]
+BaseParameters = Float[np.ndarray, " base"]
+Matrix = Float[np.ndarray, "rows columns"]
+SquareMatrix = Float[np.ndarray, "size size"]
+Series = Float[np.ndarray, "entries samples"]
+Indices = Int[np.ndarray, " indices"]

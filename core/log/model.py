@@ -1,0 +1,139 @@
+"""Hold a robot's log in SI, readable piece by piece, so that its length never decides how much memory a study needs.
+
+A `JointLog` is what was measured plus what is known to be wrong with it; the samples stay in a `LogSource` (arrays in memory
+or a file on disk) and are read in rows from start to stop.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from core.arrays import JointSeries, Samples
+
+
+@dataclass(frozen=True)
+class Defect:
+    """Name one thing that is wrong with usable data, where it is and how much of it there is.
+
+    Attributes
+    ----------
+    kind
+        ``gap, jitter, repeated_rows, outliers, saturation, quantisation, standstill, short, slow_rate, missing_values`` ...
+    channel
+        ``time, position, torque`` ...
+    joint
+        Joint number from 1, or None where it concerns all joints.
+    count
+        How many samples it touches.
+    intervals
+        Where it is: at most twenty (start, end) pairs in s.
+    statement
+        One sentence with numbers and units.
+    """
+
+    kind: str
+    channel: str
+    joint: int | None
+    count: int
+    intervals: tuple[tuple[float, float], ...]
+    statement: str
+
+
+@dataclass(frozen=True, eq=False)
+class LogRows:
+    """Carry a stretch of samples: time in s, position in rad or m, velocity per s, torque in N m or N, current in A."""
+
+    time: Samples
+    position: JointSeries
+    torque: JointSeries | None = None
+    velocity: JointSeries | None = None
+    current: JointSeries | None = None
+    temperature: JointSeries | None = None
+
+
+class LogSource(Protocol):
+    """Give samples in SI by row number; time starts anywhere and increases strictly."""
+
+    @property
+    def samples(self) -> int:
+        """Count the rows."""
+        ...
+
+    def rows(self, start: int, stop: int) -> LogRows:
+        """Read the rows from start up to, not including, stop."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class ArraySource:
+    """Give samples from arrays in memory."""
+
+    data: LogRows
+
+    @property
+    def samples(self) -> int:
+        """Count the rows."""
+        return len(self.data.time)
+
+    def rows(self, start: int, stop: int) -> LogRows:
+        """Slice the arrays; no copy is made."""
+        cut = slice(start, stop)
+        data = self.data
+        optional = (data.torque, data.velocity, data.current, data.temperature)
+        torque, velocity, current, temperature = (None if one is None else one[cut] for one in optional)
+        return LogRows(data.time[cut], data.position[cut], torque, velocity, current, temperature)
+
+
+@dataclass(frozen=True, eq=False)
+class JointLog:
+    """Carry one log: where its samples are, how they are clocked, and what is wrong with them.
+
+    Attributes
+    ----------
+    source
+        The samples.
+    joints
+        Number of joints.
+    rate_hz
+        One over the median step of the stamps.
+    duration
+        Last stamp minus first, s.
+    segments
+        (start, stop) rows of the stretches between gaps; a study never differentiates across their borders.
+    defects
+        What is wrong but usable.
+    ignored_columns
+        Columns of the file that the mapping does not name.
+    sha256
+        Hash of the file's bytes, for provenance.
+    """
+
+    name: str
+    source: LogSource
+    joints: int
+    rate_hz: float
+    duration: float
+    segments: tuple[tuple[int, int], ...]
+    defects: tuple[Defect, ...] = ()
+    channels: tuple[str, ...] = ("position", "torque")
+    ignored_columns: tuple[str, ...] = ()
+    sha256: str = ""
+
+    @property
+    def samples(self) -> int:
+        """Count the rows."""
+        return self.source.samples
+
+
+def whole_rows(log: JointLog) -> LogRows:
+    """Read all samples at once; for short logs, plots and tests."""
+    return log.source.rows(0, log.samples)
+
+
+def repeated(rows: LogRows) -> np.ndarray:
+    """Mark the rows whose positions (and torques, where logged) repeat the row before exactly, as when a sample was dropped."""
+    measured = rows.position if rows.torque is None else np.hstack([rows.position, rows.torque])
+    same = np.zeros(len(measured), dtype=bool)
+    same[1:] = np.all(measured[1:] == measured[:-1], axis=1)
+    return same

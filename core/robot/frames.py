@@ -1,0 +1,62 @@
+"""Turn and shift frames: the few rotations that robot descriptions are written in.
+
+Conventions: matrices map coordinates of the moved frame into the reference frame, angles in rad, lengths in m.
+Source: Khalil & Dombre (2002), ch. 2; URDF's roll-pitch-yaw is about fixed axes x, y, z in that order.
+"""
+
+import numpy as np
+
+from core.arrays import Rotation, Vector3
+
+
+def rotation_x(angle: float) -> Rotation:
+    """Rotate about x by an angle in rad."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def rotation_y(angle: float) -> Rotation:
+    """Rotate about y by an angle in rad."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+
+
+def rotation_z(angle: float) -> Rotation:
+    """Rotate about z by an angle in rad."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def rotation_rpy(roll: float, pitch: float, yaw: float) -> Rotation:
+    """Rotate by roll, pitch and yaw about the fixed axes x, y, z, in rad."""
+    return rotation_z(yaw) @ rotation_y(pitch) @ rotation_x(roll)
+
+
+def rotation_to(axis: Vector3) -> Rotation:
+    """Give a rotation whose third column is the given unit axis.
+
+    The rotation is the identity for z itself and turns by the smallest angle otherwise, so that frames whose joint axis
+    already is z keep their name and meaning.
+
+    Examples
+    --------
+    >>> rotation_to(np.array([0.0, 1.0, 0.0])) @ np.array([0.0, 0.0, 1.0])
+    array([0., 1., 0.])
+    """
+    x, y, z = (float(value) for value in axis)
+    if z <= -1.0 + 1e-12:
+        return np.diag([1.0, -1.0, -1.0])
+    scale = 1.0 / (1.0 + z)
+    return np.array(
+        [
+            [1.0 - x * x * scale, -x * y * scale, x],
+            [-x * y * scale, 1.0 - y * y * scale, y],
+            [-x, -y, z],
+        ]
+    )
+
+
+def cross_matrix(vector: Vector3) -> Rotation:
+    """Write the cross product with a vector as a matrix: ``cross_matrix(a) @ b == a x b``."""
+    x, y, z = vector
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -1,0 +1,162 @@
+"""Hold a robot's kinematics in the one form that all chapters use, whatever convention it was described in.
+
+A robot is a tree of links. Frame j sits at a fixed placement on its antecedent and moves along or about its own z axis.
+Joint coordinates and links are kept apart, because a mimic joint moves a link without having a coordinate of its own.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from core.arrays import JointVector, LinkTable, Rotation, Vector3
+from core.errors import RobotError
+
+JointKind = Literal["revolute", "prismatic"]
+FRICTION_KINDS = ("viscous", "coulomb", "offset")
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Bound a joint: position in rad or m, velocity in rad/s or m/s, torque in N m or N; None where unknown."""
+
+    position: tuple[float, float] | None = None
+    velocity: float | None = None
+    torque: float | None = None
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Describe one joint coordinate and its drive.
+
+    `torque_constant` (N m/A, motor side) and `gear_ratio` turn a logged current into joint torque; None where undeclared.
+    `rotor_inertia` and `friction` say which of these the model has on this joint.
+    """
+
+    name: str
+    limits: Limits = Limits()
+    rotor_inertia: bool = True
+    friction: tuple[str, ...] = FRICTION_KINDS
+    torque_constant: float | None = None
+    gear_ratio: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """Place one moving body.
+
+    Attributes
+    ----------
+    name
+        The body's name.
+    kind
+        Whether it turns about or slides along its z axis.
+    antecedent
+        Number of the link that carries it, 0 for the base.
+    joint
+        Number of the joint coordinate that moves it, counted from 1.
+    rotation, translation
+        Pose of its frame on the antecedent at zero coordinate (m).
+    ratio, offset
+        Its own angle or stroke is ``ratio * q[joint] + offset``; 1 and 0 unless it mimics another joint.
+    """
+
+    name: str
+    kind: JointKind
+    antecedent: int
+    joint: int
+    rotation: Rotation
+    translation: Vector3
+    ratio: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """Describe a motor that turns with a weighted sum of joints (Staubli TX40: motor 6 turns with q5 + q6).
+
+    Its inertia, viscous and Coulomb friction act on that sum; by virtual work the torque on joint i is `weights[i]` times it.
+    """
+
+    name: str
+    number: int
+    joints: tuple[int, ...]
+    weights: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class RobotModel:
+    """Describe a robot as a tree of links that move about or along their z axes.
+
+    Attributes
+    ----------
+    gravity
+        Gravitational acceleration in the base frame, m/s2, pointing down.
+    prior
+        Ten inertial parameters per link believed beforehand, in each link's frame; None where nothing is believed.
+    """
+
+    name: str
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+    gravity: Vector3
+    couplings: tuple[Coupling, ...] = ()
+    prior: LinkTable | None = field(default=None)
+
+    def __post_init__(self) -> None:
+        """Refuse trees that are no trees and vectors of the wrong length."""
+        if not self.links:
+            raise RobotError("the robot has no joints", evidence={"joints": 0}, remedy="describe at least one joint")
+        for number, link in enumerate(self.links, start=1):
+            if not 0 <= link.antecedent < number:
+                raise RobotError(
+                    "a link must follow the link that carries it",
+                    evidence={"link": number, "antecedent": link.antecedent},
+                    remedy=f"give link {number} an antecedent from 0 (the base) to {number - 1}",
+                )
+            if not 1 <= link.joint <= len(self.joints):
+                raise RobotError(
+                    "a link is moved by a joint that does not exist",
+                    evidence={"link": number, "joint": link.joint, "joints": len(self.joints)},
+                    remedy="number the joints from 1",
+                )
+        self._check_couplings()
+
+    def _check_couplings(self) -> None:
+        for coupling in self.couplings:
+            wrong = [joint for joint in coupling.joints if not 1 <= joint <= len(self.joints)]
+            if wrong or len(coupling.joints) != len(coupling.weights) or len(set(coupling.joints)) < 2:
+                raise RobotError(
+                    f"coupling {coupling.name} does not name at least two different joints with one weight each",
+                    evidence={"joints": list(coupling.joints), "weights": list(coupling.weights)},
+                    remedy=f"name joints from 1 to {len(self.joints)}",
+                )
+
+    @cached_property
+    def supports(self) -> tuple[tuple[int, ...], ...]:
+        """List, for every link (counted from 0), the links that carry it and itself, from the base outwards."""
+        chains: list[tuple[int, ...]] = []
+        for index, link in enumerate(self.links):
+            chains.append((*(chains[link.antecedent - 1] if link.antecedent else ()), index))
+        return tuple(chains)
+
+    @cached_property
+    def lower_positions(self) -> JointVector:
+        """Give the lower position limits, -pi (revolute) or -1 m (prismatic) where unknown."""
+        return self._position_limits(0)
+
+    @cached_property
+    def upper_positions(self) -> JointVector:
+        """Give the upper position limits, pi (revolute) or 1 m (prismatic) where unknown."""
+        return self._position_limits(1)
+
+    def _position_limits(self, side: int) -> JointVector:
+        fallback = {"revolute": (-np.pi, np.pi), "prismatic": (-1.0, 1.0)}
+        kinds = {link.joint: link.kind for link in reversed(self.links)}
+        return np.array(
+            [
+                (joint.limits.position or fallback[kinds[number]])[side]
+                for number, joint in enumerate(self.joints, start=1)
+            ]
+        )
