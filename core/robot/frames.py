@@ -44,9 +44,10 @@ def rotation_to(axis: Vector3) -> Rotation:
     array([0., 1., 0.])
     """
     x, y, z = (float(value) for value in axis)
-    if z <= -1.0 + 1e-12:
+    across = x * x + y * y
+    if z < 0.0 and across == 0.0:
         return np.diag([1.0, -1.0, -1.0])
-    scale = 1.0 / (1.0 + z)
+    scale = 1.0 / (1.0 + z) if z >= 0.0 else (1.0 - z) / across  # equal; near -z only the second keeps its digits
     return np.array(
         [
             [1.0 - x * x * scale, -x * y * scale, x],

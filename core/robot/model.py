@@ -12,6 +12,7 @@ import numpy as np
 
 from core.arrays import JointVector, LinkTable, Rotation, Vector3
 from core.errors import RobotError
+from core.robot.modified_dh import ModifiedDHRow
 
 JointKind = Literal["revolute", "prismatic"]
 FRICTION_KINDS = ("viscous", "coulomb", "offset")
@@ -60,6 +61,8 @@ class Link:
         Pose of its frame on the antecedent at zero coordinate (m).
     ratio, offset
         Its own angle or stroke is ``ratio * q[joint] + offset``; 1 and 0 unless it mimics another joint.
+    row
+        The modified DH row its placement was computed from; None where the placement itself was given.
     """
 
     name: str
@@ -70,6 +73,7 @@ class Link:
     translation: Vector3
     ratio: float = 1.0
     offset: float = 0.0
+    row: ModifiedDHRow | None = None
 
 
 @dataclass(frozen=True)
@@ -121,7 +125,17 @@ class RobotModel:
                     evidence={"link": number, "joint": link.joint, "joints": len(self.joints)},
                     remedy="number the joints from 1",
                 )
+        self._check_joints()
         self._check_couplings()
+
+    def _check_joints(self) -> None:
+        idle = set(range(1, len(self.joints) + 1)) - {link.joint for link in self.links}
+        if idle:
+            raise RobotError(
+                "a joint moves no link",
+                evidence={"joints": sorted(idle)},
+                remedy="leave it out, or name it as the joint of a link",
+            )
 
     def _check_couplings(self) -> None:
         for coupling in self.couplings:
