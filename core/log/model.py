@@ -5,7 +5,7 @@ or a file on disk) and are read in rows from start to stop.
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -52,6 +52,7 @@ class LogRows:
     temperature: JointSeries | None = None
 
 
+@runtime_checkable
 class LogSource(Protocol):
     """Give samples in SI by row number; time starts anywhere and increases strictly."""
 

@@ -1,0 +1,31 @@
+"""Set the stage for every test: shapes are checked at run time, and a random law is the same law tomorrow.
+
+The import hook has to be in place before core is imported, so it stands at the top of this file; kernels compiled by numba
+cannot be wrapped and are left out. Nothing in this file imports core.
+"""
+
+from hypothesis import HealthCheck, settings
+from jaxtyping import install_import_hook
+
+CHECKED_PACKAGES = (
+    "core.dynamics",
+    "core.estimate",
+    "core.log",
+    "core.precision",
+    "core.reduction",
+    "core.robot",
+    "core.signals",
+    "core.study",
+    "core.validation",
+)
+
+install_import_hook(CHECKED_PACKAGES, "beartype.beartype")
+
+settings.register_profile(
+    "veritorque",
+    derandomize=True,  # a failure is seen again by whoever looks at it
+    deadline=None,  # the first example may compile a kernel
+    database=None,  # nothing is carried over from one run to the next
+    suppress_health_check=[HealthCheck.too_slow],  # speed is measured in benchmarks, not on a shared machine
+)
+settings.load_profile("veritorque")
