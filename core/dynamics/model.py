@@ -1,0 +1,91 @@
+"""Put a robot and its torque effects together into one model that is linear in named parameters.
+
+Extending a model means adding a term; the extended model is the same type, so every later chapter treats it alike.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import JointSeries, Parameters
+from core.dynamics.term import Entry, MotionState, Term
+from core.dynamics.terms.coulomb import Coulomb
+from core.dynamics.terms.coupling import GearCoupling
+from core.dynamics.terms.offset import Offset
+from core.dynamics.terms.rigid_body import RigidBody
+from core.dynamics.terms.rotor_inertia import RotorInertia
+from core.dynamics.terms.viscous import Viscous
+from core.errors import OptionError
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+
+STANDARD_TERMS: Mapping[str, type[RigidBody | RotorInertia | Viscous | Coulomb | Offset | GearCoupling]] = {
+    "rigid_body": RigidBody,
+    "rotor_inertia": RotorInertia,
+    "viscous": Viscous,
+    "coulomb": Coulomb,
+    "offset": Offset,
+    "coupling": GearCoupling,
+}
+"""The terms that can be asked for by name; a new effect adds one file and one line here."""
+
+
+@dataclass(frozen=True, eq=False)
+class DynamicModel:
+    """Hold a robot and the terms its joint torque is the sum of: torque = sum over terms of columns times parameters."""
+
+    robot: RobotModel
+    terms: tuple[Term, ...]
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """List all standard parameters, term after term."""
+        return tuple(parameter for term in self.terms for parameter in term.parameters(self.robot))
+
+    @cached_property
+    def entries(self) -> tuple[Entry, ...]:
+        """List the (joint, parameter) pairs that can differ from zero, with positions in `parameters`."""
+        found: list[Entry] = []
+        start = 0
+        for term in self.terms:
+            found += [(joint, start + parameter) for joint, parameter in term.entries(self.robot)]
+            start += len(term.parameters(self.robot))
+        return tuple(found)
+
+    def torque(self, parameters: Parameters, state: MotionState) -> JointSeries:
+        """Predict joint torque (N m or N) from standard parameters, by the terms' own plain series."""
+        torque = np.zeros_like(state.position, dtype=float)
+        start = 0
+        for term in self.terms:
+            for (joint, parameter), row in zip(
+                term.entries(self.robot), term.series(self.robot, state), strict=True
+            ):
+                torque[:, joint] += parameters[start + parameter] * row
+            start += len(term.parameters(self.robot))
+        return torque
+
+    def with_term(self, term: Term) -> "DynamicModel":
+        """Extend the model; a term of the same name is replaced."""
+        kept = tuple(one for one in self.terms if one.name != term.name)
+        return replace(self, terms=(*kept, term))
+
+
+def standard_model(robot: RobotModel, names: tuple[str, ...] | None = None) -> DynamicModel:
+    """Build the seed's model: rigid bodies, rotor inertia, viscous and Coulomb friction, offset, declared couplings.
+
+    Raises
+    ------
+    OptionError
+        If a name is not a known term.
+    """
+    wanted = tuple(STANDARD_TERMS) if names is None else names
+    unknown = [name for name in wanted if name not in STANDARD_TERMS]
+    if unknown:
+        raise OptionError(
+            "a torque term is not known",
+            evidence={"unknown": unknown, "known": sorted(STANDARD_TERMS)},
+            remedy="name terms from the list of known ones",
+        )
+    return DynamicModel(robot, tuple(STANDARD_TERMS[name]() for name in STANDARD_TERMS if name in wanted))

@@ -1,0 +1,92 @@
+"""Compute joint torque by the recursive Newton-Euler algorithm, plainly, for whole arrays of samples.
+
+This is the reference that the compiled regressor is held against: it shares no formula with it beyond the laws of mechanics.
+Sources: Luh, Walker & Paul 1980; Khalil & Dombre (2002), ch. 9.
+"""
+
+import numpy as np
+
+from core.arrays import JointSeries, LinkTable
+from core.dynamics.term import MotionState
+from core.robot.inertia import inertia_about_origin
+from core.robot.model import Link, RobotModel
+
+_Z = np.array([0.0, 0.0, 1.0])
+
+
+def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) -> JointSeries:
+    """Give the torque that moves the links, without rotor inertia and friction.
+
+    Parameters
+    ----------
+    links
+        Ten inertial parameters per link about its frame's origin (kg m2, kg m, kg).
+    state
+        The motion of the joint coordinates.
+
+    Returns
+    -------
+    JointSeries
+        Torque in N m (revolute) or N (prismatic).
+    """
+    samples = len(state.position)
+    poses = [_pose(link, state) for link in robot.links]
+    base = (np.zeros((samples, 3)), np.zeros((samples, 3)), np.tile(-np.asarray(robot.gravity, float), (samples, 1)))
+    spins: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+    forces, moments = [], []
+    for link, pose, body in zip(robot.links, poses, links, strict=True):
+        before = spins[link.antecedent - 1] if link.antecedent else base
+        spins.append(_advance(link, pose, before, state))
+        force, moment = _wrench(body, *spins[-1])
+        forces.append(force)
+        moments.append(moment)
+    torque = np.zeros_like(state.position, dtype=float)
+    for index in range(len(robot.links) - 1, -1, -1):
+        link, (rotation, shift) = robot.links[index], poses[index]
+        carried = moments[index] if link.kind == "revolute" else forces[index]
+        torque[:, link.joint - 1] += link.ratio * carried[:, 2]
+        if link.antecedent:
+            force = np.einsum("sij,sj->si", rotation, forces[index])
+            forces[link.antecedent - 1] += force
+            moments[link.antecedent - 1] += np.einsum("sij,sj->si", rotation, moments[index]) + np.cross(shift, force)
+    return torque
+
+
+def _pose(link: Link, state: MotionState) -> tuple[np.ndarray, np.ndarray]:
+    coordinate = link.ratio * state.position[:, link.joint - 1] + link.offset
+    samples = len(coordinate)
+    if link.kind == "prismatic":
+        shift = link.translation + coordinate[:, None] * link.rotation[:, 2]
+        return np.broadcast_to(link.rotation, (samples, 3, 3)), shift
+    turn = np.zeros((samples, 3, 3))
+    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(coordinate)
+    turn[:, 1, 0] = np.sin(coordinate)
+    turn[:, 0, 1] = -turn[:, 1, 0]
+    turn[:, 2, 2] = 1.0
+    return link.rotation @ turn, np.broadcast_to(link.translation, (samples, 3))
+
+
+def _advance(
+    link: Link,
+    pose: tuple[np.ndarray, np.ndarray],
+    before: tuple[np.ndarray, np.ndarray, np.ndarray],
+    state: MotionState,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    rotation, shift = pose
+    spin, spin_rate, acceleration = before
+    speed = link.ratio * state.velocity[:, link.joint - 1, None] * _Z
+    speed_rate = link.ratio * state.acceleration[:, link.joint - 1, None] * _Z
+    carried = acceleration + np.cross(spin_rate, shift) + np.cross(spin, np.cross(spin, shift))
+    spin, spin_rate, carried = (np.einsum("sij,si->sj", rotation, one) for one in (spin, spin_rate, carried))
+    if link.kind == "revolute":
+        return spin + speed, spin_rate + speed_rate + np.cross(spin, speed), carried
+    return spin, spin_rate, carried + speed_rate + 2.0 * np.cross(spin, speed)
+
+
+def _wrench(
+    body: np.ndarray, spin: np.ndarray, spin_rate: np.ndarray, acceleration: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    inertia, first, mass = inertia_about_origin(body), body[6:9], body[9]
+    force = mass * acceleration + np.cross(spin_rate, first) + np.cross(spin, np.cross(spin, first))
+    moment = spin_rate @ inertia + np.cross(spin, spin @ inertia) + np.cross(first, acceleration)
+    return force, moment

@@ -1,0 +1,45 @@
+"""Define what every torque effect must offer, so that a new effect is one file and no chapter after this one changes.
+
+A term is linear in its parameters. It says which (joint, parameter) pairs can differ from zero and gives one time series for
+each of them; everything that is structurally zero is never computed, filtered or stored.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from core.arrays import JointSeries, Series
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+
+Entry = tuple[int, int]
+"""Joint row and parameter column, both counted from 0 within the term."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionState:
+    """Carry position (rad or m), velocity (per s) and acceleration (per s2) of all joints at the same instants."""
+
+    position: JointSeries
+    velocity: JointSeries
+    acceleration: JointSeries
+
+
+class Term(Protocol):
+    """Offer the columns of one torque effect."""
+
+    @property
+    def name(self) -> str:
+        """Name the effect as options and results spell it."""
+        ...
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List the parameters the effect has on this robot."""
+        ...
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """List the (joint, parameter) pairs whose series can differ from zero."""
+        ...
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter, one row per entry (N m or N per unit of the parameter)."""
+        ...

@@ -1,0 +1,61 @@
+"""Give the torque of motors that turn with a sum of joints: inertia, viscous and Coulomb friction of that sum.
+
+By virtual work the motor's torque acts on joint i with the weight that joint i has in the sum. Source: Staubli wrists 5-6,
+as in Janot, Vandanjon & Gautier, IEEE TCST 22(1), 2014.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Samples, Series
+from core.dynamics.term import Entry, MotionState
+from core.dynamics.terms.coulomb import direction
+from core.robot.model import Coupling, RobotModel
+from core.robot.parameters import Parameter
+
+
+@dataclass(frozen=True)
+class GearCoupling:
+    """Model coupled motors: IAM, FVM and FCM of every declared coupling; widths in rad/s as for `Coulomb`."""
+
+    widths: tuple[float, ...] = ()
+    name: str = "coupling"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List IAM, FVM, FCM of every coupling."""
+        units = (("IAM", "kg m2"), ("FVM", "N m s/rad"), ("FCM", "N m"))
+        return tuple(
+            Parameter(symbol, coupling.number, coupling.number, unit, 0.0)
+            for coupling in robot.couplings
+            for symbol, unit in units
+        )
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Pair the three parameters of a coupling with each of its joints."""
+        return tuple(
+            (joint - 1, 3 * index + position)
+            for index, coupling in enumerate(robot.couplings)
+            for joint in coupling.joints
+            for position in range(3)
+        )
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter."""
+        rows: list[Samples] = []
+        widths = self.widths or (0.0,) * len(robot.couplings)
+        for coupling, width in zip(robot.couplings, widths, strict=True):
+            motor = motor_speed(coupling, state)
+            columns = (_summed(coupling, state.acceleration), motor, direction(motor, width))
+            rows += [weight * column for weight in coupling.weights for column in columns]
+        return np.array(rows).reshape(len(rows), len(state.position))
+
+
+def motor_speed(coupling: Coupling, state: MotionState) -> Samples:
+    """Give the speed of the sum that the motor turns with, rad/s."""
+    return _summed(coupling, state.velocity)
+
+
+def _summed(coupling: Coupling, values: np.ndarray) -> Samples:
+    joints = [joint - 1 for joint in coupling.joints]
+    return np.asarray(values[:, joints] @ np.array(coupling.weights))

@@ -1,0 +1,52 @@
+"""Give the torque of moving masses: ten parameters per link, the inertia of every body that a joint carries.
+
+The series here come from the plain Newton-Euler recursion with one unit parameter at a time; the regressor chapter computes
+the same series compiled and a law holds the two equal. Source: Khalil & Dombre (2002), ch. 12.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Series
+from core.dynamics.newton_euler import inverse_dynamics
+from core.dynamics.term import Entry, MotionState
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter, inertial_parameters
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """Model links as rigid bodies."""
+
+    name: str = "rigid_body"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List ten parameters per link in Khalil's order."""
+        return tuple(
+            parameter
+            for number, link in enumerate(robot.links, start=1)
+            for parameter in inertial_parameters(number, link.joint)
+        )
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Pair every link's parameters with the joints that carry the link."""
+        return tuple(
+            (joint, 10 * link + position)
+            for link, chain in enumerate(robot.supports)
+            for joint in sorted({robot.links[carrier].joint - 1 for carrier in chain})
+            for position in range(10)
+        )
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit inertial parameter."""
+        entries = self.entries(robot)
+        rows = np.empty((len(entries), len(state.position)))
+        for column in range(10 * len(robot.links)):
+            unit = np.zeros(10 * len(robot.links))
+            unit[column] = 1.0
+            torque = inverse_dynamics(robot, unit.reshape(-1, 10), state)
+            for row, (joint, parameter) in enumerate(entries):
+                if parameter == column:
+                    rows[row] = torque[:, joint]
+        return rows

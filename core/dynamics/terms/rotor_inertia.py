@@ -1,0 +1,35 @@
+"""Give the torque that turns the rotor: inertia seen at the joint (gear ratio squared included) times joint acceleration.
+
+The gyroscopic torque of a rotor spun by its carrier is left out, as in the seed's model. Source: Khalil & Dombre (2002), ch. 9.
+"""
+
+from dataclasses import dataclass
+
+from core.arrays import Series
+from core.dynamics.term import Entry, MotionState
+from core.dynamics.terms.own_joint import own_joint_entries, own_joint_parameters, own_joint_series
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+
+
+@dataclass(frozen=True)
+class RotorInertia:
+    """Model the reflected rotor inertia IA."""
+
+    name: str = "rotor_inertia"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List IA of every joint that has it."""
+        return own_joint_parameters(robot, _joints(robot), "IA", ("kg m2", "kg"), 0.0)
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Pair each joint with its own parameter."""
+        return own_joint_entries(_joints(robot))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter."""
+        return own_joint_series(_joints(robot), len(state.position), lambda joint: state.acceleration[:, joint])
+
+
+def _joints(robot: RobotModel) -> tuple[int, ...]:
+    return tuple(index for index, joint in enumerate(robot.joints) if joint.rotor_inertia)

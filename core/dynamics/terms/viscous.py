@@ -1,0 +1,32 @@
+"""Give the friction that grows with speed: FV times joint velocity. Source: the seed paper, eq. (4)."""
+
+from dataclasses import dataclass
+
+from core.arrays import Series
+from core.dynamics.term import Entry, MotionState
+from core.dynamics.terms.own_joint import own_joint_entries, own_joint_parameters, own_joint_series
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+
+
+@dataclass(frozen=True)
+class Viscous:
+    """Model viscous friction FV."""
+
+    name: str = "viscous"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List FV of every joint that has it."""
+        return own_joint_parameters(robot, _joints(robot), "FV", ("N m s/rad", "N s/m"), 0.0)
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Pair each joint with its own parameter."""
+        return own_joint_entries(_joints(robot))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter."""
+        return own_joint_series(_joints(robot), len(state.position), lambda joint: state.velocity[:, joint])
+
+
+def _joints(robot: RobotModel) -> tuple[int, ...]:
+    return tuple(index for index, joint in enumerate(robot.joints) if "viscous" in joint.friction)

@@ -1,0 +1,1 @@
+"""Write the model as linear equations: in comes a `DynamicModel` and `Motion`s, out goes an `Observation` of small factors."""

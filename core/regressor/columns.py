@@ -1,0 +1,168 @@
+"""Compute the model's non-zero columns for a stretch of motion: the rigid body compiled, every other term by its own series.
+
+A `ColumnPlan` decides once which series are wanted and where each one goes; it is then applied stretch after stretch.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Indices, Matrix, Series
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import MotionState
+from core.dynamics.terms.rigid_body import RigidBody
+from core.regressor.kernel import rigid_body_series
+from core.robot.model import RobotModel
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnPlan:
+    """Choose columns of a model's observation matrix.
+
+    Attributes
+    ----------
+    model
+        The model.
+    columns
+        Positions in `model.parameters` of the wanted parameters.
+    """
+
+    model: DynamicModel
+    columns: tuple[int, ...]
+
+    @cached_property
+    def entries(self) -> tuple[tuple[int, int], ...]:
+        """List the (joint, position in `columns`) pairs of the series, in the order `series` gives them."""
+        place = {column: position for position, column in enumerate(self.columns)}
+        wanted = {(joint, place[column]) for joint, column in self.model.entries if column in place}
+        return tuple(sorted(wanted))
+
+    @cached_property
+    def rows_of(self) -> tuple[Indices, ...]:
+        """Give, per joint, the rows of `series` that belong to it."""
+        joints = np.array([joint for joint, _ in self.entries])
+        return tuple(np.flatnonzero(joints == joint) for joint in range(len(self.model.robot.joints)))
+
+    @cached_property
+    def columns_of(self) -> tuple[Indices, ...]:
+        """Give, per joint, the positions in `columns` of its non-zero series, in the order of `rows_of`."""
+        places = np.array([column for _, column in self.entries])
+        return tuple(places[rows] for rows in self.rows_of)
+
+    def series(self, state: MotionState) -> Series:
+        """Give the torque per unit parameter, one row per entry."""
+        out = np.zeros((len(self.entries), len(state.position)))
+        for fill in self._fills:
+            fill(state, out)
+        return out
+
+    @cached_property
+    def _fills(self) -> "list[_RigidBodyFill | _TermFill]":
+        slot_of = {(joint, self.columns[place]): row for row, (joint, place) in enumerate(self.entries)}
+        fills: list[_RigidBodyFill | _TermFill] = []
+        start = 0
+        for term in self.model.terms:
+            entries = term.entries(self.model.robot)
+            targets = np.array([slot_of.get((joint, start + parameter), -1) for joint, parameter in entries], dtype=int)
+            if (targets >= 0).any():
+                if isinstance(term, RigidBody):
+                    fills.append(_RigidBodyFill.prepare(self.model.robot, dict(zip(entries, targets, strict=True))))
+                else:
+                    fills.append(_TermFill(self.model.robot, term, targets))
+            start += len(term.parameters(self.model.robot))
+        return fills
+
+
+@dataclass(frozen=True, eq=False)
+class _TermFill:
+    robot: RobotModel
+    term: object
+    targets: Indices
+
+    def __call__(self, state: MotionState, out: Series) -> None:
+        keep = self.targets >= 0
+        np.add.at(out, self.targets[keep], self.term.series(self.robot, state)[keep])  # type: ignore[attr-defined]
+
+
+@dataclass(frozen=True, eq=False)
+class _RigidBodyFill:
+    """Hold what the kernel needs of a robot, as contiguous arrays."""
+
+    robot: RobotModel
+    prismatic: np.ndarray
+    antecedent: Indices
+    joint: Indices
+    ratio: np.ndarray
+    offset: np.ndarray
+    rotation: np.ndarray
+    translation: np.ndarray
+    chain_start: Indices
+    chain: Indices
+    slot: np.ndarray
+
+    @classmethod
+    def prepare(cls, robot: RobotModel, target: dict[tuple[int, int], int]) -> "_RigidBodyFill":
+        links = robot.links
+        chain = np.array([carrier for supports in robot.supports for carrier in supports])
+        body = np.repeat(np.arange(len(links)), [len(supports) for supports in robot.supports])
+        slot = np.array(
+            [
+                [target.get((links[carrier].joint - 1, 10 * link + k), -1) for k in range(10)]
+                for link, carrier in zip(body, chain, strict=True)
+            ]
+        )
+        return cls(
+            robot=robot,
+            prismatic=np.array([link.kind == "prismatic" for link in links]),
+            antecedent=np.array([link.antecedent for link in links]),
+            joint=np.array([link.joint - 1 for link in links]),
+            ratio=np.array([link.ratio for link in links]),
+            offset=np.array([link.offset for link in links]),
+            rotation=np.array([link.rotation for link in links]),
+            translation=np.array([link.translation for link in links]),
+            chain_start=np.concatenate([[0], np.cumsum([len(supports) for supports in robot.supports])]),
+            chain=chain,
+            slot=slot,
+        )
+
+    def __call__(self, state: MotionState, out: Series) -> None:
+        coordinate = self.ratio[:, None] * state.position.T[self.joint] + self.offset[:, None]
+        slides = self.prismatic[:, None]
+        angle = np.where(slides, 0.0, coordinate) if self.prismatic.any() else coordinate
+        stroke = np.where(slides, coordinate, 0.0)
+        rigid_body_series(
+            np.cos(angle),
+            np.sin(angle),
+            stroke,
+            np.ascontiguousarray(state.velocity.T),
+            np.ascontiguousarray(state.acceleration.T),
+            self.prismatic,
+            self.antecedent,
+            self.joint,
+            self.ratio,
+            self.rotation,
+            self.translation,
+            np.asarray(self.robot.gravity, dtype=float),
+            self.chain_start,
+            self.chain,
+            self.slot,
+            out,
+        )
+
+
+def all_columns(model: DynamicModel) -> ColumnPlan:
+    """Plan for every parameter of the model."""
+    return ColumnPlan(model, tuple(range(len(model.parameters))))
+
+
+def dense(plan: ColumnPlan, state: MotionState) -> Matrix:
+    """Write the observation matrix out in full, samples after samples with the joints innermost.
+
+    For structure, tests and short motions only: a long log's matrix is never stored.
+    """
+    joints = len(plan.model.robot.joints)
+    matrix = np.zeros((len(state.position), joints, len(plan.columns)))
+    for (joint, column), row in zip(plan.entries, plan.series(state), strict=True):
+        matrix[:, joint, column] = row
+    return matrix.reshape(-1, len(plan.columns))
