@@ -1,7 +1,7 @@
 """Turn and shift frames: the few rotations that robot descriptions are written in.
 
-Conventions: matrices map coordinates of the moved frame into the reference frame, angles in rad, lengths in m.
-Source: Khalil & Dombre (2002), ch. 2; URDF's roll-pitch-yaw is about fixed axes x, y, z in that order.
+Conventions: matrices map coordinates of the moved frame into the reference frame, angles in rad, lengths in
+m. Source: Khalil & Dombre (2002), ch. 2; URDF's roll-pitch-yaw is about fixed axes x, y, z in that order.
 """
 
 import numpy as np
@@ -29,14 +29,14 @@ def rotation_z(angle: float) -> Rotation:
 
 def rotation_rpy(roll: float, pitch: float, yaw: float) -> Rotation:
     """Rotate by roll, pitch and yaw about the fixed axes x, y, z, in rad."""
-    return rotation_z(yaw) @ rotation_y(pitch) @ rotation_x(roll)
+    return np.asarray(rotation_z(yaw) @ rotation_y(pitch) @ rotation_x(roll))
 
 
 def rotation_to(axis: Vector3) -> Rotation:
     """Give a rotation whose third column is the given unit axis.
 
-    The rotation is the identity for z itself and turns by the smallest angle otherwise, so that frames whose joint axis
-    already is z keep their name and meaning.
+    The rotation is the identity for z itself and turns by the smallest angle otherwise, so that frames whose
+    joint axis already is z keep their name and meaning.
 
     Examples
     --------
@@ -47,7 +47,8 @@ def rotation_to(axis: Vector3) -> Rotation:
     across = x * x + y * y
     if z < 0.0 and across == 0.0:
         return np.diag([1.0, -1.0, -1.0])
-    scale = 1.0 / (1.0 + z) if z >= 0.0 else (1.0 - z) / across  # equal; near -z only the second keeps its digits
+    # Both forms are equal; near -z only the second keeps its digits.
+    scale = 1.0 / (1.0 + z) if z >= 0.0 else (1.0 - z) / across
     return np.array(
         [
             [1.0 - x * x * scale, -x * y * scale, x],

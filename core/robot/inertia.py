@@ -1,8 +1,9 @@
 """Say what a rigid body is: ten numbers, and the one matrix that tells whether they can belong to a body.
 
-A body can exist when its 4x4 pseudo-inertia is positive definite; the 6x6 spatial inertia is weaker, it lets bodies pass
-whose principal moments break the triangle inequality. The matrix is defined once, as ten constant basis matrices, and
-numpy and the solver both use that definition. Source: Wensing, Kim & Slotine, IEEE RA-L 3(1), 2018.
+A body can exist when its 4x4 pseudo-inertia is positive definite; the 6x6 spatial inertia is weaker, it lets
+bodies pass whose principal moments break the triangle inequality. The matrix is defined once, as ten constant
+basis matrices, and numpy and the solver both use that definition. Source: Wensing, Kim & Slotine, IEEE RA-L
+3(1), 2018.
 """
 
 import numpy as np
@@ -34,8 +35,8 @@ PSEUDO_INERTIA_BASIS.setflags(write=False)
 def pseudo_inertia(link: LinkParameters) -> PseudoInertia:
     """Arrange a body's ten parameters as its pseudo-inertia.
 
-    J = [[Sigma, h], [h', m]] with Sigma = trace(I)/2 E - I, I the inertia about the frame's origin in kg m2, h the first
-    moments in kg m, m the mass in kg.
+    J = [[Sigma, h], [h', m]] with Sigma = trace(I)/2 E - I, I the inertia about the frame's origin in kg m2,
+    h the first moments in kg m, m the mass in kg.
 
     Examples
     --------
@@ -62,7 +63,7 @@ def inertia_about_origin(link: LinkParameters) -> Rotation:
 
 
 def from_mass_properties(mass: float, centre: Vector3, inertia_at_com: Rotation) -> LinkParameters:
-    """Describe a body given by mass (kg), mass centre (m) and inertia about that centre (kg m2) about the frame's origin.
+    """Describe a body by ten parameters, given mass (kg), mass centre (m) and inertia about it (kg m2).
 
     Examples
     --------
@@ -75,7 +76,7 @@ def from_mass_properties(mass: float, centre: Vector3, inertia_at_com: Rotation)
 
 
 def mass_properties(link: LinkParameters) -> tuple[float, Vector3, Rotation]:
-    """Give mass (kg), mass centre (m) and inertia about it (kg m2); a body without mass has its centre at the origin."""
+    """Give mass (kg), mass centre (m) and inertia about it (kg m2); without mass the centre is the origin."""
     mass = float(link[9])
     centre = link[6:9] / mass if mass > 0.0 else np.zeros(3)
     lever = cross_matrix(centre)

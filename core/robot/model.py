@@ -1,7 +1,8 @@
 """Hold a robot's kinematics in the one form that all chapters use, whatever convention it was described in.
 
-A robot is a tree of links. Frame j sits at a fixed placement on its antecedent and moves along or about its own z axis.
-Joint coordinates and links are kept apart, because a mimic joint moves a link without having a coordinate of its own.
+A robot is a tree of links. Frame j sits at a fixed placement on its antecedent and moves along or about its
+own z axis. Joint coordinates and links are kept apart, because a mimic joint moves a link without having a
+coordinate of its own.
 """
 
 from dataclasses import dataclass, field
@@ -20,7 +21,7 @@ FRICTION_KINDS = ("viscous", "coulomb", "offset")
 
 @dataclass(frozen=True)
 class Limits:
-    """Bound a joint: position in rad or m, velocity in rad/s or m/s, torque in N m or N; None where unknown."""
+    """Bound a joint's position (rad or m), velocity (rad/s or m/s) and torque (N m or N); None: unknown."""
 
     position: tuple[float, float] | None = None
     velocity: float | None = None
@@ -31,8 +32,8 @@ class Limits:
 class Joint:
     """Describe one joint coordinate and its drive.
 
-    `torque_constant` (N m/A, motor side) and `gear_ratio` turn a logged current into joint torque; None where undeclared.
-    `rotor_inertia` and `friction` say which of these the model has on this joint.
+    `torque_constant` (N m/A, motor side) and `gear_ratio` turn a logged current into joint torque; None where
+    undeclared. `rotor_inertia` and `friction` say which of these the model has on this joint.
     """
 
     name: str
@@ -80,7 +81,8 @@ class Link:
 class Coupling:
     """Describe a motor that turns with a weighted sum of joints (Staubli TX40: motor 6 turns with q5 + q6).
 
-    Its inertia, viscous and Coulomb friction act on that sum; by virtual work the torque on joint i is `weights[i]` times it.
+    Its inertia, viscous and Coulomb friction act on that sum; by virtual work the torque on joint i is
+    `weights[i]` times it.
     """
 
     name: str
@@ -98,7 +100,8 @@ class RobotModel:
     gravity
         Gravitational acceleration in the base frame, m/s2, pointing down.
     prior
-        Ten inertial parameters per link believed beforehand, in each link's frame; None where nothing is believed.
+        Ten inertial parameters per link believed beforehand, in each link's frame; None where nothing is
+        believed.
     """
 
     name: str
@@ -111,7 +114,9 @@ class RobotModel:
     def __post_init__(self) -> None:
         """Refuse trees that are no trees and vectors of the wrong length."""
         if not self.links:
-            raise RobotError("the robot has no joints", evidence={"joints": 0}, remedy="describe at least one joint")
+            raise RobotError(
+                "the robot has no joints", evidence={"joints": 0}, remedy="describe at least one joint"
+            )
         for number, link in enumerate(self.links, start=1):
             if not 0 <= link.antecedent < number:
                 raise RobotError(
@@ -142,14 +147,14 @@ class RobotModel:
             wrong = [joint for joint in coupling.joints if not 1 <= joint <= len(self.joints)]
             if wrong or len(coupling.joints) != len(coupling.weights) or len(set(coupling.joints)) < 2:
                 raise RobotError(
-                    f"coupling {coupling.name} does not name at least two different joints with one weight each",
+                    f"coupling {coupling.name} does not name two or more joints with one weight each",
                     evidence={"joints": list(coupling.joints), "weights": list(coupling.weights)},
                     remedy=f"name joints from 1 to {len(self.joints)}",
                 )
 
     @cached_property
     def supports(self) -> tuple[tuple[int, ...], ...]:
-        """List, for every link (counted from 0), the links that carry it and itself, from the base outwards."""
+        """List, for every link (counted from 0), its carriers and itself, from the base outwards."""
         chains: list[tuple[int, ...]] = []
         for index, link in enumerate(self.links):
             chains.append((*(chains[link.antecedent - 1] if link.antecedent else ()), index))

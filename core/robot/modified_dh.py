@@ -1,8 +1,9 @@
 """Place frames by modified Denavit-Hartenberg rows, and write any placement as such a row.
 
-Six numbers (two angles and two lengths more than the classic four) describe every pose, so that a tree, a tilted base or a
-URDF can all be written as one table. Source: Khalil & Kleinfinger, A new geometric notation for open and closed-loop
-robots, ICRA 1986; Khalil & Dombre (2002), ch. 3 and 7. **Khalil's d is Craig's a, Khalil's r is Craig's d.**
+Six numbers (two angles and two lengths more than the classic four) describe every pose, so that a tree, a
+tilted base or a URDF can all be written as one table. Source: Khalil & Kleinfinger, A new geometric notation
+for open and closed-loop robots, ICRA 1986; Khalil & Dombre (2002), ch. 3 and 7. **Khalil's d is Craig's a,
+Khalil's r is Craig's d.**
 """
 
 from dataclasses import dataclass
@@ -17,8 +18,8 @@ from core.robot.frames import rotation_x, rotation_z
 class ModifiedDHRow:
     """Describe where a frame sits on its antecedent at zero coordinate.
 
-    T = Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r). A revolute joint adds its coordinate
-    to theta, a prismatic joint adds it to r.
+    T = Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r). A revolute joint adds
+    its coordinate to theta, a prismatic joint adds it to r.
 
     Attributes
     ----------
@@ -27,7 +28,8 @@ class ModifiedDHRow:
     r, theta
         Distance (m) along z and angle (rad) about z from the common normal to this frame.
     gamma, b
-        Angle (rad) about and distance (m) along the antecedent's z axis to the common normal; zero in a plain chain.
+        Angle (rad) about and distance (m) along the antecedent's z axis to the common normal; zero in a plain
+        chain.
 
     Examples
     --------
@@ -53,13 +55,14 @@ class ModifiedDHRow:
 def row_of_placement(rotation: Rotation, translation: Vector3) -> ModifiedDHRow:
     """Write a pose as a modified DH row.
 
-    The row is unique up to the sign of the common normal while the two z axes are not parallel; where they are, gamma turns x
-    towards the new origin and b is zero.
+    The row is unique up to the sign of the common normal while the two z axes are not parallel; where they
+    are, gamma turns x towards the new origin and b is zero.
 
     Notes
     -----
-    With x the common normal, translation = b z0 + d x + r z1; its product with x gives d, with z0 x x gives r, with z0 the
-    rest. Axes within 1e-9 rad of parallel are treated as parallel: the common normal would lie 1e9 lengths away.
+    With x the common normal, translation = b z0 + d x + r z1; its product with x gives d, with z0 x x gives
+    r, with z0 the rest. Axes within 1e-9 rad of parallel are treated as parallel: the common normal would lie
+    1e9 lengths away.
 
     Examples
     --------

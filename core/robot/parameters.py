@@ -1,7 +1,8 @@
 """Treat parameter names as data: symbol, number, unit and physical bound in one place.
 
-Positions in a vector are never used as names, because orders differ between tools; whoever wants a parameter asks for it by
-name. Sources: Khalil & Dombre, Modeling, Identification and Control of Robots (2002), ch. 9 and 12, for the symbols.
+Positions in a vector are never used as names, because orders differ between tools; whoever wants a parameter
+asks for it by name. Sources: Khalil & Dombre, Modeling, Identification and Control of Robots (2002), ch. 9
+and 12, for the symbols.
 """
 
 from dataclasses import dataclass

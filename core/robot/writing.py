@@ -1,0 +1,118 @@
+"""Write a `RobotModel` as the JSON document it can be read from again, number for number.
+
+A robot whose every link still agrees with its modified DH row is written as a table, any other one by frames.
+A row that no longer gives its link's placement is not believed, so that a repaired robot is never written as
+the unrepaired one.
+"""
+
+import numpy as np
+
+from core.errors import RobotError
+from core.robot.description import FRAMES, MODIFIED_DH
+from core.robot.model import Joint, Link, RobotModel
+from core.robot.parameters import INERTIAL_SYMBOLS
+
+
+def to_description(robot: RobotModel) -> dict[str, object]:
+    """Write a robot as a description that `robot_from_description` reads back to the same robot.
+
+    Raises
+    ------
+    RobotError
+        If the joints are numbered against the order of their links, which a description cannot say.
+    """
+    owners = _owners(robot)
+    tabular = owners == list(range(len(robot.links))) and all(map(_follows_its_row, robot.links))
+    joints: list[dict[str, object]] = []
+    for index, link in enumerate(robot.links):
+        joint = robot.joints[link.joint - 1]
+        entry: dict[str, object] = {"name": joint.name if index in owners else link.name}
+        if link.name != entry["name"]:
+            entry["link"] = link.name
+        entry |= {"type": link.kind, "antecedent": link.antecedent}
+        entry |= _row(link) if tabular else _frame(link)
+        if index in owners:
+            entry |= _drive(joint)
+        else:
+            entry["mimics"] = joint.name
+        joints.append(entry)
+    return {
+        "name": robot.name,
+        "convention": MODIFIED_DH if tabular else FRAMES,
+        "joints": joints,
+        "gravity": _floats(robot.gravity),
+        "couplings": [
+            {"name": one.name, "number": one.number, "joints": list(one.joints), "weights": list(one.weights)}
+            for one in robot.couplings
+        ],
+        "prior": None if robot.prior is None else [_body(body) for body in robot.prior],
+    }
+
+
+def _owners(robot: RobotModel) -> list[int]:
+    """Choose for every joint, in order, the link whose entry describes it; its other links mimic it."""
+    owners: list[int] = []
+    for number in range(1, len(robot.joints) + 1):
+        after = owners[-1] + 1 if owners else 0
+        moved = [index for index in range(after, len(robot.links)) if robot.links[index].joint == number]
+        if not moved:
+            raise RobotError(
+                "the joints are numbered against the order of their links",
+                evidence={"joint": number, "links": [link.joint for link in robot.links]},
+                remedy="number the joints in the order in which the links name them",
+            )
+        owners.append(moved[0])
+    return owners
+
+
+def _follows_its_row(link: Link) -> bool:
+    if link.row is None or (link.ratio, link.offset) != (1.0, 0.0):
+        return False
+    rotation, translation = link.row.placement()
+    return np.array_equal(rotation, link.rotation) and np.array_equal(translation, link.translation)
+
+
+def _row(link: Link) -> dict[str, object]:
+    row = link.row
+    if row is None:  # a table is only written where every link has its row
+        return {}
+    return {
+        "alpha": row.alpha,
+        "d": row.d,
+        "r": row.r,
+        "theta_offset": row.theta,
+        "gamma": row.gamma,
+        "b": row.b,
+    }
+
+
+def _frame(link: Link) -> dict[str, object]:
+    return {
+        "rotation": [_floats(line) for line in link.rotation],
+        "translation": _floats(link.translation),
+        "ratio": link.ratio,
+        "offset": link.offset,
+    }
+
+
+def _drive(joint: Joint) -> dict[str, object]:
+    limits = joint.limits
+    return {
+        "limits": {
+            "position": None if limits.position is None else list(limits.position),
+            "velocity": limits.velocity,
+            "torque": limits.torque,
+        },
+        "rotor_inertia": joint.rotor_inertia,
+        "friction": list(joint.friction),
+        "torque_constant": joint.torque_constant,
+        "gear_ratio": joint.gear_ratio,
+    }
+
+
+def _body(body: np.ndarray) -> dict[str, object]:
+    return {"standard": dict(zip(INERTIAL_SYMBOLS, _floats(body), strict=True))}
+
+
+def _floats(values: np.ndarray) -> list[float]:
+    return [float(value) for value in values]
