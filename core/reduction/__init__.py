@@ -1,0 +1,1 @@
+"""Find what can be told apart: in comes a `DynamicModel`, out goes a `BaseModel` of base parameters and how the rest groups."""

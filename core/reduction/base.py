@@ -1,0 +1,162 @@
+"""Find the base parameters of a robot: the columns that can be told apart, and into which of them the others group.
+
+Columns are visited in Khalil's order, link after link from the base outwards and YY, MZ, M last within a revolute link; a column
+that the ones before it already span is dropped and its coefficients say how its parameter groups. This gives SYMORO's names and
+groupings without symbolic algebra. Sources: Gautier & Khalil 1990; Gautier 1991 (numerical, by QR); Khalil & Dombre (2002), ch. 9.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import BaseParameters, Matrix, Parameters
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import MotionState
+from core.regressor.columns import all_columns, dense
+from core.robot.model import RobotModel
+from core.robot.parameters import INERTIAL_SYMBOLS, Parameter
+
+RANK_TOLERANCE = 1e-9
+"""A column is dependent when less than this share of it lies outside the columns before it; rounding leaves about 1e-13."""
+_SEED = 20221
+_REVOLUTE_ORDER = ("XX", "XY", "XZ", "YZ", "ZZ", "MX", "MY", "IA", "YY", "MZ", "M")
+_PRISMATIC_ORDER = ("M", "MX", "MY", "MZ", "IA", "XX", "XY", "XZ", "YY", "YZ", "ZZ")
+
+
+@dataclass(frozen=True, eq=False)
+class BaseModel:
+    """Hold a model's base parameters.
+
+    Attributes
+    ----------
+    model
+        The model whose standard parameters are grouped.
+    kept
+        Positions of the base columns in `model.parameters`, in the order of Khalil's tables.
+    grouping
+        Matrix G with base = G standard: identity on the kept columns, grouping coefficients on the others.
+    """
+
+    model: DynamicModel
+    kept: tuple[int, ...]
+    grouping: Matrix
+
+    def base_of(self, standard: Parameters) -> BaseParameters:
+        """Group standard parameters."""
+        return np.asarray(self.grouping @ standard)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Name the base parameters as SYMORO does: an R marks those that others are grouped into."""
+        return tuple(
+            f"{self.parameter(row).symbol}R{self.parameter(row).number}"
+            if len(self.relation(row)) > 1
+            else self.parameter(row).name
+            for row in range(len(self.kept))
+        )
+
+    def parameter(self, row: int) -> Parameter:
+        """Give the standard parameter that carries a base parameter."""
+        return self.model.parameters[self.kept[row]]
+
+    def relation(self, row: int) -> dict[str, float]:
+        """Give a base parameter as coefficients of standard parameters, its own first."""
+        own = self.kept[row]
+        others = [column for column in np.flatnonzero(self.grouping[row]) if column != own]
+        return {self.model.parameters[column].name: float(self.grouping[row, column]) for column in (own, *others)}
+
+    def in_words(self, row: int) -> str:
+        """Write a base parameter as a sum, e.g. ``ZZ1 + IA1 + YY2``."""
+        text = ""
+        for name, coefficient in self.relation(row).items():
+            size = abs(coefficient)
+            factor = "" if size == 1.0 else f"{size:.6g} "
+            joint = (" - " if coefficient < 0 else " + ") if text else ("-" if coefficient < 0 else "")
+            text += f"{joint}{factor}{name}"
+        return text
+
+    @cached_property
+    def without_effect(self) -> tuple[int, ...]:
+        """List the standard parameters that no torque depends on."""
+        return tuple(int(column) for column in np.flatnonzero(~self.grouping.any(axis=0)))
+
+    def identifiability(self, column: int) -> str:
+        """Tell whether a standard parameter is known ``individually``, ``in_combination`` or not at all (``no``)."""
+        rows = np.flatnonzero(self.grouping[:, column])
+        if not len(rows):
+            return "no"
+        alone = len(rows) == 1 and len(self.relation(int(rows[0]))) == 1
+        return "individually" if alone else "in_combination"
+
+
+def base_model(model: DynamicModel) -> BaseModel:
+    """Find the base parameters that the structure allows, from many random states.
+
+    The states are drawn with a fixed seed and ignore the joint limits: what is sought holds for every motion.
+    """
+    order = khalil_order(model)
+    matrix = dense(all_columns(model), _random_states(model.robot, len(order)))[:, list(order)]
+    kept, relation = _first_independent(matrix)
+    grouping = np.zeros((len(kept), len(order)))
+    grouping[:, list(order)] = relation
+    by_table = sorted(range(len(kept)), key=lambda row: _table_place(model, order[kept[row]]))
+    return BaseModel(model, tuple(order[kept[row]] for row in by_table), grouping[by_table])
+
+
+def khalil_order(model: DynamicModel) -> tuple[int, ...]:
+    """Order the standard parameters so that the first independent columns are the ones that Khalil keeps."""
+    return tuple(sorted(range(len(model.parameters)), key=lambda column: _visit(model, column)))
+
+
+def _visit(model: DynamicModel, column: int) -> tuple[int, int, int]:
+    parameter = model.parameters[column]
+    rank = (*INERTIAL_SYMBOLS, "IA")
+    if parameter.symbol not in rank:
+        return (1, column, 0)
+    owner = parameter.number if parameter.symbol != "IA" else _link_of(model.robot, parameter.number)
+    kind = model.robot.links[owner - 1].kind
+    return (0, owner, (_PRISMATIC_ORDER if kind == "prismatic" else _REVOLUTE_ORDER).index(parameter.symbol))
+
+
+def _table_place(model: DynamicModel, column: int) -> tuple[int, int, int]:
+    symbols = (*INERTIAL_SYMBOLS, "IA", "FV", "FC", "OFF")
+    parameter = model.parameters[column]
+    place = symbols.index(parameter.symbol) if parameter.symbol in symbols else len(symbols)
+    return (parameter.joint, place, column)
+
+
+def _link_of(robot: RobotModel, joint: int) -> int:
+    return next(number for number, link in enumerate(robot.links, start=1) if link.joint == joint)
+
+
+def _random_states(robot: RobotModel, parameters: int) -> MotionState:
+    rng = np.random.default_rng(_SEED)
+    shape = (max(60, 4 * parameters // len(robot.joints)), len(robot.joints))
+    return MotionState(*(rng.uniform(-np.pi, np.pi, shape) for _ in range(3)))
+
+
+def _first_independent(matrix: Matrix) -> tuple[list[int], Matrix]:
+    """Pick the columns that the ones before them do not span; give their places and all columns as combinations of them."""
+    scale = np.linalg.norm(matrix, axis=0)
+    used = scale > RANK_TOLERANCE * scale.max()
+    scaled = matrix / np.where(used, scale, 1.0)
+    basis = np.zeros((len(matrix), 0))
+    kept: list[int] = []
+    for column in np.flatnonzero(used):
+        rest = scaled[:, column]
+        for _ in range(2):
+            rest = rest - basis @ (basis.T @ rest)
+        size = np.linalg.norm(rest)
+        if size > RANK_TOLERANCE:
+            basis = np.column_stack([basis, rest / size])
+            kept.append(int(column))
+    coordinates = np.linalg.solve(basis.T @ scaled[:, kept], basis.T @ scaled)
+    relation = coordinates * np.where(used, scale, 0.0) / scale[kept][:, None]
+    return kept, _tidied(relation)
+
+
+def _tidied(relation: Matrix) -> Matrix:
+    """Remove the rounding from coefficients: anything below 1e-9 is none, anything within 1e-9 of a whole number is it."""
+    whole = np.round(relation)
+    return np.where(np.abs(relation - whole) < 1e-9, whole, relation)

@@ -1,0 +1,56 @@
+"""Remember how rows relate to the rows shortly after them, so that a residual's memory can be judged without storing W.
+
+For filtered samples the residuals are not independent, and the textbook variance is wrong. The variance of a least-squares
+estimate needs W'V W with V the residual's covariance; with V Toeplitz over a few lags that is a sum of lagged products
+G_l = sum_t w(t) w(t + l)', which accumulate like any other statistic. With the torque as last column of w the same products give
+the residual's autocovariance for any parameters. Source: Newey & West 1987, in its homoskedastic form.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Matrix, Parameters, Vector
+
+
+@dataclass(frozen=True, eq=False)
+class LaggedProducts:
+    """Hold G_0 .. G_LAGS of one joint's rows [w y]; rows that are not used must come in as zeros."""
+
+    LAGS: ClassVar[int] = 12
+    products: np.ndarray
+
+    @classmethod
+    def empty(cls, columns: int) -> "LaggedProducts":
+        """Start with no rows."""
+        return cls(np.zeros((cls.LAGS + 1, columns, columns)))
+
+    def extended(self, before: Matrix, rows: Matrix) -> "LaggedProducts":
+        """Take rows in that follow the last rows of `before`."""
+        joined = np.vstack([before, rows])
+        products = self.products.copy()
+        for lag in range(self.LAGS + 1):
+            earlier = joined[max(0, len(before) - lag) : len(joined) - lag]
+            later = joined[max(0, len(before) - lag) + lag :]
+            products[lag] += earlier.T @ later
+        return LaggedProducts(products)
+
+    def merged(self, other: "LaggedProducts") -> "LaggedProducts":
+        """Join the products of two stretches."""
+        return LaggedProducts(self.products + other.products)
+
+    def autocovariance(self, parameters: Parameters) -> Vector:
+        """Sum the residual's products at lags 0..LAGS, for these parameters over the rows' columns."""
+        weights = np.append(-parameters, 1.0)
+        return np.array([weights @ product @ weights for product in self.products])
+
+    def spread(self, autocorrelation: Vector) -> Matrix:
+        """Give W'V W for a residual of unit variance with this autocorrelation, tapered so that V is positive (Bartlett)."""
+        width = len(autocorrelation)
+        total = self.products[0][:-1, :-1].copy()
+        for lag in range(1, min(width, self.LAGS + 1)):
+            weight = (1.0 - lag / width) * autocorrelation[lag]
+            product = self.products[lag][:-1, :-1]
+            total += weight * (product + product.T)
+        return total

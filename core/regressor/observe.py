@@ -1,0 +1,189 @@
+"""Write down all equations of a study, and keep only their factors: W of a long log is never stored.
+
+Per joint and per contiguous block of every log one triangular factor is kept, plus per joint the lagged products that tell how
+far the residual's memory inflates a variance. Blocks are what hold-out and bootstrap choose from.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+
+from core.arrays import Indices, JointSeries, JointVector, Parameters, Samples
+from core.dynamics.model import DynamicModel
+from core.regressor.columns import ColumnPlan
+from core.regressor.factor import Factor
+from core.regressor.memory import LaggedProducts
+from core.signals.condition import Motion, Tile
+
+Progress = Callable[[float], None]
+Weigh = Callable[[JointSeries], JointSeries]
+"""Turns a tile's filtered residual (samples, joints) into weights of its rows."""
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Hold one contiguous stretch of one log, condensed.
+
+    Attributes
+    ----------
+    factors
+        Per joint, over the joint's non-zero columns and torque.
+    torque_range
+        Per joint, smallest and largest filtered torque, N m.
+    """
+
+    log: int
+    number: int
+    start: float
+    end: float
+    factors: tuple[Factor, ...]
+    torque_range: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Observation:
+    """Hold the equations of a study over chosen columns of a model.
+
+    Attributes
+    ----------
+    plan
+        The model and its columns.
+    columns_of
+        Per joint, the positions in `plan.columns` that its factors run over.
+    memory
+        Per joint, the lagged products of its rows.
+    """
+
+    plan: ColumnPlan
+    blocks: tuple[Block, ...]
+    columns_of: tuple[Indices, ...]
+    memory: tuple[LaggedProducts, ...]
+
+    def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
+        """Merge the factors of the chosen blocks (all by default), one per joint."""
+        picked = self.blocks if chosen is None else tuple(self.blocks[index] for index in chosen)
+        return tuple(
+            reduce(Factor.merged, (block.factors[joint] for block in picked), Factor.empty(len(columns) + 1))
+            for joint, columns in enumerate(self.columns_of)
+        )
+
+
+def observe(
+    plan: ColumnPlan, motions: tuple[Motion, ...], *, progress: Progress | None = None, weigh: Weigh | None = None,
+    parameters: Parameters | None = None,
+) -> Observation:
+    """Accumulate the equations of all motions.
+
+    Parameters
+    ----------
+    plan
+        Model and columns.
+    weigh, parameters
+        For robust fits: weights of the rows from the residuals that these parameters leave.
+    """
+    gathered = [_Gathering(plan) for _ in motions]
+    total, done = sum(motion.kept for motion in motions), 0
+    for motion, gathering in zip(motions, gathered, strict=True):
+        for tile in motion.tiles():
+            gathering.take(tile, weigh, parameters)
+            done += len(tile.time)
+            if progress is not None:
+                progress(done / total)
+        gathering.close()
+    blocks = tuple(
+        block for number, gathering in enumerate(gathered) for block in gathering.blocks(number)
+    )
+    memory = tuple(
+        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered))
+        for joint in range(len(plan.columns_of))
+    )
+    return Observation(plan, blocks, plan.columns_of, memory)
+
+
+def equations(plan: ColumnPlan, tile: Tile) -> Iterator[tuple[np.ndarray, Samples]]:
+    """Give, joint by joint, the filtered rows [W y] of a tile with the mask of usable ones."""
+    filtered = tile.filtered(plan.series(tile.state))
+    torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
+    for joint, rows in enumerate(plan.rows_of):
+        yield np.vstack([filtered[rows], torque[joint]]).T, tile.usable[:, joint]
+
+
+class _Gathering:
+    """Collect the tiles of one motion, block by block."""
+
+    def __init__(self, plan: ColumnPlan) -> None:
+        self.plan = plan
+        self.joints = len(plan.columns_of)
+        self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
+        self._tails: list[np.ndarray] = [np.zeros((0, len(columns) + 1)) for columns in plan.columns_of]
+        self._blocks: dict[int, _OpenBlock] = {}
+
+    def take(self, tile: Tile, weigh: Weigh | None, parameters: Parameters | None) -> None:
+        block = self._blocks.setdefault(tile.block, _OpenBlock(self.plan, float(tile.time[0])))
+        block.end = float(tile.time[-1])
+        pairs = list(equations(self.plan, tile))
+        weights = None
+        if weigh is not None and parameters is not None:
+            weights = weigh(_residual(self.plan, pairs, parameters))
+        for joint, (rows, usable) in enumerate(pairs):
+            used = rows[usable] if weights is None else rows[usable] * weights[usable, joint, None]
+            block.take(joint, used, rows[usable, -1])
+            self.memory[joint] = self.memory[joint].extended(self._tails[joint], rows * usable[:, None])
+            self._tails[joint] = (rows * usable[:, None])[-LaggedProducts.LAGS :]
+
+    def close(self) -> None:
+        for tail_of in range(self.joints):
+            self._tails[tail_of] = self._tails[tail_of][:0]
+
+    def blocks(self, log: int) -> list[Block]:
+        return [self._blocks[number].closed(log, number) for number in sorted(self._blocks)]
+
+
+class _OpenBlock:
+    def __init__(self, plan: ColumnPlan, start: float) -> None:
+        self.start = self.end = start
+        self.factors = [Factor.empty(len(columns) + 1) for columns in plan.columns_of]
+        self.low = np.full(len(plan.columns_of), np.inf)
+        self.high = np.full(len(plan.columns_of), -np.inf)
+
+    def take(self, joint: int, rows: np.ndarray, torque: Samples) -> None:
+        if len(rows):
+            self.factors[joint] = self.factors[joint].extended(rows)
+            self.low[joint] = min(self.low[joint], float(torque.min()))
+            self.high[joint] = max(self.high[joint], float(torque.max()))
+
+    def closed(self, log: int, number: int) -> Block:
+        ranges = tuple((float(low), float(high)) for low, high in zip(self.low, self.high, strict=True))
+        return Block(log, number, self.start, self.end, tuple(self.factors), ranges)
+
+
+def _residual(plan: ColumnPlan, pairs: list[tuple[np.ndarray, Samples]], parameters: Parameters) -> JointSeries:
+    return np.column_stack(
+        [rows[:, -1] - rows[:, :-1] @ parameters[columns] for (rows, _), columns in zip(pairs, plan.columns_of, strict=True)]
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class ResidualTile:
+    """Carry filtered torque and residual (measured minus predicted, N m) of all joints at the kept instants."""
+
+    time: Samples
+    torque: JointSeries
+    residual: JointSeries
+    usable: np.ndarray
+
+
+def residuals(plan: ColumnPlan, motion: Motion, parameters: Parameters) -> Iterator[ResidualTile]:
+    """Recompute the residuals from parameters over the plan's columns, tile after tile."""
+    for tile in motion.tiles():
+        pairs = list(equations(plan, tile))
+        torque = np.column_stack([rows[:, -1] for rows, _ in pairs])
+        yield ResidualTile(tile.time, torque, _residual(plan, pairs, parameters), tile.usable)
+
+
+def torque_scales(observation: Observation) -> JointVector:
+    """Give the RMS of the filtered torque per joint, N m."""
+    factors = observation.joint_factors()
+    return np.array([np.sqrt(one.torque_square / max(one.rows, 1)) for one in factors])

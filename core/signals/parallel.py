@@ -1,0 +1,67 @@
+"""Filter and thin many series at once: the parallel filter of the observation matrix, as one matrix product per tile.
+
+Filtering both sides of a linear equation with the same linear filter leaves the equation true; so no delay, no edge effect and
+no choice of cut-off can bias it. Only the kept instants are computed. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Matrix, Samples, Series
+
+_ROWS = 64
+
+
+@dataclass(frozen=True, eq=False)
+class ParallelFilter:
+    """Low-pass and decimate rows of samples.
+
+    Attributes
+    ----------
+    response
+        Symmetric kernel of odd length.
+    decimation
+        Keep every n-th sample.
+    """
+
+    response: Samples
+    decimation: int
+
+    @property
+    def reach(self) -> int:
+        """Count the samples that the kernel sees on either side."""
+        return len(self.response) // 2
+
+    @cached_property
+    def _band(self) -> Matrix:
+        """Write `_ROWS` consecutive kept instants as rows of a matrix over the samples they see."""
+        span = (_ROWS - 1) * self.decimation + len(self.response)
+        band = np.zeros((span, _ROWS))
+        for row in range(_ROWS):
+            band[row * self.decimation : row * self.decimation + len(self.response), row] = self.response
+        return band
+
+    @cached_property
+    def _magnitude_band(self) -> Matrix:
+        return np.abs(self._band) / np.abs(self.response).sum()
+
+    def apply(self, series: Series, first: int, kept: int) -> Series:
+        """Give `kept` filtered instants; the first lies at sample `first` of the series, beyond whose ends zeros are assumed."""
+        return self._run(self._band, series, first, kept)
+
+    def influence(self, marks: Series, first: int, kept: int) -> Series:
+        """Give the share of the kernel's absolute mass that falls on marked samples (marks are 0 or 1)."""
+        return self._run(self._magnitude_band, marks, first, kept)
+
+    def _run(self, band: Matrix, series: Series, first: int, kept: int) -> Series:
+        out = np.empty((len(series), kept))
+        for begin in range(0, kept, _ROWS):
+            rows = min(_ROWS, kept - begin)
+            left = first + begin * self.decimation - self.reach
+            right = left + (rows - 1) * self.decimation + len(self.response)
+            inside = slice(max(left, 0), min(right, series.shape[1]))
+            weights = band[inside.start - left : inside.stop - left, :rows]
+            out[:, begin : begin + rows] = series[:, inside] @ weights
+        return out

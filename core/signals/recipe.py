@@ -1,0 +1,140 @@
+"""Decide how signals are conditioned: the seed's chain, with cut-offs read off the motion's own spectrum unless they are given.
+
+Nothing here looks at the torque: a cut-off chosen to make the residual small would be tuned on what it is judged by.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import signal
+
+from core.arrays import JointSeries, JointVector
+from core.errors import OptionError
+from core.log.model import JointLog, LogRows
+from core.signals.resample import uniform
+
+MOTION_SHARE = 0.995
+"""Share of a joint's velocity power that its motion band holds."""
+PARALLEL_OVER_MOTION = 5.0
+"""The parallel filter passes five times the motion's band: products of the joints' motions lie above each of them."""
+POSITION_OVER_PARALLEL = 5.0
+"""Positions keep a band five times wider, so that their filter does not bend what the parallel filter passes."""
+_LOOK_SECONDS = 60.0
+_LOOKS = 8
+
+
+@dataclass(frozen=True)
+class FilterOptions:
+    """Ask for a recipe; None leaves the choice to the motion.
+
+    `cutoff_hz` and `order` are the parallel filter's; `position_cutoff_hz` is that of the filter on q (same order).
+    """
+
+    median_order: int = 5
+    cutoff_hz: float | None = None
+    position_cutoff_hz: float | None = None
+    order: int = 5
+    decimation: int | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what no log could be filtered with."""
+        wrong = {
+            name: value
+            for name, value in (("median_order", self.median_order), ("decimation", self.decimation))
+            if value is not None and (value < 1 or value > 1000)
+        }
+        if self.median_order % 2 == 0 or self.median_order > 31:
+            wrong["median_order"] = self.median_order
+        if wrong:
+            raise OptionError(
+                "the filter options make no sense",
+                evidence=wrong,
+                remedy="give an odd median_order from 1 to 31 and a decimation from 1 to 1000",
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Recipe:
+    """Fix every number of the chain for one log.
+
+    Attributes
+    ----------
+    motion_band_hz
+        Frequency below which the joints' velocities hold 99.5 % of their power, the largest over the joints.
+    still_speed
+        Speed per joint below which it counts as standing (rad/s or m/s).
+    reason
+        Why these cut-offs, in one sentence.
+    """
+
+    median_order: int
+    position_cutoff_hz: float
+    cutoff_hz: float
+    order: int
+    decimation: int
+    motion_band_hz: float
+    still_speed: JointVector
+    reason: str
+
+
+def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
+    """Read the motion's band off the log and settle the cut-offs, the decimation and the standstill speeds.
+
+    Raises
+    ------
+    OptionError
+        If a given cut-off does not fit the log's rate.
+    """
+    rate = log.rate_hz
+    bands, speeds = _survey(log)
+    moving = bands[speeds > 0.0]
+    band = float(moving.max()) if len(moving) else 1.0
+    highest = 0.4 * rate
+    cutoff = options.cutoff_hz or min(PARALLEL_OVER_MOTION * band, highest / 2.0)
+    position = options.position_cutoff_hz or min(POSITION_OVER_PARALLEL * cutoff, highest)
+    for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
+        if not 0.0 < value < 0.5 * rate:
+            raise OptionError(
+                f"{name} does not fit the log's rate",
+                evidence={name: value, "rate_hz": rate},
+                remedy=f"give a cut-off above 0 and below {0.5 * rate:.6g} Hz",
+            )
+    decimation = options.decimation or max(1, int(0.4 * rate / cutoff))
+    chosen = "given" if options.cutoff_hz else f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
+    return Recipe(
+        median_order=options.median_order,
+        position_cutoff_hz=position,
+        cutoff_hz=cutoff,
+        order=options.order,
+        decimation=decimation,
+        motion_band_hz=band,
+        still_speed=0.01 * speeds,
+        reason=f"parallel filter at {cutoff:.3g} Hz ({chosen}), positions at {position:.3g} Hz, every {decimation}. sample kept",
+    )
+
+
+def _survey(log: JointLog) -> tuple[JointVector, JointVector]:
+    """Give band (Hz) and RMS speed of every joint from up to eight looks spread over the log's longest segment."""
+    start, stop = max(log.segments, key=lambda one: one[1] - one[0])
+    length = min(stop - start, int(_LOOK_SECONDS * log.rate_hz))
+    count = min(_LOOKS, max(1, (stop - start) // length))
+    firsts = np.linspace(start, stop - length, count).astype(int)
+    looks = [_velocity(log.source.rows(int(first), int(first) + length), log.rate_hz) for first in firsts]
+    speeds = np.sqrt(np.mean([np.mean(look**2, axis=0) for look in looks], axis=0))
+    power = np.mean([_power(look, log.rate_hz) for look in looks], axis=0)
+    frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
+    held = np.cumsum(power, axis=0) / np.maximum(power.sum(axis=0), np.finfo(float).tiny)
+    return np.array([frequency[np.argmax(one >= MOTION_SHARE)] for one in held.T]), speeds
+
+
+def _velocity(rows: LogRows, rate_hz: float) -> JointSeries:
+    _, position, _ = uniform(rows, rate_hz)
+    low = signal.butter(2, min(0.2 * rate_hz, 40.0), fs=rate_hz, output="sos")
+    return np.asarray(np.gradient(signal.sosfiltfilt(low, position, axis=0), 1.0 / rate_hz, axis=0))
+
+
+def _power(velocity: JointSeries, rate_hz: float) -> np.ndarray:
+    size = min(len(velocity), max(64, int(8.0 * rate_hz)))
+    _, power = signal.welch(velocity, rate_hz, nperseg=2 * (size // 2), axis=0, detrend=False)
+    floor = np.median(power[int(0.7 * len(power)) :], axis=0)
+    return np.asarray(np.maximum(power - floor, 0.0))

@@ -1,0 +1,48 @@
+"""Bring stamped samples onto one clock: real stamps are honoured, uniform ones are left exactly as they are.
+
+Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be differentiated
+twice, torques carry noise that a spline would amplify. Rows that repeat the row before are dropped samples and are left out.
+"""
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from core.arrays import JointSeries, Samples
+from core.log.model import LogRows, repeated
+
+UNIFORM_TOLERANCE = 1e-3
+"""Stamps that stray from a uniform clock by less than a thousandth of a step are uniform."""
+
+
+def is_uniform(time: Samples, rate_hz: float) -> bool:
+    """Tell whether stamps (s) lie on a uniform clock.
+
+    Examples
+    --------
+    >>> is_uniform(np.array([0.0, 0.01, 0.02]), 100.0), is_uniform(np.array([0.0, 0.013, 0.02]), 100.0)
+    (True, False)
+    """
+    grid = time[0] + np.arange(len(time)) / rate_hz
+    return bool(np.max(np.abs(time - grid)) * rate_hz < UNIFORM_TOLERANCE)
+
+
+def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointSeries]:
+    """Give time, position and torque (or current where no torque was logged) on a uniform clock that starts at the first stamp."""
+    effort = rows.torque if rows.torque is not None else rows.current
+    if effort is None:
+        effort = np.zeros_like(rows.position)
+    if is_uniform(rows.time, rate_hz):
+        return rows.time, rows.position, effort
+    grid = rows.time[0] + np.arange(int((rows.time[-1] - rows.time[0]) * rate_hz + 1e-6) + 1) / rate_hz
+    position, effort = on_grid(rows, effort, grid)
+    return grid, position, effort
+
+
+def on_grid(rows: LogRows, effort: JointSeries, grid: Samples) -> tuple[JointSeries, JointSeries]:
+    """Interpolate position and effort at the instants of a grid inside the rows' time span."""
+    fresh = ~repeated(rows)
+    time = rows.time[fresh]
+    torque = np.column_stack([np.interp(grid, time, column) for column in effort[fresh].T])
+    if len(time) < 4:
+        return np.column_stack([np.interp(grid, time, column) for column in rows.position[fresh].T]), torque
+    return np.asarray(CubicSpline(time, rows.position[fresh], axis=0)(grid)), torque
