@@ -33,8 +33,8 @@ def _about_gravity(robot: RobotModel) -> list[str]:
         found.append(f"gravity is {size:.4g} m/s2; on Earth it lies between 9.76 and 9.84")
     if robot.gravity[2] > 0.5 * size > 0.0:
         found.append(
-            f"gravity points along +z of the base ({robot.gravity[2]:.4g} m/s2): right for a robot that hangs "
-            "from a ceiling; on the floor the acceleration of gravity has a negative z"
+            f"gravity points along +z of the base ({robot.gravity[2]:.4g} m/s2): right for a robot "
+            "that hangs from a ceiling; on the floor the acceleration of gravity has a negative z"
         )
     return found
 
@@ -82,7 +82,7 @@ def _about_letters(robot: RobotModel) -> list[str]:
     if plain and first.alpha != 0.0 and last.alpha == 0.0 and last.d == 0.0:
         found.append(
             f"joint 1: alpha is {first.alpha:.4g} rad and the last row has alpha = d = 0: this is how a "
-            "standard Denavit-Hartenberg table looks, whose rows place the next joint; here a row places its own joint"
+            "standard Denavit-Hartenberg table looks, whose rows place the next joint, not their own"
         )
     return found
 
@@ -93,7 +93,7 @@ def _about_bodies(robot: RobotModel) -> list[str]:
     found = []
     for number, (link, body) in enumerate(zip(robot.links, robot.prior, strict=True), start=1):
         eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))
-        if eigenvalues[0] < -1e-12 * max(1.0, eigenvalues[-1]):
+        if eigenvalues[0] < -1e-12 * float(np.abs(eigenvalues).max()):
             found.append(
                 f"link {number} ({link.name}): the believed body cannot exist, "
                 f"its pseudo-inertia has the eigenvalue {eigenvalues[0]:.3g}"
