@@ -1,8 +1,8 @@
 """Offer the robots that need no description: ABB YuMi's arms, one by one and both on their body.
 
-Sources: the modified DH table is Table 1 of the paper this project starts from (lengths there in cm); the arms'
-places on the body and the joint limits are those of the robot's public kinematic description. A YuMi arm stands on
-a tilted base, which is why two more base parameters can be identified than on a level one.
+Sources: the modified DH table is Table 1 of the paper this project starts from (lengths there in cm); the
+places of the arms on the body and the joint limits are those of the robot's public kinematic description. A
+YuMi arm stands on a tilted base, which is why two more base parameters can be identified than on a level one.
 """
 
 from collections.abc import Mapping

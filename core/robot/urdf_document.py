@@ -16,7 +16,7 @@ from defusedxml.ElementTree import fromstring
 
 from core.arrays import LinkParameters, Rotation, Vector3
 from core.errors import RobotError
-from core.robot.fields import shown
+from core.robot.fields import LONGEST_NAME, shown
 from core.robot.frames import rotation_rpy
 from core.robot.inertia import from_mass_properties
 from core.robot.model import Limits
@@ -87,7 +87,7 @@ def read_urdf_document(text: bytes | str) -> UrdfDocument:
                 remedy=f"give every {kind} its own name",
             )
     return UrdfDocument(
-        name=root.get("name") or "robot",
+        name=_attribute(root, "name", "the document"),
         links={_attribute(element, "name", "link"): _body(element) for element in links},
         joints=tuple(_joint(element) for element in joints),
     )
@@ -243,6 +243,12 @@ def _attribute(element: Element, name: str, where: str) -> str:
             f"{where}: the element {_tag(element)} has no {name}",
             evidence={"attributes": list(element.attrib)[:10]},
             remedy=f"add the attribute {name}",
+        )
+    if name == "name" and (len(value) > LONGEST_NAME or not value.isprintable()):
+        raise RobotError(
+            f"the name of a {_tag(element)} is too long or cannot be printed",
+            evidence={"name": shown(value), "characters": len(value), "limit": LONGEST_NAME},
+            remedy="give it a short name",
         )
     return value
 
