@@ -16,29 +16,30 @@ from core.arrays import Matrix, Parameters, Vector
 
 @dataclass(frozen=True, eq=False)
 class LaggedProducts:
-    """Hold G_0 .. G_LAGS of one joint's rows [w y]; rows that are not used must come in as zeros."""
+    """Hold G_0 .. G_LAGS of one joint's rows [w y] and their number; rows that are not used must come in as zeros."""
 
     LAGS: ClassVar[int] = 12
     products: np.ndarray
+    rows: int
 
     @classmethod
     def empty(cls, columns: int) -> "LaggedProducts":
         """Start with no rows."""
-        return cls(np.zeros((cls.LAGS + 1, columns, columns)))
+        return cls(np.zeros((cls.LAGS + 1, columns, columns)), 0)
 
-    def extended(self, before: Matrix, rows: Matrix) -> "LaggedProducts":
-        """Take rows in that follow the last rows of `before`."""
+    def extended(self, before: Matrix, rows: Matrix, used: int) -> "LaggedProducts":
+        """Take rows in, of which `used` are not zero, that follow the last rows of `before`."""
         joined = np.vstack([before, rows])
         products = self.products.copy()
         for lag in range(self.LAGS + 1):
-            earlier = joined[max(0, len(before) - lag) : len(joined) - lag]
-            later = joined[max(0, len(before) - lag) + lag :]
-            products[lag] += earlier.T @ later
-        return LaggedProducts(products)
+            begin = max(len(before), lag)
+            if begin < len(joined):
+                products[lag] += joined[begin - lag : len(joined) - lag].T @ joined[begin:]
+        return LaggedProducts(products, self.rows + used)
 
     def merged(self, other: "LaggedProducts") -> "LaggedProducts":
         """Join the products of two stretches."""
-        return LaggedProducts(self.products + other.products)
+        return LaggedProducts(self.products + other.products, self.rows + other.rows)
 
     def autocovariance(self, parameters: Parameters) -> Vector:
         """Sum the residual's products at lags 0..LAGS, for these parameters over the rows' columns."""

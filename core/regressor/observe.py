@@ -10,16 +10,22 @@ from functools import reduce
 
 import numpy as np
 
-from core.arrays import Indices, JointSeries, JointVector, Parameters, Samples
+from core.arrays import BaseParameters, Indices, JointSeries, JointVector, Matrix, SampleMask, Samples
 from core.dynamics.model import DynamicModel
 from core.regressor.columns import ColumnPlan
 from core.regressor.factor import Factor
 from core.regressor.memory import LaggedProducts
 from core.signals.condition import Motion, Tile
 
+_POSITIONS_PER_TILE = 32
+
 Progress = Callable[[float], None]
-Weigh = Callable[[JointSeries], JointSeries]
-"""Turns a tile's filtered residual (samples, joints) into weights of its rows."""
+BlockKey = tuple[int, int]
+"""Log and block number, both from 0."""
+Rows = tuple[Matrix, SampleMask]
+"""One joint's filtered rows [w y] of a tile, and which of them may be used."""
+Weigh = Callable[[list[Rows]], list[Samples]]
+"""Gives, per joint, the weights of a tile's rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,12 +60,18 @@ class Observation:
         Per joint, the positions in `plan.columns` that its factors run over.
     memory
         Per joint, the lagged products of its rows.
+    positions
+        A sample of the positions along the motions, rad or m.
+    kept
+        Number of kept instants; a joint's factors have fewer rows where instants were unusable for it.
     """
 
     plan: ColumnPlan
     blocks: tuple[Block, ...]
     columns_of: tuple[Indices, ...]
     memory: tuple[LaggedProducts, ...]
+    positions: JointSeries
+    kept: int
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""
@@ -71,8 +83,12 @@ class Observation:
 
 
 def observe(
-    plan: ColumnPlan, motions: tuple[Motion, ...], *, progress: Progress | None = None, weigh: Weigh | None = None,
-    parameters: Parameters | None = None,
+    plan: ColumnPlan,
+    motions: tuple[Motion, ...],
+    *,
+    held_out: frozenset[BlockKey] = frozenset(),
+    progress: Progress | None = None,
+    weigh: Weigh | None = None,
 ) -> Observation:
     """Accumulate the equations of all motions.
 
@@ -80,18 +96,24 @@ def observe(
     ----------
     plan
         Model and columns.
-    weigh, parameters
-        For robust fits: weights of the rows from the residuals that these parameters leave.
+    held_out
+        (log, block) pairs that are condensed for validation but kept out of the residual's memory.
+    progress
+        Called with the fraction done.
+    weigh
+        For robust fits: gives the weights of a tile's rows.
     """
-    gathered = [_Gathering(plan) for _ in motions]
+    gathered = [
+        _Gathering(plan, weigh, frozenset(block for log, block in held_out if log == number))
+        for number in range(len(motions))
+    ]
     total, done = sum(motion.kept for motion in motions), 0
     for motion, gathering in zip(motions, gathered, strict=True):
         for tile in motion.tiles():
-            gathering.take(tile, weigh, parameters)
+            gathering.take(tile)
             done += len(tile.time)
             if progress is not None:
                 progress(done / total)
-        gathering.close()
     blocks = tuple(
         block for number, gathering in enumerate(gathered) for block in gathering.blocks(number)
     )
@@ -99,10 +121,11 @@ def observe(
         reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered))
         for joint in range(len(plan.columns_of))
     )
-    return Observation(plan, blocks, plan.columns_of, memory)
+    positions = np.vstack([position for gathering in gathered for position in gathering.positions])
+    return Observation(plan, blocks, plan.columns_of, memory, positions, total)
 
 
-def equations(plan: ColumnPlan, tile: Tile) -> Iterator[tuple[np.ndarray, Samples]]:
+def equations(plan: ColumnPlan, tile: Tile) -> Iterator[Rows]:
     """Give, joint by joint, the filtered rows [W y] of a tile with the mask of usable ones."""
     filtered = tile.filtered(plan.series(tile.state))
     torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
@@ -113,29 +136,30 @@ def equations(plan: ColumnPlan, tile: Tile) -> Iterator[tuple[np.ndarray, Sample
 class _Gathering:
     """Collect the tiles of one motion, block by block."""
 
-    def __init__(self, plan: ColumnPlan) -> None:
+    def __init__(self, plan: ColumnPlan, weigh: Weigh | None, held_out: frozenset[int]) -> None:
         self.plan = plan
-        self.joints = len(plan.columns_of)
+        self.weigh = weigh
+        self.held_out = held_out
         self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
-        self._tails: list[np.ndarray] = [np.zeros((0, len(columns) + 1)) for columns in plan.columns_of]
+        self._tails = [np.zeros((0, len(columns) + 1)) for columns in plan.columns_of]
         self._blocks: dict[int, _OpenBlock] = {}
+        self.positions: list[JointSeries] = []
 
-    def take(self, tile: Tile, weigh: Weigh | None, parameters: Parameters | None) -> None:
+    def take(self, tile: Tile) -> None:
         block = self._blocks.setdefault(tile.block, _OpenBlock(self.plan, float(tile.time[0])))
         block.end = float(tile.time[-1])
+        step = tile.parallel.decimation * (1 + len(tile.time) // _POSITIONS_PER_TILE)
+        self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE])
         pairs = list(equations(self.plan, tile))
-        weights = None
-        if weigh is not None and parameters is not None:
-            weights = weigh(_residual(self.plan, pairs, parameters))
+        weights = None if self.weigh is None else self.weigh(pairs)
         for joint, (rows, usable) in enumerate(pairs):
-            used = rows[usable] if weights is None else rows[usable] * weights[usable, joint, None]
-            block.take(joint, used, rows[usable, -1])
-            self.memory[joint] = self.memory[joint].extended(self._tails[joint], rows * usable[:, None])
-            self._tails[joint] = (rows * usable[:, None])[-LaggedProducts.LAGS :]
-
-    def close(self) -> None:
-        for tail_of in range(self.joints):
-            self._tails[tail_of] = self._tails[tail_of][:0]
+            marked = rows * (usable if weights is None else usable * weights[joint])[:, None]
+            block.take(joint, marked[usable], rows[usable, -1])
+            if tile.block in self.held_out:
+                self._tails[joint] = self._tails[joint][:0]
+            else:
+                self.memory[joint] = self.memory[joint].extended(self._tails[joint], marked, int(usable.sum()))
+                self._tails[joint] = marked[-LaggedProducts.LAGS :]
 
     def blocks(self, log: int) -> list[Block]:
         return [self._blocks[number].closed(log, number) for number in sorted(self._blocks)]
@@ -159,7 +183,8 @@ class _OpenBlock:
         return Block(log, number, self.start, self.end, tuple(self.factors), ranges)
 
 
-def _residual(plan: ColumnPlan, pairs: list[tuple[np.ndarray, Samples]], parameters: Parameters) -> JointSeries:
+def joint_residuals(plan: ColumnPlan, pairs: list[Rows], parameters: BaseParameters) -> JointSeries:
+    """Give measured minus predicted torque of a tile's rows, N m."""
     return np.column_stack(
         [rows[:, -1] - rows[:, :-1] @ parameters[columns] for (rows, _), columns in zip(pairs, plan.columns_of, strict=True)]
     )
@@ -175,12 +200,12 @@ class ResidualTile:
     usable: np.ndarray
 
 
-def residuals(plan: ColumnPlan, motion: Motion, parameters: Parameters) -> Iterator[ResidualTile]:
+def residuals(plan: ColumnPlan, motion: Motion, parameters: BaseParameters) -> Iterator[ResidualTile]:
     """Recompute the residuals from parameters over the plan's columns, tile after tile."""
     for tile in motion.tiles():
         pairs = list(equations(plan, tile))
         torque = np.column_stack([rows[:, -1] for rows, _ in pairs])
-        yield ResidualTile(tile.time, torque, _residual(plan, pairs, parameters), tile.usable)
+        yield ResidualTile(tile.time, torque, joint_residuals(plan, pairs, parameters), tile.usable)
 
 
 def torque_scales(observation: Observation) -> JointVector:

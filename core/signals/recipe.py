@@ -15,8 +15,8 @@ from core.signals.resample import uniform
 
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
-PARALLEL_OVER_MOTION = 5.0
-"""The parallel filter passes five times the motion's band: products of the joints' motions lie above each of them."""
+PARALLEL_OVER_MOTION = 10.0
+"""The parallel filter passes ten times the motion's band: products of the joints' motions lie above each of them."""
 POSITION_OVER_PARALLEL = 5.0
 """Positions keep a band five times wider, so that their filter does not bend what the parallel filter passes."""
 _LOOK_SECONDS = 60.0

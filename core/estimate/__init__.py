@@ -1,0 +1,1 @@
+"""Estimate a robot that can exist: in comes an `Observation` of base columns and a prior, out goes an `Estimate`."""

@@ -1,0 +1,138 @@
+"""Say what makes a robot possible, and what makes it plausible, as data that any solver can read.
+
+Possible: every link's pseudo-inertia is positive definite, rotor inertias and frictions are not negative. Plausible: bounds on
+masses and mass centres, and a pull towards a prior in the directions that the motion leaves open. "Possible" alone lets links
+of tonnes pass, whose effect on the torque cancels. Sources: Sousa & Cortesao 2014; Wensing, Kim & Slotine 2018.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Parameters, Vector
+from core.dynamics.model import DynamicModel
+from core.errors import OptionError
+from core.robot.inertia import from_mass_properties
+from core.robot.parameters import INERTIAL_SYMBOLS
+
+
+@dataclass(frozen=True)
+class CentreBox:
+    """Keep a link's mass centre between two corners, m, in the link's frame."""
+
+    link: int
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class CentreEllipsoid:
+    """Keep a link's mass centre in an ellipsoid with this centre and these semi-axes along the link frame's axes, m."""
+
+    link: int
+    centre: tuple[float, float, float]
+    semi_axes: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Ask for a plausible robot.
+
+    Attributes
+    ----------
+    mass
+        Per link number, smallest and largest mass in kg.
+    total_mass
+        Smallest and largest mass of all links together, kg.
+    centres
+        Where mass centres may lie.
+    margin
+        Least eigenvalue of every scaled pseudo-inertia; keeps the mass matrix off singularity.
+    """
+
+    mass: tuple[tuple[int, float, float], ...] = ()
+    total_mass: tuple[float, float] | None = None
+    centres: tuple[CentreBox | CentreEllipsoid, ...] = ()
+    margin: float = 1e-4
+
+    def __post_init__(self) -> None:
+        """Refuse empty ranges."""
+        pairs = [(low, high) for _, low, high in self.mass] + ([self.total_mass] if self.total_mass else [])
+        corners = [pair for box in self.centres if isinstance(box, CentreBox) for pair in zip(box.low, box.high, strict=True)]
+        axes = [one for ball in self.centres if isinstance(ball, CentreEllipsoid) for one in ball.semi_axes]
+        if any(low > high for low, high in [*pairs, *corners]) or any(low < 0.0 for low, _ in pairs) or any(a <= 0 for a in axes):
+            raise OptionError(
+                "the bounds leave no robot",
+                evidence={"mass_kg": [list(one) for one in self.mass], "total_mass_kg": list(self.total_mass or ())},
+                remedy="give masses from 0 upwards, lower bounds below upper ones, and positive semi-axes",
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Prior:
+    """Believe standard parameters beforehand.
+
+    Attributes
+    ----------
+    centre
+        The believed standard parameters.
+    scale
+        What counts as one unit of deviation, per parameter.
+    source
+        Where the belief comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the torques).
+    """
+
+    centre: Parameters
+    scale: Vector
+    source: str
+
+
+def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:
+    """Give the positions of every link's ten parameters in `model.parameters`; empty when links are not modelled."""
+    place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
+    return tuple(
+        tuple(place[f"{symbol}{number}"] for symbol in INERTIAL_SYMBOLS)
+        for number in range(1, len(model.robot.links) + 1)
+        if f"M{number}" in place
+    )
+
+
+def default_prior(model: DynamicModel, torque_rms: Vector) -> Prior:
+    """Believe the robot's own prior where it has one, else small solid bodies in proportion to the torques and lengths."""
+    length, mass, effort = _proportions(model, torque_rms)
+    units = {"kg m2": mass * length**2, "kg m": mass * length, "kg": mass}
+    scale = np.array([units.get(parameter.unit, effort) for parameter in model.parameters])
+    centre = np.zeros(len(model.parameters))
+    believed = model.robot.prior
+    ball = from_mass_properties(mass, np.zeros(3), 0.4 * mass * (0.3 * length) ** 2 * np.eye(3))
+    for number, columns in enumerate(link_columns(model)):
+        centre[list(columns)] = ball if believed is None else believed[number]
+    return Prior(centre, scale, "nominal" if believed is None else "robot")
+
+
+def congruence(prior: Prior, columns: tuple[int, ...]) -> Vector:
+    """Give the diagonal D for which D J D has entries near one, J a link's pseudo-inertia in SI units."""
+    inertia, mass = prior.scale[columns[0]], prior.scale[columns[9]]
+    return np.array([inertia**-0.5] * 3 + [mass**-0.5])
+
+
+def lower_bounds(model: DynamicModel) -> Vector:
+    """Give the physical lower bound per parameter outside the links, -inf where there is none."""
+    linked = {column for columns in link_columns(model) for column in columns}
+    return np.array(
+        [
+            -np.inf if parameter.lower is None or column in linked else parameter.lower
+            for column, parameter in enumerate(model.parameters)
+        ]
+    )
+
+
+def _proportions(model: DynamicModel, torque_rms: Vector) -> tuple[float, float, float]:
+    robot = model.robot
+    lengths: list[float] = [float(np.linalg.norm(link.translation)) for link in robot.links]
+    length = max(sum(lengths) / len(lengths), 0.05)
+    effort = max(float(torque_rms.max()), 1e-6)
+    gravity = max(float(np.linalg.norm(robot.gravity)), 1.0)
+    reach = max(sum(lengths), length)
+    return length, max(2.0 * effort / (gravity * reach) / len(robot.links), 1e-3), effort
+

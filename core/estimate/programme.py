@@ -1,0 +1,99 @@
+"""State the semidefinite programme once: what is minimised, over what, under which constraints.
+
+    minimise   1/(2 n) ||R G phi - z||^2 + (pull/2) ||(phi - prior) / scale||^2 [+ entropy/n sum_k d(J_k, J_k prior)]
+    subject to D J_k(phi) D >= margin E for every link k,  phi_i >= lower_i,  bounds on masses and mass centres
+
+phi are the standard parameters, G groups them into base parameters, R and z are the weighted factor of the log with n rows. The
+size does not depend on the log's length. Sources: Sousa & Cortesao 2014; Wensing, Kim & Slotine 2018; Lee, Wensing & Park 2020.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Matrix, Parameters, Vector
+from core.errors import SolverError
+from core.estimate.constraints import Bounds, Prior
+from core.estimate.system import System
+from core.reduction.base import BaseModel
+
+PULL = 1e-5
+"""Weight of the pull towards the prior; costs a few thousandths of chi^2 at most and bounds what the motion leaves open."""
+
+
+@dataclass(frozen=True, eq=False)
+class Programme:
+    """Hold one semidefinite least-squares problem.
+
+    Attributes
+    ----------
+    base
+        Grouping of the standard parameters and the robot.
+    system
+        The weighted equations over the base parameters.
+    prior, bounds
+        What is believed and what is allowed.
+    pull
+        Weight of the squared distance to the prior.
+    entropy
+        Weight of the entropic distance to the prior's bodies, 0 for none.
+    """
+
+    base: BaseModel
+    system: System
+    prior: Prior
+    bounds: Bounds
+    pull: float = PULL
+    entropy: float = 0.0
+
+    @property
+    def scaled_rows(self) -> tuple[Matrix, Vector]:
+        """Give the misfit as rows over phi / scale and target, both divided by the root of the number of equations."""
+        size = np.sqrt(self.system.rows)
+        return self.system.triangle @ self.base.grouping * self.prior.scale / size, self.system.target / size
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Hold an optimum.
+
+    Attributes
+    ----------
+    standard
+        The optimal standard parameters.
+    status, iterations
+        What the solver said.
+    solver
+        Which solver said it.
+    """
+
+    standard: Parameters
+    status: str
+    iterations: int
+    solver: str
+
+
+_MEANINGS = {
+    "infeasible": (
+        "no robot satisfies the bounds on masses and mass centres",
+        "widen the bounds, or check that the prior's units are kg and m",
+    ),
+    "unbounded": (
+        "the optimum lies at infinity",
+        "use a pull towards a prior greater than zero",
+    ),
+    "inaccurate": (
+        "the solver stopped before it reached its accuracy",
+        "record a more exciting motion, give a prior, or raise the pull towards the prior",
+    ),
+    "stopped": (
+        "the solver gave up",
+        "record a more exciting motion, give a prior, or raise the pull towards the prior",
+    ),
+}
+
+
+def refusal(kind: str, *, status: str, solver: str, iterations: int) -> SolverError:
+    """Translate a solver's status into a sentence with cause and remedy; everything but an optimum is refused."""
+    cause, remedy = _MEANINGS[kind]
+    return SolverError(cause, evidence={"status": status, "solver": solver, "iterations": iterations}, remedy=remedy)

@@ -1,0 +1,105 @@
+"""Choose how far to smooth the sign of Coulomb friction, from the fitted data alone.
+
+Every joint's own equations are solved once per candidate width and the width with the smallest residual is taken. All candidates
+ride along as extra columns in one pass over the data, so the choice costs no further visit.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.arrays import Indices, JointVector, Series
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import Entry, MotionState, Term
+from core.dynamics.terms.coulomb import Coulomb
+from core.dynamics.terms.coupling import GearCoupling
+from core.regressor.columns import ColumnPlan
+from core.regressor.factor import Factor
+from core.regressor.observe import Observation
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+
+SHARES = (0.01, 0.02, 0.05, 0.1, 0.2)
+"""Candidate widths as shares of a joint's RMS speed, besides the plain sign."""
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """Offer a friction term under another name, so that several widths can stand side by side."""
+
+    term: Coulomb | GearCoupling
+    number: int
+
+    @property
+    def name(self) -> str:
+        return f"{self.term.name}_candidate_{self.number}"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        return tuple(replace(one, symbol=f"{one.symbol}~{self.number}~") for one in self.term.parameters(robot))
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        return self.term.entries(robot)
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        return self.term.series(robot, state)
+
+
+def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
+    """Extend a model by its direction-dependent friction at every candidate width; `speed` is the RMS speed per joint."""
+    joints, extra = len(model.robot.joints), list[Term]()
+    for number, share in enumerate(SHARES):
+        widths = tuple(float(share * one) for one in speed)
+        coupled = tuple(max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings)
+        offered = {"coulomb": Coulomb(widths[:joints]), "coupling": GearCoupling(coupled)}
+        extra += [_Candidate(offered[term.name], number) for term in model.terms if term.name in offered]
+    return replace(model, terms=(*model.terms, *extra))
+
+
+def chosen_widths(observation: Observation, model: DynamicModel, speed: JointVector, fitted: tuple[int, ...]) -> DynamicModel:
+    """Give the model with the widths that leave the smallest residual on the fitted blocks, joint by joint."""
+    names = [observation.plan.model.parameters[column].name for column in observation.plan.columns]
+    shares = np.zeros(len(model.robot.joints))
+    for joint, factor in enumerate(observation.joint_factors(fitted)):
+        options = [(0.0, _residual(factor, observation.columns_of[joint], names, None))]
+        options += [
+            (share, _residual(factor, observation.columns_of[joint], names, number)) for number, share in enumerate(SHARES)
+        ]
+        shares[joint] = min(options, key=lambda one: one[1])[0]
+    widths = tuple(float(one) for one in shares * speed)
+    smooth = model.with_term(Coulomb(widths)) if any(term.name == "coulomb" for term in model.terms) else model
+    if model.robot.couplings and any(term.name == "coupling" for term in model.terms):
+        smooth = smooth.with_term(
+            GearCoupling(tuple(max(widths[joint - 1] for joint in one.joints) for one in model.robot.couplings))
+        )
+    return smooth
+
+
+def scan_plan(model: DynamicModel, kept: tuple[int, ...]) -> ColumnPlan:
+    """Plan for the base columns of the plain model and all candidates."""
+    candidates = [column for column, parameter in enumerate(model.parameters) if "~" in parameter.symbol]
+    return ColumnPlan(model, (*kept, *candidates))
+
+
+def _residual(factor: Factor, columns: Indices, names: list[str], number: int | None) -> float:
+    """Solve one joint's equations alone, with its plain direction columns or those of one candidate instead."""
+    mark = f"~{number}~"
+    wanted = [
+        place
+        for place, column in enumerate(columns)
+        if (mark in names[column] if "~" in names[column] else number is None or not _directional(names[column]))
+        or _smooth_part_of_coupling(names[column])
+    ]
+    kept = factor.triangle[:, wanted]
+    scale = np.linalg.norm(kept, axis=0)
+    scale[scale == 0.0] = 1.0
+    values, *_ = np.linalg.lstsq(kept / scale, factor.triangle[:, -1], rcond=1e-9)
+    miss = factor.triangle[:, -1] - kept / scale @ values
+    return float(miss @ miss)
+
+
+def _directional(name: str) -> bool:
+    return name.startswith(("FC", "FCM"))
+
+
+def _smooth_part_of_coupling(name: str) -> bool:
+    return name.startswith(("IAM", "FVM")) and "~" not in name

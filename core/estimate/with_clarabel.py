@@ -1,0 +1,138 @@
+"""Give the programme to Clarabel directly, in residual form: the hot path.
+
+Variables are x = (phi / scale, r) with r = R G phi - z as equalities, so that the objective is diagonal and the factor is never
+squared. Cones are written as s = b - A x in the cone, triangles of matrices column by column with off-diagonals times sqrt(2).
+Source: Goulart & Chen, Clarabel, 2024.
+"""
+
+from dataclasses import dataclass, field
+
+import clarabel
+import numpy as np
+from scipy import sparse
+
+from core.arrays import Matrix, Vector
+from core.estimate.constraints import CentreBox, congruence, link_columns, lower_bounds
+from core.estimate.programme import Programme, Solution, refusal
+from core.robot.inertia import PSEUDO_INERTIA_BASIS
+
+_UPPER = np.triu_indices(4)
+_BY_COLUMN = np.lexsort((_UPPER[0], _UPPER[1]))
+_ROW, _COLUMN = _UPPER[0][_BY_COLUMN], _UPPER[1][_BY_COLUMN]
+_ROOT = np.where(_ROW == _COLUMN, 1.0, np.sqrt(2.0))
+SVEC_IDENTITY = np.where(_ROW == _COLUMN, 1.0, 0.0)
+"""The 4x4 identity in the solver's triangle order."""
+_TOLERANCE = 1e-9
+_KINDS = {
+    "PrimalInfeasible": "infeasible",
+    "AlmostPrimalInfeasible": "infeasible",
+    "DualInfeasible": "unbounded",
+    "AlmostDualInfeasible": "unbounded",
+    "AlmostSolved": "inaccurate",
+    "InsufficientProgress": "inaccurate",
+}
+
+
+@dataclass
+class _Cones:
+    """Collect rows of A x + s = b, cone by cone."""
+
+    width: int
+    rows: list[Matrix] = field(default_factory=list)
+    right: list[Vector] = field(default_factory=list)
+    kinds: list[object] = field(default_factory=list)
+
+    def add(self, kind: object, rows: Matrix, right: Vector) -> None:
+        wide = np.zeros((len(rows), self.width))
+        wide[:, : rows.shape[1]] = rows
+        self.rows.append(wide)
+        self.right.append(right)
+        self.kinds.append(kind)
+
+
+def solve_with_clarabel(programme: Programme) -> Solution:
+    """Solve the programme.
+
+    Raises
+    ------
+    SolverError
+        If Clarabel does not report an optimum to full accuracy.
+    """
+    misfit, target = programme.scaled_rows
+    equations, parameters = misfit.shape
+    cones = _Cones(parameters + equations)
+    cones.add(clarabel.ZeroConeT(equations), np.hstack([misfit, -np.eye(equations)]), target)
+    _add_links(cones, programme)
+    _add_signs(cones, programme)
+    _add_masses(cones, programme)
+    _add_centres(cones, programme)
+    pull = np.full(parameters, programme.pull)
+    quadratic = sparse.diags(np.concatenate([pull, np.ones(equations)]), format="csc")
+    linear = np.concatenate([-pull * programme.prior.centre / programme.prior.scale, np.zeros(equations)])
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = _TOLERANCE
+    settings.max_threads = 1
+    constraints = sparse.csc_matrix(np.vstack(cones.rows))
+    answer = clarabel.DefaultSolver(
+        quadratic, linear, constraints, np.concatenate(cones.right), cones.kinds, settings
+    ).solve()
+    status = str(answer.status)
+    if status != "Solved":
+        raise refusal(
+            _KINDS.get(status, "stopped"), status=status, solver="clarabel", iterations=int(answer.iterations)
+        )
+    standard = np.array(answer.x[:parameters]) * programme.prior.scale
+    return Solution(standard, "optimal", int(answer.iterations), "clarabel")
+
+
+def _add_links(cones: _Cones, programme: Programme) -> None:
+    scale = programme.prior.scale
+    for columns in link_columns(programme.base.model):
+        rows = np.zeros((10, len(scale)))
+        rows[:, list(columns)] = -svec_rows(congruence(programme.prior, columns)) * scale[list(columns)]
+        cones.add(clarabel.PSDTriangleConeT(4), rows, -programme.bounds.margin * SVEC_IDENTITY)
+
+
+def svec_rows(weights: Vector) -> Matrix:
+    """Write D J D in the solver's triangle order as rows over a link's ten parameters, D = diag(weights)."""
+    return np.asarray((PSEUDO_INERTIA_BASIS[:, _ROW, _COLUMN] * (weights[_ROW] * weights[_COLUMN] * _ROOT)).T)
+
+
+def _add_signs(cones: _Cones, programme: Programme) -> None:
+    lower = lower_bounds(programme.base.model)
+    bounded = np.flatnonzero(np.isfinite(lower))
+    if len(bounded):
+        rows = -np.eye(len(lower))[bounded]
+        cones.add(clarabel.NonnegativeConeT(len(bounded)), rows, -lower[bounded] / programme.prior.scale[bounded])
+
+
+def _add_masses(cones: _Cones, programme: Programme) -> None:
+    scale, links = programme.prior.scale, link_columns(programme.base.model)
+    ranges = [([links[link - 1][9]], low, high) for link, low, high in programme.bounds.mass]
+    if programme.bounds.total_mass is not None:
+        ranges.append(([columns[9] for columns in links], *programme.bounds.total_mass))
+    for masses, low, high in ranges:
+        sums = np.zeros(len(scale))
+        sums[masses] = scale[masses]
+        unit = scale[masses[0]]
+        rows, right = np.array([-sums, sums]) / unit, np.array([-low, high]) / unit
+        finite = np.isfinite(right)
+        cones.add(clarabel.NonnegativeConeT(int(finite.sum())), rows[finite], right[finite])
+
+
+def _add_centres(cones: _Cones, programme: Programme) -> None:
+    scale, links = programme.prior.scale, link_columns(programme.base.model)
+    for region in programme.bounds.centres:
+        first, mass = np.array(links[region.link - 1][6:9]), links[region.link - 1][9]
+        unit = scale[first[0]]
+        picked = np.zeros((3, len(scale)))
+        picked[range(3), first] = scale[first] / unit
+        weight = np.zeros(len(scale))
+        weight[mass] = scale[mass] / unit
+        if isinstance(region, CentreBox):
+            low, high = np.outer(region.low, weight), np.outer(region.high, weight)
+            cones.add(clarabel.NonnegativeConeT(6), np.vstack([low - picked, picked - high]), np.zeros(6))
+        else:
+            offset = (picked - np.outer(region.centre, weight)) / np.array(region.semi_axes)[:, None]
+            cones.add(clarabel.SecondOrderConeT(4), -np.vstack([weight, offset]), np.zeros(4))

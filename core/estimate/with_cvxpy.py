@@ -1,0 +1,85 @@
+"""State the programme in cvxpy: the readable formulation, which is also the reference that the hot path is held against."""
+
+import cvxpy
+import numpy as np
+
+from core.estimate.constraints import CentreBox, congruence, link_columns, lower_bounds
+from core.estimate.programme import Programme, Solution, refusal
+from core.robot.inertia import PSEUDO_INERTIA_BASIS, pseudo_inertia
+
+_KINDS = {
+    cvxpy.OPTIMAL_INACCURATE: "inaccurate",
+    cvxpy.INFEASIBLE: "infeasible",
+    cvxpy.INFEASIBLE_INACCURATE: "infeasible",
+    cvxpy.UNBOUNDED: "unbounded",
+    cvxpy.UNBOUNDED_INACCURATE: "unbounded",
+}
+
+
+def solve_with_cvxpy(programme: Programme) -> Solution:
+    """Solve the programme; needed for the entropic prior, whose logarithms the hot path does not state.
+
+    Raises
+    ------
+    SolverError
+        If cvxpy does not report ``optimal``.
+    """
+    scale = programme.prior.scale
+    phi = cvxpy.Variable(len(scale))
+    misfit, target = programme.scaled_rows
+    objective = 0.5 * cvxpy.sum_squares(misfit @ phi - target)
+    objective += 0.5 * programme.pull * cvxpy.sum_squares(phi - programme.prior.centre / scale)
+    if programme.entropy > 0.0:
+        objective += programme.entropy / programme.system.rows * _entropy(programme, phi)
+    problem = cvxpy.Problem(cvxpy.Minimize(objective), _constraints(programme, phi))
+    try:
+        problem.solve(solver=cvxpy.CLARABEL, tol_gap_abs=1e-8, tol_gap_rel=1e-8, tol_feas=1e-8)
+    except cvxpy.error.SolverError as error:
+        raise refusal("stopped", status=str(error), solver="cvxpy", iterations=0) from None
+    iterations = int(problem.solver_stats.num_iters or 0)
+    if problem.status != cvxpy.OPTIMAL or phi.value is None:
+        kind = _KINDS.get(problem.status, "stopped")
+        raise refusal(kind, status=problem.status, solver="cvxpy", iterations=iterations)
+    return Solution(np.asarray(phi.value) * scale, "optimal", iterations, "cvxpy")
+
+
+def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constraint]:
+    scale, bounds, model = programme.prior.scale, programme.bounds, programme.base.model
+    links = link_columns(model)
+    lower = lower_bounds(model)
+    signed = np.flatnonzero(np.isfinite(lower))
+    constraints: list[cvxpy.Constraint] = [phi[signed] >= lower[signed] / scale[signed]] if len(signed) else []
+    for columns in links:
+        weights = np.diag(congruence(programme.prior, columns))
+        constraints.append(weights @ _pseudo_inertia(programme, phi, columns) @ weights >> bounds.margin * np.eye(4))
+    masses = cvxpy.hstack([scale[columns[9]] * phi[columns[9]] for columns in links]) if links else None
+    for link, low, high in bounds.mass:
+        constraints += [masses[link - 1] >= low, masses[link - 1] <= high]
+    if bounds.total_mass is not None:
+        constraints += [cvxpy.sum(masses) >= bounds.total_mass[0], cvxpy.sum(masses) <= bounds.total_mass[1]]
+    for region in bounds.centres:
+        first = list(links[region.link - 1][6:9])
+        moment, mass = cvxpy.multiply(scale[first], phi[first]), masses[region.link - 1]
+        if isinstance(region, CentreBox):
+            constraints += [moment >= np.array(region.low) * mass, moment <= np.array(region.high) * mass]
+        else:
+            away = (moment - np.array(region.centre) * mass) / np.array(region.semi_axes)
+            constraints.append(cvxpy.norm(away) <= mass)
+    return constraints
+
+
+def _pseudo_inertia(programme: Programme, phi: cvxpy.Variable, columns: tuple[int, ...]) -> cvxpy.Expression:
+    parts = [programme.prior.scale[column] * phi[column] * PSEUDO_INERTIA_BASIS[k] for k, column in enumerate(columns)]
+    return sum(parts[1:], parts[0])
+
+
+def _entropy(programme: Programme, phi: cvxpy.Variable) -> cvxpy.Expression:
+    """Give the log-det divergence of the links from the prior's: trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent."""
+    total = 0.0
+    for columns in link_columns(programme.base.model):
+        believed = pseudo_inertia(programme.prior.centre[list(columns)])
+        weights = np.diag(congruence(programme.prior, columns))
+        body = weights @ _pseudo_inertia(programme, phi, columns) @ weights
+        inverse = np.linalg.solve(weights @ believed @ weights, np.eye(4))
+        total = total + cvxpy.trace(inverse @ body) - cvxpy.log_det(body) - np.linalg.slogdet(inverse)[1] - 4.0
+    return total

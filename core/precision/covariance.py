@@ -1,0 +1,117 @@
+"""Give every base parameter its standard deviation, with the residual's memory taken into account.
+
+For independent residuals of variance sigma^2 = ||rho||^2 / (n - d) the covariance is sigma^2 (W'W)^-1 and
+%P = 100 sqrt(diag) / |chi|; the seed's equation (10) omits (W'W)^-1. Filtered samples are not independent, so the covariance is
+(W'W)^-1 W'V W (W'W)^-1 with V the residual's own autocovariance. Sources: Khalil & Dombre (2002), ch. 12; Newey & West 1987.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import BaseParameters, Indices, Matrix, SquareMatrix, Vector
+from core.estimate.system import System, column_scale
+from core.regressor.memory import LaggedProducts
+
+_RANK_TOLERANCE = 1e-8
+INTERVAL_95 = 1.959964
+
+
+@dataclass(frozen=True, eq=False)
+class Precision:
+    """Hold how well base parameters are known.
+
+    Attributes
+    ----------
+    information
+        W'W of the weighted equations.
+    spread
+        W'V W of the weighted equations.
+    open_share
+        Per parameter, the share of its unit vector that lies in directions the motion does not excite.
+    memory_factor
+        Per joint, by how much the residual's memory inflates the variance of a constant: the effective number of independent
+        samples is the number of samples divided by it.
+    """
+
+    information: SquareMatrix
+    spread: SquareMatrix
+    open_share: Vector
+    memory_factor: Vector
+
+    @property
+    def covariance(self) -> SquareMatrix:
+        """Give the covariance of the base parameters within the excited directions."""
+        return _sandwich(self.information, self.spread)
+
+    @property
+    def standard_deviation(self) -> Vector:
+        """Give one standard deviation per base parameter; infinite where the motion leaves the parameter open."""
+        deviation = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+        return np.where(self.open_share > 1e-6, np.inf, deviation)
+
+
+def assess(
+    system: System, memory: tuple[LaggedProducts, ...], columns_of: tuple[Indices, ...], base: BaseParameters
+) -> Precision:
+    """Judge the base parameters of a fit.
+
+    Parameters
+    ----------
+    system
+        The weighted equations.
+    memory
+        Per joint, the lagged products of the fitted rows.
+    base
+        The parameters whose residual tells the noise.
+    """
+    size = system.triangle.shape[1]
+    spread = np.zeros((size, size))
+    factors = np.ones(len(memory))
+    share = max(1.0 - size / system.rows, 1.0 / system.rows)
+    for joint, (products, columns, noise) in enumerate(zip(memory, columns_of, system.noise, strict=True)):
+        covariance = products.autocovariance(base[columns])
+        if covariance[0] <= 0.0:
+            continue
+        correlation = covariance / covariance[0]
+        variance = covariance[0] / max(share * products.rows, 1.0)
+        spread[np.ix_(columns, columns)] += products.spread(correlation) * variance / noise**4
+        taper = 1.0 - np.arange(1, len(correlation)) / len(correlation)
+        factors[joint] = max(1.0 + 2.0 * float(taper @ correlation[1:]), 1e-3)
+    information = system.triangle.T @ system.triangle
+    return Precision(information, spread, _open_share(system.triangle), factors)
+
+
+def relative_deviation_percent(base: BaseParameters, deviation: Vector) -> Vector:
+    """Give %P = 100 deviation / |value|; infinite for a value of zero.
+
+    Examples
+    --------
+    >>> relative_deviation_percent(np.array([2.0, -4.0]), np.array([0.1, 0.1]))
+    array([5. , 2.5])
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(base == 0.0, np.inf, 100.0 * deviation / np.abs(base))
+
+
+def subset(precision: Precision, chosen: Indices) -> Precision:
+    """Give the precision of a model reduced to the chosen base parameters."""
+    square = np.ix_(chosen, chosen)
+    return Precision(
+        precision.information[square], precision.spread[square], precision.open_share[chosen], precision.memory_factor
+    )
+
+
+def _sandwich(information: SquareMatrix, spread: SquareMatrix) -> SquareMatrix:
+    scale = np.sqrt(np.maximum(np.diag(information), np.finfo(float).tiny))
+    inner = np.linalg.pinv(information / np.outer(scale, scale), rcond=_RANK_TOLERANCE**2, hermitian=True)
+    inverse = inner / np.outer(scale, scale)
+    return np.asarray(inverse @ spread @ inverse)
+
+
+def _open_share(triangle: Matrix) -> Vector:
+    scale = column_scale(triangle)
+    _, values, directions = np.linalg.svd(triangle / scale)
+    open_directions = directions[values < _RANK_TOLERANCE * max(values[0], 1e-300)]
+    unexcited = np.linalg.norm(triangle, axis=0) == 0.0
+    return np.where(unexcited, 1.0, np.linalg.norm(open_directions, axis=0))

@@ -1,0 +1,64 @@
+"""Set blocks aside before anything is fitted: contiguous stretches, or whole logs, never shuffled samples.
+
+Neighbouring samples share noise and motion, so a shuffled hold-out is no hold-out at all. Source: Roberts et al., Ecography 2017.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.errors import OptionError
+from core.regressor.observe import BlockKey
+
+
+@dataclass(frozen=True)
+class HoldOut:
+    """Ask for held-out data.
+
+    Attributes
+    ----------
+    fraction
+        Share of each log's blocks that is held out; 0 for none.
+    blocks
+        Number of blocks each log is divided into.
+    logs
+        Numbers of logs, from 1, that are held out whole; then `fraction` does not apply.
+    """
+
+    fraction: float = 0.2
+    blocks: int = 20
+    logs: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse hold-outs that leave nothing to fit or nothing to divide."""
+        if not 0.0 <= self.fraction <= 0.5 or not 4 <= self.blocks <= 200:
+            raise OptionError(
+                "the hold-out makes no sense",
+                evidence={"fraction": self.fraction, "blocks": self.blocks},
+                remedy="hold out a fraction from 0 to 0.5 of 4 to 200 blocks",
+            )
+
+    def chosen(self, logs: int) -> frozenset[BlockKey]:
+        """Pick the held-out blocks, spread evenly over each log.
+
+        Examples
+        --------
+        >>> sorted(HoldOut(fraction=0.25, blocks=8).chosen(1))
+        [(0, 2), (0, 6)]
+        """
+        if self.logs:
+            self._check(logs)
+            return frozenset((log - 1, block) for log in self.logs for block in range(self.blocks))
+        count = round(self.fraction * self.blocks)
+        if not count:
+            return frozenset()
+        places = ((np.arange(count) + 0.5) * self.blocks / count).astype(int)
+        return frozenset((log, int(block)) for log in range(logs) for block in places)
+
+    def _check(self, logs: int) -> None:
+        if any(not 1 <= log <= logs for log in self.logs) or len(set(self.logs)) >= logs:
+            raise OptionError(
+                "the held-out logs leave nothing to fit or do not exist",
+                evidence={"held_out": list(self.logs), "logs": logs},
+                remedy=f"name logs from 1 to {logs} and leave at least one to fit",
+            )

@@ -1,0 +1,53 @@
+"""Score a prediction joint by joint, with the denominator of every relative error in its name.
+
+An error of a tenth of the torque's range and one of a tenth of its RMS differ by a factor of three to six; papers mix them.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import BaseParameters, Indices
+from core.regressor.observe import Block, Observation
+
+
+@dataclass(frozen=True)
+class JointScore:
+    """Score one joint over some blocks; torques in N m (N), relative errors in percent."""
+
+    joint: int
+    samples: int
+    rms_torque: float
+    rms_residual: float
+    nrmse_of_range_percent: float
+    nrmse_of_rms_percent: float
+
+
+def scores(observation: Observation, chosen: tuple[int, ...], base: BaseParameters) -> tuple[JointScore, ...]:
+    """Score every joint over the chosen blocks."""
+    blocks = [observation.blocks[index] for index in chosen]
+    factors = observation.joint_factors(chosen)
+    return tuple(
+        _score(joint, blocks, (factor.residual_square(base[columns]), factor.torque_square, factor.rows))
+        for joint, (factor, columns) in enumerate(zip(factors, observation.columns_of, strict=True))
+    )
+
+
+def total_percent(observation: Observation, chosen: tuple[int, ...], base: BaseParameters) -> float:
+    """Give 100 times the norm of the residual over the norm of the torque, all joints together."""
+    factors = observation.joint_factors(chosen)
+    columns_of: tuple[Indices, ...] = observation.columns_of
+    left = sum(factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True))
+    return _percent(np.sqrt(left), np.sqrt(sum(factor.torque_square for factor in factors)))
+
+
+def _score(joint: int, blocks: list[Block], sums: tuple[float, float, int]) -> JointScore:
+    left, torque, rows = sums
+    residual, level = (float(np.sqrt(square / max(rows, 1))) for square in (left, torque))
+    ranges = np.array([block.torque_range[joint] for block in blocks]).reshape(-1, 2)
+    span = float(ranges[:, 1].max() - ranges[:, 0].min()) if rows else 0.0
+    return JointScore(joint + 1, rows, level, residual, _percent(residual, span), _percent(residual, level))
+
+
+def _percent(part: float, whole: float) -> float:
+    return float(100.0 * part / whole) if whole > 0.0 else 0.0
