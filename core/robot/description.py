@@ -77,7 +77,7 @@ PRIOR_FIELDS = {
 SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
 
 
-def robot_from_description(description: Mapping[str, object]) -> RobotModel:
+def robot_from_description(description: object) -> RobotModel:
     """Read a robot description.
 
     Raises

@@ -45,7 +45,7 @@ def rotation_to(axis: Vector3) -> Rotation:
     """
     x, y, z = (float(value) for value in axis)
     across = x * x + y * y
-    if z < 0.0 and across == 0.0:
+    if z < 0.0 and across < 1e-30:  # nearer to -z than rounding can tell
         return np.diag([1.0, -1.0, -1.0])
     # Both forms are equal; near -z only the second keeps its digits.
     scale = 1.0 / (1.0 + z) if z >= 0.0 else (1.0 - z) / across

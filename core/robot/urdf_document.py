@@ -14,7 +14,7 @@ import numpy as np
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import fromstring
 
-from core.arrays import LinkParameters, Rotation, Vector3
+from core.arrays import LinkParameters, Rotation, Vector, Vector3
 from core.errors import RobotError
 from core.robot.fields import LONGEST_NAME, shown
 from core.robot.frames import rotation_rpy
@@ -265,7 +265,7 @@ def _numbers(element: Element | None, name: str, where: str, default: tuple[floa
     return _values(_attribute(element, name, where), name, where, 3)
 
 
-def _values(text: str, name: str, where: str, count: int) -> Vector3:
+def _values(text: str, name: str, where: str, count: int) -> Vector:
     try:
         values = np.array([float(word) for word in text.split()])
     except ValueError:

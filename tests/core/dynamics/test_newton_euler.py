@@ -1,7 +1,7 @@
 """Newton-Euler against engines that are not ours, in every regime, and against the laws of mechanics.
 
-Tolerance: two correct recursions of 30 joints differ by rounding, about 1e-13 of the joint's largest torque; 1e-10
-leaves room for cancellation and none for a wrong formula.
+Tolerance: two correct recursions of 30 joints differ by rounding, about 1e-13 of the joint's largest torque;
+1e-10 leaves room for cancellation and none for a wrong formula.
 """
 
 import numpy as np
@@ -99,7 +99,7 @@ def test_the_power_of_the_joints_is_the_change_of_energy(seed, links, tree):
 def _energy_change(robot: RobotModel, bodies: np.ndarray, motion: Motion) -> tuple[float, float]:
     """Differentiate the energy by 4x4 matrices: dE/dt = sum trace(T' J (T'' - G)').
 
-    G holds the acceleration of gravity. The second value is the sum of the absolute terms: the scale against which rounding is judged.
+    G holds the acceleration of gravity. The second value sums the absolute terms: the scale of rounding.
     """
     fall = np.zeros((4, 4))
     fall[:3, 3] = robot.gravity
