@@ -1,1 +1,1 @@
-"""Tests of core and app: laws, regimes, golden numbers with their source, and contracts on the code's shape."""
+"""Test core and app: laws, regimes, golden numbers with source, and contracts on the code's shape."""

@@ -1,1 +1,1 @@
-"""Contracts on the code's shape: who imports whom, sizes, docstrings, locks, vendored files, the API document."""
+"""Hold the code to its shape: imports, sizes, docstrings, locks, vendored files, documents."""

@@ -1,0 +1,79 @@
+# Every command a person needs. The first one that needs Python makes .venv from the hash-locked requirements.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+# Paths stay relative, so that the checkout may have a space in its own.
+SUITABLE := import ensurepip, sys, venv; sys.exit(not (3, 11) <= sys.version_info < (3, 14))
+PYTHON ?= $(shell for name in python3.11 python3.12 python3.13 python3; do \
+	if $$name -c '$(SUITABLE)' 2> /dev/null; then echo $$name; break; fi; done)
+RUN := .venv/bin/python
+READY := .venv/.ready
+LOCK := docker/requirements-dev.txt
+LOCK_FLAGS := --universal --generate-hashes \
+	--no-emit-index-url --no-emit-find-links --no-annotate --no-header
+
+# Matrices are small and many: threads inside the linear algebra only get in each other's way.
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+export MKL_NUM_THREADS := 1
+
+.PHONY: help setup demo serve test check style types imports drift containers bench lock openapi
+
+help: ## list the commands
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
+
+setup: $(READY) ## make .venv from the hash-locked requirements
+
+$(READY): $(LOCK)
+	@if [ ! -x $(RUN) ]; then python="$(PYTHON)"; \
+		if [ -z "$$python" ] || ! "$$python" -c '$(SUITABLE)' 2> /dev/null; then \
+			echo "Veritorque needs Python 3.11, 3.12 or 3.13 with its venv module; $${python:-what is on the path} does not do." >&2; \
+			echo "Install one (on Debian and Ubuntu with python3-venv), or name one: make setup PYTHON=python3.12" >&2; exit 1; fi; \
+		echo "Making .venv with $$python; this takes a minute or two."; \
+		"$$python" -m venv .venv; fi
+	$(RUN) -m pip install --quiet --disable-pip-version-check --no-input --require-hashes -r $(LOCK)
+	@touch $(READY)
+
+demo: $(READY) ## identify a YuMi arm from its log through the service, and print the parameters
+	$(RUN) -m examples.yumi.demo
+
+serve: $(READY) ## start the service on loopback and print its URL
+	$(RUN) -m app serve
+
+test: $(READY) ## run every test
+	$(RUN) -m pytest -n 2 $(ARGS)
+
+check: style types imports drift containers ## style, types, import contracts, API document, container files
+
+style: $(READY)
+	$(RUN) -m ruff check .
+	$(RUN) -m ruff format --check .
+
+types: $(READY)
+	$(RUN) -m mypy core app
+
+imports: $(READY)
+	.venv/bin/lint-imports --no-logo
+
+drift: $(READY)
+	$(RUN) -m app openapi | diff openapi.json - || { echo "openapi.json is not what the service gives: make openapi" >&2; exit 1; }
+
+containers: $(READY)
+	.venv/bin/hadolint docker/Dockerfile
+	.venv/bin/check-jsonschema --builtin-schema vendor.compose-spec docker/compose.yaml
+	.venv/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yml
+	.venv/bin/check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+
+bench: $(READY) ## measure speed and accuracy
+	$(RUN) -m benchmarks $(ARGS)
+
+lock: ## rewrite the locked requirements after a change of dependencies (needs uv)
+	uv pip compile $(LOCK_FLAGS) pyproject.toml --output-file docker/requirements.txt
+	uv pip compile $(LOCK_FLAGS) --extra test pyproject.toml --output-file $(LOCK)
+
+openapi: $(READY) ## rewrite openapi.json after a change of the API
+	$(RUN) -m app openapi > openapi.json.new
+	mv openapi.json.new openapi.json

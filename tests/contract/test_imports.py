@@ -1,0 +1,116 @@
+"""Hold the code to who may import whom, and show that each contract refuses what it is there to refuse.
+
+The contracts stand in pyproject.toml and are run by import-linter; the negative controls lay out a tiny tree of
+packages with one forbidden import and run one contract on it.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+LINTER = Path(sys.executable).with_name("lint-imports")
+CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
+
+SKELETON = (
+    "core.arrays",
+    "core.dynamics.terms",
+    "core.errors",
+    "core.estimate.programme",
+    "core.log.model",
+    "core.regressor.kernel",
+    "core.robot.model",
+    "core.study",
+    "app.jobs.worker",
+    "app.main",
+    "app.routes.logs",
+    "app.routes.robots",
+    "tests.plant.friction",
+)
+
+ALLOWED = (
+    ("app.jobs.worker", "core.study"),
+    ("app.routes.robots", "app.jobs.worker"),
+    ("core.dynamics.terms", "core.robot.model"),
+    ("core.estimate.programme", "cvxpy"),
+    ("core.regressor.kernel", "numba"),
+    ("core.study", "core.estimate.programme"),
+    ("tests.plant.friction", "core.robot.model"),
+    ("tests.plant.friction", "core.log.model"),
+    ("tests.plant.friction", "pinocchio"),
+)
+
+REFUSED = (
+    ("app-over-core", "core.study", "app.main"),
+    ("app-over-core", "app.main", "tests.plant.friction"),
+    ("core-without-http", "core.robot.model", "pydantic"),
+    ("core-without-http", "core.errors", "starlette"),
+    ("chapters-in-order", "core.robot.model", "core.log.model"),
+    ("chapters-in-order", "core.dynamics.terms", "core.regressor.kernel"),
+    ("chapters-in-order", "core.errors", "core.arrays"),
+    ("chapters-in-order", "core.helpers", "core.errors"),  # a folder that has no place in the story
+    ("solvers-in-estimate", "core.regressor.kernel", "cvxpy"),
+    ("solvers-in-estimate", "app.main", "clarabel"),
+    ("compiled-kernels", "core.dynamics.terms", "numba"),
+    ("routes-without-core", "app.routes.logs", "core.log.model"),
+    ("routes-apart", "app.routes.logs", "app.routes.robots"),
+    ("study-by-jobs", "app.main", "core.study"),
+    ("study-by-jobs", "app.routes.robots", "core.study"),
+    ("plant-apart", "tests.plant.friction", "core.dynamics.terms"),
+    ("plant-apart", "tests.plant.friction", "app.main"),
+)
+
+
+def lay_out(tree: Path, imports: tuple[tuple[str, str], ...]) -> None:
+    """Write packages which hold nothing but the given imports, under the project's own contracts."""
+    shutil.copy(ROOT / "pyproject.toml", tree)
+    for module in {*SKELETON, *(importer for importer, _ in imports)}:
+        path = tree.joinpath(*module.split(".")).with_suffix(".py")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        for package in path.parents[: len(module.split(".")) - 1]:
+            (package / "__init__.py").touch()
+        path.write_text(
+            "".join(f"import {imported}\n" for importer, imported in imports if importer == module)
+        )
+
+
+def lint(tree: Path, *contracts: str) -> subprocess.CompletedProcess[str]:
+    """Run import-linter on a tree, by all contracts or by those named."""
+    chosen = [word for contract in contracts for word in ("--contract", contract)]
+    return subprocess.run(
+        [LINTER, "--no-logo", "--no-cache", *chosen],
+        cwd=tree,
+        env={**os.environ, "NO_COLOR": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_every_module_of_the_project_imports_only_what_it_may():
+    result = lint(ROOT)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_the_imports_that_the_story_needs_are_allowed(tmp_path):
+    lay_out(tmp_path, ALLOWED)
+    result = lint(tmp_path)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+@pytest.mark.parametrize(("contract", "importer", "imported"), REFUSED)
+def test_a_forbidden_import_is_refused_by_its_contract(tmp_path, contract, importer, imported):
+    lay_out(tmp_path, (*ALLOWED, (importer, imported)))
+    result = lint(tmp_path, contract)
+    assert result.returncode == 1, result.stdout + result.stderr
+    assert "0 kept, 1 broken" in result.stdout
+    assert importer in result.stdout
+
+
+def test_every_contract_has_been_seen_to_refuse_something():
+    assert {contract["id"] for contract in CONTRACTS} == {contract for contract, _, _ in REFUSED}
