@@ -1,7 +1,7 @@
 """Hold the code to who may import whom, and show that each contract refuses what it is there to refuse.
 
-The contracts stand in pyproject.toml and are run by import-linter; the negative controls lay out a tiny tree of
-packages with one forbidden import and run one contract on it.
+The contracts stand in pyproject.toml and are run by import-linter; the negative controls lay out a tiny tree
+of packages with one forbidden import and run one contract on it.
 """
 
 import os
