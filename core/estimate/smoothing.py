@@ -21,11 +21,12 @@ from core.robot.parameters import Parameter
 
 SHARES = (0.01, 0.02, 0.05, 0.1, 0.2)
 """Candidate widths as shares of a joint's RMS speed, besides the plain sign."""
+DIRECTIONAL = ("FC", "FCM")
 
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Offer a friction term under another name, so that several widths can stand side by side."""
+    """Offer the direction-dependent columns of a friction term under another name, so that several widths stand side by side."""
 
     term: Coulomb | GearCoupling
     number: int
@@ -38,10 +39,14 @@ class _Candidate:
         return tuple(replace(one, symbol=f"{one.symbol}~{self.number}~") for one in self.term.parameters(robot))
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
-        return self.term.entries(robot)
+        return tuple(self.term.entries(robot)[place] for place in self._places(robot))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
-        return self.term.series(robot, state)
+        return self.term.series(robot, state)[self._places(robot)]
+
+    def _places(self, robot: RobotModel) -> list[int]:
+        symbols = [parameter.symbol for parameter in self.term.parameters(robot)]
+        return [place for place, (_, column) in enumerate(self.term.entries(robot)) if symbols[column] in DIRECTIONAL]
 
 
 def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
@@ -76,19 +81,14 @@ def chosen_widths(observation: Observation, model: DynamicModel, speed: JointVec
 
 def scan_plan(model: DynamicModel, kept: tuple[int, ...]) -> ColumnPlan:
     """Plan for the base columns of the plain model and all candidates."""
-    candidates = [column for column, parameter in enumerate(model.parameters) if "~" in parameter.symbol]
+    marks = tuple(f"{symbol}~" for symbol in DIRECTIONAL)
+    candidates = [column for column, parameter in enumerate(model.parameters) if parameter.symbol.startswith(marks)]
     return ColumnPlan(model, (*kept, *candidates))
 
 
 def _residual(factor: Factor, columns: Indices, names: list[str], number: int | None) -> float:
     """Solve one joint's equations alone, with its plain direction columns or those of one candidate instead."""
-    mark = f"~{number}~"
-    wanted = [
-        place
-        for place, column in enumerate(columns)
-        if (mark in names[column] if "~" in names[column] else number is None or not _directional(names[column]))
-        or _smooth_part_of_coupling(names[column])
-    ]
+    wanted = [place for place, column in enumerate(columns) if _belongs(names[column], number)]
     kept = factor.triangle[:, wanted]
     scale = np.linalg.norm(kept, axis=0)
     scale[scale == 0.0] = 1.0
@@ -97,9 +97,7 @@ def _residual(factor: Factor, columns: Indices, names: list[str], number: int | 
     return float(miss @ miss)
 
 
-def _directional(name: str) -> bool:
-    return name.startswith(("FC", "FCM"))
-
-
-def _smooth_part_of_coupling(name: str) -> bool:
-    return name.startswith(("IAM", "FVM")) and "~" not in name
+def _belongs(name: str, number: int | None) -> bool:
+    if "~" in name:
+        return f"~{number}~" in name
+    return number is None or name.rstrip("0123456789") not in DIRECTIONAL

@@ -1,0 +1,251 @@
+"""Read a study's options from plain data, strictly: what is not known is refused with the list of what is.
+
+Kept beside `study` because it names the options of several chapters and belongs to none of them.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import cast
+
+from core.dynamics.model import STANDARD_TERMS
+from core.errors import OptionError
+from core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid
+from core.estimate.estimate import EstimateOptions, Estimator
+from core.estimate.programme import PULL
+from core.signals.recipe import FilterOptions
+from core.validation.holdout import HoldOut
+
+
+@dataclass(frozen=True)
+class BootstrapOptions:
+    """Ask for a block bootstrap of the constrained estimate: number of draws (0 for none) and seed."""
+
+    draws: int = 100
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class IdentifyOptions:
+    """Hold all options of an identification.
+
+    Attributes
+    ----------
+    terms
+        Names of the torque terms; None for the standard model.
+    smooth_coulomb
+        Whether the sign of Coulomb friction is smoothed over widths chosen from the fitted data.
+    essential
+        Whether only essential base parameters may explain torque.
+    """
+
+    filter: FilterOptions = FilterOptions()
+    estimate: EstimateOptions = EstimateOptions()
+    validation: HoldOut = HoldOut()
+    bootstrap: BootstrapOptions = BootstrapOptions()
+    terms: tuple[str, ...] | None = None
+    smooth_coulomb: bool = False
+    essential: bool = False
+    given: Mapping[str, object] = field(default_factory=dict)
+
+
+def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
+    """Read options from plain data.
+
+    Raises
+    ------
+    OptionError
+        If an option is not known, has the wrong type, or makes no sense.
+
+    Examples
+    --------
+    >>> parse_options({"filter": {"cutoff_hz": 10}}).filter.cutoff_hz
+    10.0
+    >>> parse_options({"fliter": {}})
+    Traceback (most recent call last):
+    core.errors.OptionError: an option is not known (unknown: ['fliter'], known: ['bootstrap', 'bounds', 'essential', \
+'estimator', 'filter', 'prior', 'robust', 'smooth_coulomb', 'solver', 'terms', 'validation']); use the known options only
+    """
+    reader = _Reader("", dict(options or {}))
+    parsed = IdentifyOptions(
+        filter=_filter(reader.section("filter")),
+        estimate=_estimate(reader),
+        validation=_validation(reader.section("validation")),
+        bootstrap=_bootstrap(reader.section("bootstrap")),
+        terms=_terms(reader),
+        smooth_coulomb=reader.flag("smooth_coulomb", default=False),
+        essential=reader.flag("essential", default=False),
+        given=dict(options or {}),
+    )
+    reader.done()
+    return parsed
+
+
+class _Reader:
+    """Take known entries out of a mapping and refuse the rest."""
+
+    def __init__(self, path: str, values: dict[str, object]) -> None:
+        self.path = path
+        self.values = values
+        self.known: list[str] = []
+
+    def take(self, name: str) -> object:
+        self.known.append(name)
+        return self.values.pop(name, None)
+
+    def section(self, name: str) -> "_Reader":
+        value = self.take(name)
+        if value is not None and not isinstance(value, Mapping):
+            raise self.wrong(name, value, "an object")
+        return _Reader(f"{self.path}/{name}", dict(cast("Mapping[str, object]", value or {})))
+
+    def number(self, name: str, default: float) -> float:
+        value = self.optional(name)
+        return default if value is None else value
+
+    def optional(self, name: str) -> float | None:
+        value = self.take(name)
+        if value is None:
+            return None
+        if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e12:
+            raise self.wrong(name, value, "a finite number")
+        return float(value)
+
+    def whole(self, name: str, default: int) -> int:
+        value = self.optional_whole(name)
+        return default if value is None else value
+
+    def optional_whole(self, name: str) -> int | None:
+        value = self.take(name)
+        if value is not None and (isinstance(value, bool) or not isinstance(value, int)):
+            raise self.wrong(name, value, "a whole number")
+        return value
+
+    def flag(self, name: str, *, default: bool) -> bool:
+        value = self.take(name)
+        if value is not None and not isinstance(value, bool):
+            raise self.wrong(name, value, "true or false")
+        return default if value is None else value
+
+    def text(self, name: str, default: str) -> str:
+        value = self.take(name)
+        if value is not None and not isinstance(value, str):
+            raise self.wrong(name, value, "a text")
+        return default if value is None else value
+
+    def done(self) -> None:
+        if self.values:
+            raise OptionError(
+                "an option is not known",
+                evidence={"unknown": [f"{self.path}/{name}".lstrip("/") for name in sorted(self.values)], "known": sorted(self.known)},
+                remedy="use the known options only",
+            )
+
+    def wrong(self, name: str, value: object, wanted: str) -> OptionError:
+        return OptionError(
+            f"the option {self.path}/{name} is not {wanted}".replace("option /", "option "),
+            evidence={"pointer": f"/options{self.path}/{name}", "value": repr(value)[:100]},
+            remedy=f"give {wanted}",
+        )
+
+
+def _filter(reader: _Reader) -> FilterOptions:
+    parsed = FilterOptions(
+        median_order=reader.whole("median_order", 5),
+        cutoff_hz=reader.optional("cutoff_hz"),
+        position_cutoff_hz=reader.optional("position_cutoff_hz"),
+        order=reader.whole("order", 5),
+        decimation=reader.optional_whole("decimation"),
+    )
+    reader.done()
+    return parsed
+
+
+def _estimate(reader: _Reader) -> EstimateOptions:
+    prior = reader.section("prior")
+    bounds = _bounds(reader.section("bounds"))
+    parsed = EstimateOptions(
+        estimator=cast("Estimator", reader.text("estimator", "sdp")),
+        solver=reader.text("solver", "clarabel"),
+        robust=reader.flag("robust", default=False),
+        pull=prior.number("pull", PULL),
+        entropy=prior.number("entropy", 0.0),
+        bounds=bounds,
+    )
+    prior.done()
+    return parsed
+
+
+def _bounds(reader: _Reader) -> Bounds:
+    mass = tuple((int(link), low, high) for link, low, high in _rows(reader, "mass", 3))
+    total = _rows(reader, "total_mass", 0)
+    boxes = [CentreBox(int(row[0]), _three(row[1:4]), _three(row[4:7])) for row in _rows(reader, "centre_box", 7)]
+    balls = [CentreEllipsoid(int(row[0]), _three(row[1:4]), _three(row[4:7])) for row in _rows(reader, "centre_ellipsoid", 7)]
+    parsed = Bounds(
+        mass=mass,
+        total_mass=(total[0][0], total[0][1]) if total else None,
+        centres=(*boxes, *balls),
+        margin=reader.number("margin", Bounds().margin),
+    )
+    reader.done()
+    return parsed
+
+
+def _rows(reader: _Reader, name: str, width: int) -> list[list[float]]:
+    """Read a list of rows of numbers; width 0 stands for one pair."""
+    value = reader.take(name)
+    if value is None:
+        return []
+    rows = [value] if width == 0 else value
+    wide = width or 2
+    good = isinstance(rows, list) and all(
+        isinstance(row, list)
+        and len(row) == wide
+        and all(isinstance(one, int | float) and not isinstance(one, bool) for one in row)
+        for row in rows
+    )
+    if not good:
+        raise reader.wrong(name, value, f"{'a list of rows' if width else 'a pair'} of {wide} numbers")
+    return [[float(one) for one in row] for row in cast("list[list[float]]", rows)]
+
+
+def _three(values: list[float]) -> tuple[float, float, float]:
+    return values[0], values[1], values[2]
+
+
+def _validation(reader: _Reader) -> HoldOut:
+    logs = reader.take("logs")
+    if logs is not None and not (isinstance(logs, list) and all(type(one) is int for one in logs)):
+        raise reader.wrong("logs", logs, "a list of log numbers, counted from 1")
+    parsed = HoldOut(
+        fraction=reader.number("fraction", 0.2),
+        blocks=reader.whole("blocks", 20),
+        logs=tuple(cast("list[int]", logs or [])),
+    )
+    reader.done()
+    return parsed
+
+
+def _bootstrap(reader: _Reader) -> BootstrapOptions:
+    parsed = BootstrapOptions(reader.whole("draws", 100), reader.whole("seed", 0))
+    reader.done()
+    if not 0 <= parsed.draws <= 2000 or not 0 <= parsed.seed < 2**32:
+        raise OptionError(
+            "the bootstrap options make no sense",
+            evidence={"draws": parsed.draws, "seed": parsed.seed},
+            remedy="ask for 0 to 2000 draws and a seed from 0 to 4294967295",
+        )
+    return parsed
+
+
+def _terms(reader: _Reader) -> tuple[str, ...] | None:
+    value = reader.take("terms")
+    if value is None:
+        return None
+    unknown = [one for one in value if one not in STANDARD_TERMS] if isinstance(value, list) else [value]
+    if unknown or not value:
+        raise OptionError(
+            "a torque term is not known",
+            evidence={"unknown": [str(one)[:50] for one in unknown[:10]], "known": sorted(STANDARD_TERMS)},
+            remedy="give a list of known terms",
+        )
+    return tuple(cast("list[str]", value))

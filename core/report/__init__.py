@@ -1,0 +1,1 @@
+"""Compose the reader's page: in come all chapters' results, out goes the result document; the only place that formats numbers."""

@@ -1,0 +1,196 @@
+"""Tell the whole story on one page: from logs to a robot that can exist, and how far it is to be believed.
+
+This is the only module that meets every chapter; each step takes what the step before gave.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+
+import numpy as np
+
+from core.dynamics.model import DynamicModel, standard_model
+from core.errors import LogError, VeritorqueError
+from core.estimate.constraints import default_prior
+from core.estimate.estimate import estimate
+from core.estimate.feasibility import active_constraints, feasibility
+from core.estimate.robust import ROUNDS, huber_weights
+from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
+from core.estimate.system import System, ordinary, stacked, weighted
+from core.log.model import JointLog
+from core.options import IdentifyOptions, parse_options
+from core.precision.bootstrap import bootstrap
+from core.precision.covariance import assess
+from core.precision.essential import essential_parameters
+from core.reduction.base import base_model
+from core.regressor.columns import ColumnPlan
+from core.regressor.observe import BlockKey, Observation, Weigh, observe, torque_scales
+from core.report.document import Identification, grouping_row, identification_document
+from core.report.numbers import plain
+from core.robot.model import RobotModel
+from core.signals.condition import Motion, condition
+from core.validation.excitation import excitation
+from core.validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
+from core.validation.scores import scores, total_percent
+
+Progress = Callable[[str, float], None]
+
+__all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full", "parse_options"]
+
+
+@dataclass(frozen=True, eq=False)
+class IdentifyRequest:
+    """Ask for an identification: a robot, its logs, and options as plain data (see `core.options`)."""
+
+    robot: RobotModel
+    logs: tuple[JointLog, ...]
+    options: Mapping[str, object] = field(default_factory=dict)
+
+
+def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
+    """Identify a robot and give the result document.
+
+    Parameters
+    ----------
+    progress
+        Called with the stage's name and the fraction of the whole that is done.
+
+    Raises
+    ------
+    VeritorqueError
+        Whatever stands in the way, with cause, evidence and remedy.
+    """
+    found = identify_in_full(request, progress)
+    return identification_document(found, version=_version(), options=parse_options(request.options).given)
+
+
+def identify_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Identification:
+    """Identify a robot and give every chapter's result."""
+    tell = progress or (lambda stage, fraction: None)
+    options = parse_options(request.options)
+    if not request.logs:
+        raise LogError("there is no log to identify from", evidence={"logs": 0}, remedy="name at least one log")
+    tell("condition", 0.02)
+    motions = _condition(request, options)
+    held_out = options.validation.chosen(len(motions))
+    model = standard_model(request.robot, options.terms)
+    if options.smooth_coulomb:
+        model = _smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
+    base = base_model(model)
+    plan = ColumnPlan(model, base.kept)
+    look = _Look(plan, motions, held_out)
+    observation = look.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
+    tell("estimate", 0.6)
+    observation, system = _system(look, observation, options)
+    prior = default_prior(model, torque_scales(observation))
+    answer = estimate(base, system, prior, options.estimate)
+    tell("assess", 0.7)
+    precision = assess(system, observation.memory, observation.columns_of, answer.base)
+    essential = essential_parameters(system, precision)
+    if options.essential:
+        answer = estimate(base, system, prior, options.estimate, essential=essential.kept)
+    fitted, held = look.parts(observation)
+    draws = bootstrap(
+        system,
+        tuple(observation.blocks[index] for index in fitted),
+        observation.columns_of,
+        lambda drawn: estimate(base, drawn, prior, options.estimate, essential=essential.kept if options.essential else None).base,
+        draws=options.bootstrap.draws,
+        seed=options.bootstrap.seed,
+    )
+    tell("validate", 0.9)
+    return Identification(
+        logs=request.logs,
+        motions=motions,
+        base=base,
+        observation=observation,
+        estimate=answer,
+        precision=precision,
+        essential=essential,
+        draws=draws,
+        fit=scores(observation, fitted, answer.base),
+        fit_total_percent=total_percent(observation, fitted, answer.base),
+        validation=scores(observation, held, answer.base) if held else (),
+        validation_total_percent=total_percent(observation, held, answer.base) if held else 0.0,
+        excitation=excitation(system.triangle),
+        unconstrained_feasibility=feasibility(base, answer.unconstrained, prior),
+        estimate_feasibility=feasibility(base, answer.base, prior),
+        pseudo_inertia_eigenvalues=pseudo_inertia_eigenvalues(model, answer.standard),
+        active_constraints=active_constraints(model, answer.standard, prior, options.estimate.bounds),
+        trajectory=check_mass_matrix(model, answer.standard, observation.positions),
+        workspace=check_mass_matrix(model, answer.standard, workspace(request.robot)),
+        widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]
+        seed=options.bootstrap.seed,
+    )
+
+
+def base_parameters(robot: RobotModel) -> dict[str, object]:
+    """Give the base parameters that a robot's structure allows, with their groupings."""
+    base = base_model(standard_model(robot))
+    rows = [grouping_row(base, row) for row in range(len(base.kept))]
+    counts = {"standard": len(base.model.parameters), "base": len(base.kept)}
+    without = [base.model.parameters[column].name for column in base.without_effect]
+    document = {"counts": counts, "base_parameters": rows, "without_effect": without}
+    return {key: plain(value) for key, value in document.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class _Look:
+    """Hold what every pass over the data needs."""
+
+    plan: ColumnPlan
+    motions: tuple[Motion, ...]
+    held_out: frozenset[BlockKey]
+
+    def observed(self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None) -> Observation:
+        return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
+
+    def parts(self, observation: Observation) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Give the places of the fitted and of the held-out blocks."""
+        held = [(block.log, block.number) in self.held_out for block in observation.blocks]
+        places = range(len(held))
+        return tuple(place for place in places if not held[place]), tuple(place for place in places if held[place])
+
+
+def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Motion, ...]:
+    motions = []
+    for log in request.logs:
+        try:
+            motions.append(condition(log, request.robot, options.filter, blocks=options.validation.blocks))
+        except VeritorqueError as error:
+            error.evidence.setdefault("log", log.name)
+            raise
+    return tuple(motions)
+
+
+def _smoothed(
+    model: DynamicModel, motions: tuple[Motion, ...], held_out: frozenset[BlockKey], progress: Callable[[float], None]
+) -> DynamicModel:
+    speed = 100.0 * np.max([motion.recipe.still_speed for motion in motions], axis=0)
+    wide = with_candidates(model, speed)
+    look = _Look(scan_plan(wide, base_model(model).kept), motions, held_out)
+    observation = look.observed(progress)
+    return chosen_widths(observation, model, speed, look.parts(observation)[0])
+
+
+def _system(look: _Look, observation: Observation, options: IdentifyOptions) -> tuple[Observation, System]:
+    size = len(look.plan.columns)
+    factors = observation.joint_factors(look.parts(observation)[0])
+    if options.estimate.estimator == "ols":
+        return observation, ordinary(factors, observation.columns_of, size)
+    system = weighted(factors, observation.columns_of, size)
+    if options.estimate.estimator != "irls" and not options.estimate.robust:
+        return observation, system
+    for _ in range(ROUNDS):
+        weigh = huber_weights(system.solved(), observation.columns_of, system.noise)
+        observation = look.observed(weigh=weigh)
+        factors = observation.joint_factors(look.parts(observation)[0])
+        system = stacked(factors, observation.columns_of, size, system.noise)
+    return observation, system
+
+
+def _version() -> str:
+    try:
+        return version("veritorque")
+    except PackageNotFoundError:
+        return "0.1.0"
