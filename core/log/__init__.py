@@ -1,1 +1,4 @@
-"""Hold what was measured: in comes a file and a mapping of its columns, out goes a `JointLog` in SI with its defects listed."""
+"""Hold what was measured.
+
+In comes a file and a mapping, out goes a `JointLog` in SI with its defects listed.
+"""

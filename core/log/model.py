@@ -1,7 +1,7 @@
-"""Hold a robot's log in SI, readable piece by piece, so that its length never decides how much memory a study needs.
+"""Hold a robot's log in SI, read piece by piece, so that its length never decides the memory a study needs.
 
-A `JointLog` is what was measured plus what is known to be wrong with it; the samples stay in a `LogSource` (arrays in memory
-or a file on disk) and are read in rows from start to stop.
+A `JointLog` is what was measured plus what is known to be wrong with it; the samples stay in a `LogSource`
+(arrays in memory or a file on disk) and are read in rows from start to stop.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,8 @@ class Defect:
     Attributes
     ----------
     kind
-        ``gap, jitter, repeated_rows, outliers, saturation, quantisation, standstill, short, slow_rate, missing_values`` ...
+        ``gap, jitter, repeated_rows, outliers, saturation, quantisation, standstill, short, slow_rate,
+        implausible_unit, missing_torque``.
     channel
         ``time, position, torque`` ...
     joint
@@ -27,7 +28,8 @@ class Defect:
     count
         How many samples it touches.
     intervals
-        Where it is: at most twenty (start, end) pairs in s.
+        Where it is: the twenty longest (start, end) pairs in s, in the order of time; empty where it is
+        everywhere.
     statement
         One sentence with numbers and units.
     """
@@ -42,7 +44,10 @@ class Defect:
 
 @dataclass(frozen=True, eq=False)
 class LogRows:
-    """Carry a stretch of samples: time in s, position in rad or m, velocity per s, torque in N m or N, current in A."""
+    """Carry a stretch of samples in SI.
+
+    Time in s, position in rad or m, velocity per s, torque in N m or N, current in A, temperature in degC.
+    """
 
     time: Samples
     position: JointSeries
@@ -133,7 +138,10 @@ def whole_rows(log: JointLog) -> LogRows:
 
 
 def repeated(rows: LogRows) -> np.ndarray:
-    """Mark the rows whose positions (and torques, where logged) repeat the row before exactly, as when a sample was dropped."""
+    """Mark the rows whose positions (and torques, where logged) repeat the row before.
+
+    As for a dropped sample.
+    """
     measured = rows.position if rows.torque is None else np.hstack([rows.position, rows.torque])
     same = np.zeros(len(measured), dtype=bool)
     same[1:] = np.all(measured[1:] == measured[:-1], axis=1)

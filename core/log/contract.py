@@ -1,0 +1,158 @@
+"""Refuse samples that no study can use: not finite, out of order, too few, or without any motion or torque.
+
+All of it is counted in the one pass over the log, so that an error tells how much is wrong and where it
+starts.
+"""
+
+import numpy as np
+
+from core.arrays import JointVector, Samples, Series
+from core.errors import LogError
+from core.log.defects.stretch import Stretch
+from core.log.layout import Layout
+
+FEWEST_ROWS = 100
+SHORTEST_SECONDS = 1.0
+LARGEST = 1e15
+FIRST_ROWS = 5
+
+
+def check_length(rows: int) -> None:
+    """Refuse a log of too few rows.
+
+    Raises
+    ------
+    LogError
+        If there are fewer than `FEWEST_ROWS`.
+    """
+    if rows < FEWEST_ROWS:
+        cause = {0: "the log holds no rows", 1: "the log holds one row only"}.get(
+            rows, "the log is too short to study"
+        )
+        raise LogError(
+            cause,
+            evidence={"rows": rows, "at_least": FEWEST_ROWS},
+            remedy="log at least 1 s of motion, better 10 s or more",
+        )
+
+
+class Contract:
+    """Follow the extremes of every channel and the order of the stamps.
+
+    Attributes
+    ----------
+    low, high
+        Smallest and largest value by channel and joint.
+    """
+
+    def __init__(self, layout: Layout) -> None:
+        self._layout = layout
+        self._columns = {channel.name: channel.columns for channel in layout.channels}
+        self._bad: dict[str, tuple[int, list[int]]] = {}
+        self._backwards = self._duplicates = 0
+        self._first_disorder: tuple[int, float, float] | None = None
+        self.low: dict[str, JointVector] = {}
+        self.high: dict[str, JointVector] = {}
+        self.start = self.stop = np.nan
+
+    def accepts(self, stretch: Stretch) -> bool:
+        """Take the next stretch into account; False once anything was found that must be refused."""
+        self._order(stretch)
+        for name, values in stretch.channels().items():
+            self._extremes(name, values, stretch.first + stretch.context)
+        return not (self._bad or self._backwards or self._duplicates)
+
+    def _extremes(self, name: str, values: Series, first: int) -> None:
+        low, high = values.min(axis=1), values.max(axis=1)
+        usable = (low > -LARGEST) & (high < LARGEST)
+        for joint in np.flatnonzero(~usable):
+            self._count(self._columns[name][joint], ~(np.abs(values[joint]) < LARGEST), first)
+        self.low[name] = np.fmin(self.low.get(name, low), low)
+        self.high[name] = np.fmax(self.high.get(name, high), high)
+
+    def _order(self, stretch: Stretch) -> None:
+        time = stretch.time[stretch.seam :]
+        if not np.isfinite(time).all():
+            new = stretch.time[stretch.context :]
+            self._count(self._time_name, ~np.isfinite(new), stretch.first + stretch.context)
+            return
+        self.start = float(time[0]) if np.isnan(self.start) else self.start
+        self.stop = float(time[-1])
+        disorder = np.flatnonzero(time[1:] <= time[:-1])
+        if len(disorder):
+            self._duplicates += int(np.count_nonzero(time[1:] == time[:-1]))
+            self._backwards += int(np.count_nonzero(time[1:] < time[:-1]))
+            at = int(disorder[0])
+            row = stretch.first + stretch.seam + at + 2
+            self._first_disorder = self._first_disorder or (row, float(time[at]), float(time[at + 1]))
+
+    @property
+    def _time_name(self) -> str:
+        return self._layout.time.columns[0] if self._layout.time else "time"
+
+    def _count(self, column: str, bad: Samples, first: int) -> None:
+        count, rows = self._bad.get(column, (0, []))
+        rows = [*rows, *(int(row) + first + 1 for row in np.flatnonzero(bad)[:FIRST_ROWS])][:FIRST_ROWS]
+        self._bad[column] = count + int(np.count_nonzero(bad)), rows
+
+    def check(self) -> None:
+        """Refuse the log if it must be.
+
+        Raises
+        ------
+        LogError
+            With what was counted; rows count from 1, the header is none.
+        """
+        self._check_finite()
+        self._check_order()
+        if self.stop - self.start < SHORTEST_SECONDS:
+            raise LogError(
+                "the log is too short to study",
+                evidence={"duration_s": self.stop - self.start, "at_least_s": SHORTEST_SECONDS},
+                remedy="log at least 1 s of motion, better 10 s or more, and check the unit of time",
+            )
+        self._check_alive()
+
+    def _check_finite(self) -> None:
+        if self._bad:
+            raise LogError(
+                f"the column {next(iter(self._bad))!r} holds values missing, not finite or beyond any size",
+                evidence={
+                    "columns": {
+                        column: {"rows": count, "first_rows": rows}
+                        for column, (count, rows) in self._bad.items()
+                    }
+                },
+                remedy="cut these rows out or repair them; a channel not needed can be mapped to null",
+            )
+
+    def _check_order(self) -> None:
+        if self._first_disorder is None:
+            return
+        row, before, after = self._first_disorder
+        cause = "time goes backwards" if self._backwards else "time stands still: stamps occur twice"
+        raise LogError(
+            cause,
+            evidence={
+                "backward_steps": self._backwards,
+                "duplicate_stamps": self._duplicates,
+                "first_row": row,
+                "stamps_s": [before, after],
+            },
+            remedy="sort the rows by time and keep one row per stamp",
+        )
+
+    def _check_alive(self) -> None:
+        if not np.any(self.high["position"] > self.low["position"]):
+            raise LogError(
+                "no joint ever moves: every position is constant",
+                evidence={"positions": [float(value) for value in self.low["position"]]},
+                remedy="log a motion that moves every joint",
+            )
+        for channel in ("torque", "current"):
+            if channel in self.low and not np.any(self.low[channel]) and not np.any(self.high[channel]):
+                raise LogError(
+                    f"the {channel} is zero throughout on every joint",
+                    evidence={"columns": list(self._columns[channel])},
+                    remedy=f'log the measured {channel}, or leave it out by "{channel}": null in the mapping',
+                )

@@ -1,0 +1,64 @@
+"""Tell when the motion is too quick for the rate at which it was sampled.
+
+Derivatives by differences need about ten samples per period of the motion. The velocity's spectrum, averaged
+over windows of the log, says up to which frequency the motion reaches.
+"""
+
+import numpy as np
+
+from core.arrays import Series
+from core.log.defects.stretch import Facts, Stretch
+from core.log.model import Defect
+
+LONGEST_WINDOW = 4096
+SHORTEST_WINDOW = 32
+WINDOWS_PER_STRETCH = 2
+POWER_SHARE = 0.95
+FEWEST_SAMPLES_PER_PERIOD = 10.0
+SMALLEST_INCREMENT = 0.01
+"""Root mean square increment as a share of the range: below this, quick motion is noise and not motion."""
+
+
+class Bandwidth:
+    """Average the spectrum of the position increments."""
+
+    def __init__(self, joints: int) -> None:
+        self._window = 0
+        self._power: Series = np.zeros((joints, 0))
+        self._squares = np.zeros(joints)
+        self._increments = 0
+
+    def see(self, stretch: Stretch) -> None:
+        """Take the next stretch into account."""
+        increments = np.diff(stretch.position[:, stretch.seam :], axis=1)
+        if not self._window:
+            self._window = 1 << int(np.log2(min(increments.shape[1], LONGEST_WINDOW)))
+            self._power = np.zeros((len(increments), self._window // 2 + 1))
+        windows = min(increments.shape[1] // self._window, WINDOWS_PER_STRETCH)
+        for index in range(windows):
+            part = increments[:, index * self._window : (index + 1) * self._window]
+            spectrum = np.fft.rfft(part * np.hanning(self._window), axis=1)
+            self._power += spectrum.real**2 + spectrum.imag**2
+            self._squares += np.einsum("ij,ij->i", part, part)
+            self._increments += self._window
+
+    def defects(self, facts: Facts) -> list[Defect]:
+        """State the joints whose motion is sampled too slowly."""
+        if self._window < SHORTEST_WINDOW:
+            return []
+        frequencies = np.fft.rfftfreq(self._window)
+        quick = np.sqrt(self._squares / self._increments) > SMALLEST_INCREMENT * facts.span("position")
+        found = []
+        for joint in map(int, np.flatnonzero(quick & (self._power.sum(axis=1) > 0.0))):
+            if not facts.travels(joint):
+                continue
+            share = np.cumsum(self._power[joint]) / self._power[joint].sum()
+            edge = float(frequencies[int(np.searchsorted(share, POWER_SHARE))])
+            if edge * FEWEST_SAMPLES_PER_PERIOD > 1.0:
+                statement = (
+                    f"{100.0 * POWER_SHARE:g} % of the power of joint {joint + 1}'s velocity lies below "
+                    f"{edge / facts.step:.3g} Hz, which a rate of {1.0 / facts.step:.4g} Hz samples only "
+                    f"{1.0 / edge:.2g} times per period; derivatives need some {FEWEST_SAMPLES_PER_PERIOD:g}."
+                )
+                found.append(Defect("slow_rate", "position", joint + 1, facts.samples, (), statement))
+        return found

@@ -1,0 +1,108 @@
+"""Pass over a log once: refuse what cannot be used, and collect everything else that is wrong with it.
+
+The contract looks first; the finders see only samples that it accepts, hence none of them meets a value that
+is not finite.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import JointVector
+from core.log.contract import Contract, check_length
+from core.log.defects.bandwidth import Bandwidth
+from core.log.defects.clock import Clock
+from core.log.defects.plausibility import plausibility_defects
+from core.log.defects.repeats import Repeats
+from core.log.defects.resolution import Resolution
+from core.log.defects.rest import Rest
+from core.log.defects.saturation import Saturation
+from core.log.defects.spikes import Spikes
+from core.log.defects.stretch import Facts, Finder, Stretch, stretches
+from core.log.layout import Layout
+from core.log.model import Defect, LogSource
+
+
+@dataclass(frozen=True)
+class Examination:
+    """Carry what one pass over a log found; see `JointLog` for the fields."""
+
+    rate_hz: float
+    duration: float
+    segments: tuple[tuple[int, int], ...]
+    defects: tuple[Defect, ...]
+
+
+def examine(source: LogSource, layout: Layout) -> Examination:
+    """Read all samples once.
+
+    Parameters
+    ----------
+    source
+        The samples.
+    layout
+        Names the columns in errors.
+
+    Raises
+    ------
+    LogError
+        If the samples cannot be used.
+    """
+    samples, joints = source.samples, layout.joints
+    check_length(samples)
+    contract, clock, spread, resolution = Contract(layout), Clock(samples), _Spread(), Resolution(samples)
+    finders: list[Finder] = [
+        clock, Repeats(), Spikes(joints), Saturation(joints), resolution, Rest(samples), Bandwidth(joints),
+    ]  # fmt: skip
+    accepted = True
+    for stretch in stretches(source):
+        accepted = contract.accepts(stretch) and accepted
+        if accepted:
+            spread.see(stretch)
+            for finder in finders:
+                finder.see(stretch)
+    contract.check()
+    facts = Facts(
+        samples=samples,
+        start=contract.start,
+        duration=contract.stop - contract.start,
+        step=clock.step,
+        low=contract.low,
+        high=contract.high,
+        deviation=spread.deviation(),
+        position_lsb=resolution.lsb("position"),
+    )
+    found = [defect for finder in finders for defect in finder.defects(facts)]
+    return Examination(
+        rate_hz=1.0 / facts.step,
+        duration=facts.duration,
+        segments=clock.segments(),
+        defects=(*found, *plausibility_defects(facts)),
+    )
+
+
+class _Spread:
+    """Sum up the standard deviation of position and torque, about the first sample to keep digits."""
+
+    def __init__(self) -> None:
+        self._origin: dict[str, JointVector] = {}
+        self._sums: dict[str, JointVector] = {}
+        self._squares: dict[str, JointVector] = {}
+        self._rows = 0
+
+    def see(self, stretch: Stretch) -> None:
+        channels = stretch.channels()
+        self._rows += channels["position"].shape[1]
+        for name in ("position", "torque"):
+            if name in channels:
+                origin = self._origin.setdefault(name, channels[name][:, 0].copy())
+                centred = channels[name] - origin[:, None]
+                self._sums[name] = self._sums.get(name, np.zeros(len(origin))) + centred.sum(axis=1)
+                self._squares[name] = self._squares.get(name, 0.0) + np.einsum("ij,ij->i", centred, centred)
+
+    def deviation(self) -> dict[str, JointVector]:
+        means = {name: total / self._rows for name, total in self._sums.items()}
+        return {
+            name: np.sqrt(np.maximum(squares / self._rows - means[name] ** 2, 0.0))
+            for name, squares in self._squares.items()
+        }

@@ -1,0 +1,82 @@
+"""Find the grid that a signal lies on, and tell when the grid is coarse against what the signal does.
+
+On a grid every increment is a whole number of steps; the smallest increment is then the step. Velocity
+inherits the step divided by the sample time, which is why a fast log of a coarse encoder needs filtering.
+"""
+
+import numpy as np
+
+from core.arrays import JointVector, Samples, Series
+from core.log.defects.stretch import Facts, Stretch, sampled_share
+from core.log.model import Defect
+
+SAMPLED_ROWS = 20_000
+SMALL_STEPS = 20
+"""Increments of up to this many steps show the grid; larger ones lose it in rounding."""
+
+FEWEST_INCREMENTS = 50
+ON_GRID = 0.98
+COARSE_POSITION_STEPS = 3.0
+COARSE_TORQUE_SHARE = 0.05
+
+
+class Resolution:
+    """Keep a bounded sample of the increments of position and torque."""
+
+    def __init__(self, samples: int) -> None:
+        self._share = sampled_share(samples, SAMPLED_ROWS)
+        self._increments: dict[str, list[Series]] = {"position": [], "torque": []}
+
+    def see(self, stretch: Stretch) -> None:
+        """Take the next stretch into account."""
+        rows = max(int(self._share * stretch.position.shape[1]), 2)
+        for channel, values in (("position", stretch.position), ("torque", stretch.torque)):
+            if values is not None:
+                self._increments[channel].append(np.abs(np.diff(values[:, :rows], axis=1)))
+
+    def lsb(self, channel: str) -> JointVector:
+        """Give each joint's grid step, 0 where the signal lies on none that shows."""
+        return np.array([_grid_step(row)[0] for row in np.hstack(self._increments[channel])])
+
+    def defects(self, facts: Facts) -> list[Defect]:
+        """State where the grid is coarse."""
+        found = []
+        for channel, kept in self._increments.items():
+            for joint, row in enumerate(np.hstack(kept) if kept else ()):
+                step, typical = _grid_step(row)
+                if step == 0.0:
+                    continue
+                deviation = float(facts.deviation[channel][joint])
+                coarse = typical <= COARSE_POSITION_STEPS * step and facts.travels(joint)
+                if channel == "torque":
+                    coarse = step > COARSE_TORQUE_SHARE * deviation
+                if coarse:
+                    statement = _statement(channel, joint + 1, step, (typical, deviation, facts.step))
+                    found.append(Defect("quantisation", channel, joint + 1, facts.samples, (), statement))
+        return found
+
+
+def _grid_step(increments: Samples) -> tuple[float, float]:
+    """Give the grid step (0 if there is none) and the median of the increments that are not zero."""
+    moved = increments[increments > 0.0]
+    if len(moved) < FEWEST_INCREMENTS:
+        return 0.0, 0.0
+    smallest = float(moved.min())
+    ratios = moved[moved < SMALL_STEPS * smallest] / smallest
+    on_grid = np.abs(ratios - np.round(ratios)) < 0.1
+    if len(ratios) < FEWEST_INCREMENTS or np.mean(on_grid) < ON_GRID:
+        return 0.0, float(np.median(moved))
+    return smallest, float(np.median(moved))
+
+
+def _statement(channel: str, joint: int, step: float, context: tuple[float, float, float]) -> str:
+    typical, deviation, seconds = context
+    if channel == "torque":
+        return (
+            f"Joint {joint}'s torque comes in steps of {step:.3g} N m (lsb), {100.0 * step / deviation:.2g} % "
+            "of its standard deviation."
+        )
+    return (
+        f"Joint {joint}'s position comes in steps of {step:.3g} rad (lsb) and typically moves "
+        f"{typical / step:.2g} of them per sample; one step is {step / (2.0 * seconds):.3g} rad/s of centred velocity."
+    )

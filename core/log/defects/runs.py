@@ -1,0 +1,75 @@
+"""Collect where something holds, as runs of samples that may cross from one stretch into the next.
+
+A log can hold a million runs; the count and total are exact, and only the twenty longest are kept.
+"""
+
+import numpy as np
+
+from core.arrays import SampleMask, Samples
+
+KEPT = 20
+
+
+class Runs:
+    """Count runs of marked samples.
+
+    Parameters
+    ----------
+    shortest
+        Runs of fewer samples are passed over.
+
+    Examples
+    --------
+    >>> runs = Runs(shortest=2)
+    >>> runs.feed(np.array([True, True, False, True]), np.array([0.0, 0.1, 0.2, 0.3]))
+    >>> runs.close()
+    >>> runs.rows, runs.intervals
+    (2, ((0.0, 0.1),))
+    """
+
+    def __init__(self, shortest: int = 1) -> None:
+        self.shortest = shortest
+        self.rows = 0
+        self.seconds = 0.0
+        self._kept: list[tuple[float, float, int]] = []
+        self._open: tuple[float, float, int] | None = None
+
+    def feed(self, mask: SampleMask, time: Samples) -> None:
+        """Take the next samples; they follow on those fed before."""
+        if not mask.any():
+            self.close()
+            return
+        padded = np.zeros(len(mask) + 2, dtype=bool)
+        padded[1:-1] = mask
+        edges = np.flatnonzero(padded[1:] != padded[:-1])
+        starts, stops = edges[::2], edges[1::2]
+        begin, end, rows = time[starts], time[stops - 1], stops - starts
+        if self._open is not None and starts[0] == 0:
+            begin[0] = self._open[0]
+            rows[0] += self._open[2]
+            self._open = None
+        self.close()
+        if stops[-1] == len(mask):
+            self._open = float(begin[-1]), float(end[-1]), int(rows[-1])
+            begin, end, rows = begin[:-1], end[:-1], rows[:-1]
+        long = np.flatnonzero(rows >= self.shortest)
+        self.rows += int(rows[long].sum())
+        self.seconds += float((end[long] - begin[long]).sum())
+        longest = long[np.argsort(-rows[long], kind="stable")[:KEPT]]
+        self._keep([(float(begin[i]), float(end[i]), int(rows[i])) for i in longest])
+
+    def close(self) -> None:
+        """End the run that is still open."""
+        if self._open is not None and self._open[2] >= self.shortest:
+            self.rows += self._open[2]
+            self.seconds += self._open[1] - self._open[0]
+            self._keep([self._open])
+        self._open = None
+
+    def _keep(self, runs: list[tuple[float, float, int]]) -> None:
+        self._kept = sorted([*self._kept, *runs], key=lambda run: -run[2])[:KEPT]
+
+    @property
+    def intervals(self) -> tuple[tuple[float, float], ...]:
+        """Give (start, end) of the longest runs in s, in the order of time."""
+        return tuple(sorted((start, end) for start, end, _ in self._kept))

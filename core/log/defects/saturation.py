@@ -1,0 +1,94 @@
+"""Find torques that stop at a limit: many samples at exactly the largest value, few at the next.
+
+A smooth peak, even a coarsely quantised one, spends about as long on its second highest level as on its
+highest; a limited signal spends all the time at the limit that it would have spent above.
+"""
+
+import numpy as np
+
+from core.arrays import SampleMask, Samples
+from core.log.defects.runs import Runs
+from core.log.defects.stretch import Facts, Stretch
+from core.log.model import Defect
+
+SHORTEST_PLATEAU = 5
+FEWEST_ROWS = 10
+CROWDING = 5.0
+"""The limit must hold this many times more samples than the next level."""
+
+NEAR_LARGEST = 0.9
+"""A limit is as far from zero as the torque ever gets, apart from a small asymmetry; zero itself is none."""
+
+
+class _Limit:
+    """Follow the two highest levels of one signal and the plateaus on the highest."""
+
+    def __init__(self) -> None:
+        self.top = self.second = -np.inf
+        self.top_rows = self.second_rows = self.moving_rows = 0
+        self.runs = Runs(SHORTEST_PLATEAU)
+
+    def see(self, values: Samples, moves: SampleMask, time: Samples) -> None:
+        highest = float(values.max())
+        if highest < self.second:
+            self.runs.close()
+            return
+        if highest > self.top:
+            self.second, self.second_rows = self.top, self.top_rows
+            self.top, self.top_rows, self.moving_rows = highest, 0, 0
+            self.runs = Runs(SHORTEST_PLATEAU)
+        at_top = values == self.top
+        self.top_rows += int(np.count_nonzero(at_top))
+        self.moving_rows += int(np.count_nonzero(at_top & moves))
+        self.runs.feed(at_top, time)
+        self._second(values[~at_top])
+
+    def _second(self, values: Samples) -> None:
+        level = float(values.max(initial=-np.inf))
+        if level > self.second:
+            self.second, self.second_rows = level, 0
+        if level == self.second and len(values):
+            self.second_rows += int(np.count_nonzero(values == level))
+
+    def holds(self) -> bool:
+        self.runs.close()
+        crowded = self.top_rows > CROWDING * max(self.second_rows, 1)
+        return crowded and self.runs.rows >= FEWEST_ROWS and self.moving_rows > 0.1 * self.top_rows
+
+
+class Saturation:
+    """Look for limits at both ends of every joint's torque."""
+
+    def __init__(self, joints: int) -> None:
+        self._limits = [(_Limit(), _Limit()) for _ in range(joints)]
+
+    def see(self, stretch: Stretch) -> None:
+        """Take the next stretch into account."""
+        if stretch.torque is None:
+            return
+        new = slice(stretch.context, None)
+        for (above, below), torque, position in zip(
+            self._limits, stretch.torque, stretch.position, strict=True
+        ):
+            moves = np.ones(len(position), dtype=bool)
+            moves[1:] = position[1:] != position[:-1]
+            above.see(torque[new], moves[new], stretch.time[new])
+            below.see(-torque[new], moves[new], stretch.time[new])
+
+    def defects(self, facts: Facts) -> list[Defect]:
+        """State the limits that hold."""
+        found = []
+        for joint, pair in enumerate(self._limits):
+            far = NEAR_LARGEST * max(limit.top for limit in pair)
+            for sign, limit in zip((1.0, -1.0), pair, strict=True):
+                if limit.top < far or not limit.holds():
+                    continue
+                statement = (
+                    f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} N m for "
+                    f"{limit.runs.rows} of {facts.samples} samples, as a limited drive or a clipped signal does."
+                )
+                defect = Defect(
+                    "saturation", "torque", joint + 1, limit.runs.rows, limit.runs.intervals, statement
+                )
+                found.append(defect)
+        return found

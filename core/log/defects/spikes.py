@@ -1,0 +1,93 @@
+"""Find single samples that jump out of their neighbours, by their distance from a median of five.
+
+A median of five follows steps and slopes but not a spike of one or two samples, so the distance is noise
+where there is none. The scale is local, because a resting arm is quieter than a moving one.
+"""
+
+import numpy as np
+
+from core.arrays import Samples, Series, Vector
+from core.log.defects.runs import Runs
+from core.log.defects.stretch import Facts, Stretch, counted
+from core.log.model import Defect
+
+SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05}
+"""Smaller jumps, as a share of the channel's range, are noise to everything that follows."""
+
+NOISE_FACTOR = 20.0
+INCREMENT_FACTOR = 4.0
+RESOLUTION_FACTOR = 3.0
+
+
+class Spikes:
+    """Count the samples that stand apart in position and torque."""
+
+    def __init__(self, joints: int) -> None:
+        self._runs = {channel: [Runs() for _ in range(joints)] for channel in SMALLEST_SHARE}
+        self._largest = {channel: np.zeros(joints) for channel in SMALLEST_SHARE}
+
+    def see(self, stretch: Stretch) -> None:
+        """Take the next stretch into account: all samples that have two neighbours on either side by now."""
+        for channel, values in (("position", stretch.position), ("torque", stretch.torque)):
+            if values is None or values.shape[1] < 5:
+                continue
+            distance = np.abs(values[:, 2:-2] - median_of_five(values))
+            limits = _limits(values, distance, SMALLEST_SHARE[channel])
+            for joint in np.flatnonzero(distance.max(axis=1) > limits):
+                self._note(channel, int(joint), distance[joint], limits[joint], stretch.time[2:-2])
+
+    def _note(self, channel: str, joint: int, distance: Samples, limit: float, time: Samples) -> None:
+        runs = self._runs[channel][joint]
+        runs.feed(distance > limit, time)
+        runs.close()
+        self._largest[channel][joint] = max(self._largest[channel][joint], float(distance.max()))
+
+    def defects(self, facts: Facts) -> list[Defect]:
+        """State the spikes, channel by channel and joint by joint."""
+        found = []
+        for channel, all_runs in self._runs.items():
+            unit = "rad" if channel == "position" else "N m"
+            for joint, runs in enumerate(all_runs):
+                if runs.rows:
+                    largest, span = self._largest[channel][joint], facts.span(channel)[joint]
+                    statement = (
+                        f"Joint {joint + 1}'s {channel} stands apart from its neighbours in "
+                        f"{counted(runs.rows, 'sample')}, by up to {largest:.3g} {unit} "
+                        f"({100.0 * largest / span:.3g} % of its range)."
+                    )
+                    found.append(Defect("outliers", channel, joint + 1, runs.rows, runs.intervals, statement))
+        return found
+
+
+def median_of_five(values: Series) -> Series:
+    """Take the median of every sample and its two neighbours on either side, row by row.
+
+    Ten minima and maxima do it without sorting: the second smallest and second largest of four, then the
+    median of three.
+
+    Examples
+    --------
+    >>> median_of_five(np.array([[0.0, 1.0, 90.0, 3.0, 4.0, 5.0]]))
+    array([[3., 4.]])
+    """
+    a, b, c, d, e = (values[:, k : values.shape[1] - 4 + k] for k in range(5))
+    low = np.maximum(np.minimum(a, b), np.minimum(c, d))
+    high = np.minimum(np.maximum(a, b), np.maximum(c, d))
+    median: Series = np.maximum(np.minimum(low, high), np.minimum(np.maximum(low, high), e))
+    return median
+
+
+def _limits(values: Series, distance: Series, smallest_share: float) -> Vector:
+    """Decide how far is apart.
+
+    Many times the noise, several increments and resolution steps, and enough to matter.
+    """
+    increments = np.abs(np.diff(values, axis=1))
+    limits: Vector = np.maximum(
+        NOISE_FACTOR * distance.mean(axis=1) + INCREMENT_FACTOR * increments.mean(axis=1),
+        smallest_share * np.ptp(values, axis=1),
+    )
+    for joint in np.flatnonzero(distance.max(axis=1) > limits):
+        steps = increments[joint][increments[joint] > 0.0]
+        limits[joint] = max(limits[joint], RESOLUTION_FACTOR * steps.min(initial=np.inf))
+    return limits

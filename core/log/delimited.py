@@ -1,0 +1,169 @@
+"""Read comma, semicolon or tab separated text with a header line.
+
+The delimiter is taken from the header; comment lines start with `#`; with semicolons a decimal comma is
+understood. A header which is itself the last comment line, as numpy.savetxt writes it, is accepted.
+"""
+
+import csv
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv as arrow_csv
+
+from core.arrays import Series
+from core.errors import LogError
+from core.log.boundary import reading
+from core.log.table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric
+
+FORM = "CSV"
+HEAD_BYTES = 1 << 20
+BLOCK_BYTES = 1 << 22
+DELIMITERS = ",;\t"
+_BAD_CELL = re.compile(r"column #(?P<column>\d+).*?invalid value '(?P<found>[^']*)'", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class DelimitedTable:
+    """Give the columns of a text table; only those that are asked for are converted.
+
+    Attributes
+    ----------
+    skip
+        Physical lines before the first row of data.
+    """
+
+    path: Path
+    names: tuple[str, ...]
+    delimiter: str
+    decimal: str
+    skip: int
+
+    def batches(self, names: Sequence[str]) -> Iterator[Series]:
+        """Read the named columns in blocks of a few megabytes."""
+        wanted = list(names)
+        convert = arrow_csv.ConvertOptions(
+            include_columns=wanted,
+            column_types=dict.fromkeys(wanted, pa.float64()),
+            decimal_point=self.decimal,
+        )
+        read = arrow_csv.ReadOptions(
+            column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
+        )
+        parse = arrow_csv.ParseOptions(delimiter=self.delimiter, invalid_row_handler=_skip_comments)
+        rows = 0
+        with reading(FORM, self.path), self._naming_columns():
+            for batch in arrow_csv.open_csv(self.path, read, parse, convert):
+                rows += batch.num_rows
+                check_rows(rows)
+                check_values(rows * len(wanted))
+                yield np.array(
+                    [column.to_numpy(zero_copy_only=False) for column in batch.columns], dtype=np.float64
+                )
+
+    @contextmanager
+    def _naming_columns(self) -> Iterator[None]:
+        """Name the column of a cell that is no number, which the parser only counts."""
+        try:
+            yield
+        except pa.ArrowInvalid as error:
+            place = _BAD_CELL.search(str(error))
+            if place is None:
+                raise
+            raise not_numeric(self.names[int(place["column"])], place["found"][:80]) from error
+
+
+def open_delimited(path: Path) -> DelimitedTable:
+    """Find the header line, the delimiter and the decimal sign.
+
+    Raises
+    ------
+    LogError
+        If there is no header line, or the text is not UTF-8, or the columns break the limits.
+    """
+    with path.open("rb") as stream:
+        head = stream.read(HEAD_BYTES)
+    lines = _decoded(head).splitlines()
+    header_index, header, first_row = _header(lines)
+    delimiter = max(DELIMITERS, key=header.count)
+    names = _names(header, delimiter)
+    skip = next((i for i in range(header_index + 1, len(lines)) if not _is_comment(lines[i])), len(lines))
+    decimal = "," if delimiter == ";" and "," in first_row and "." not in first_row else "."
+    return DelimitedTable(path, names, delimiter, decimal, skip)
+
+
+def _decoded(head: bytes) -> str:
+    if b"\x00" in head:
+        raise LogError(
+            "the text holds NUL bytes",
+            evidence={"first_at_byte": head.index(b"\x00")},
+            remedy="save the table again as plain UTF-8 text",
+        )
+    if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
+        raise _no_header("one line longer than 1 MB")
+    try:
+        return head[: head.rfind(b"\n") + 1 or None].decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise LogError(
+            "the text is not UTF-8",
+            evidence={"byte": error.start, "value": head[error.start]},
+            remedy="save the file as UTF-8",
+        ) from error
+
+
+def _is_comment(line: str) -> bool:
+    return not line.strip() or line.lstrip().startswith("#")
+
+
+def _header(lines: Sequence[str]) -> tuple[int, str, str]:
+    """Find the header: the first line that is no comment, or the comment right before the numbers."""
+    content = [index for index, line in enumerate(lines) if not _is_comment(line)][:2]
+    if not content:
+        raise LogError(
+            "the log holds no rows",
+            evidence={"lines": len(lines)},
+            remedy="upload at least one second of motion",
+        )
+    first = lines[content[0]]
+    if not _is_numbers(first):
+        return content[0], first, lines[content[1]] if len(content) > 1 else ""
+    comments = [index for index in range(content[0]) if lines[index].strip()]
+    commented = lines[comments[-1]].lstrip("# ") if comments else ""
+    delimiter = max(DELIMITERS, key=first.count)
+    if commented and commented.count(delimiter) == first.count(delimiter) and not _is_numbers(commented):
+        return content[0] - 1, commented, first
+    raise _no_header(first[:120])
+
+
+def _is_numbers(line: str) -> bool:
+    delimiter = max(DELIMITERS, key=line.count)
+    try:
+        [float(cell.replace(",", ".")) for cell in line.split(delimiter)]
+    except ValueError:
+        return False
+    return True
+
+
+def _names(header: str, delimiter: str) -> tuple[str, ...]:
+    if header.count(delimiter) >= MAX_COLUMNS:
+        check_columns([f"column_{index}" for index in range(header.count(delimiter) + 1)])
+    cells = next(csv.reader([header], delimiter=delimiter))
+    names = tuple(cell.strip() or f"column_{index + 1}" for index, cell in enumerate(cells))
+    check_columns(names)
+    return names
+
+
+def _no_header(first: str) -> LogError:
+    return LogError(
+        "the file starts with numbers instead of a header line that names its columns",
+        evidence={"first_line": first},
+        remedy="put the column names on the first line, such as time,q_1,tau_1",
+    )
+
+
+def _skip_comments(row: arrow_csv.InvalidRow) -> str:
+    return "skip" if row.text.lstrip().startswith("#") else "error"

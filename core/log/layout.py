@@ -1,0 +1,251 @@
+"""Bind a mapping to a file's columns: which column is which joint's channel, and how its numbers become SI.
+
+Where a channel is not mapped its default names hold (`time`, `q_1`, `tau_1`, ...). What cannot be bound is
+answered with what was looked for, what is there, and what it might have been.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+import numpy as np
+
+from core.arrays import JointSeries, Series
+from core.errors import LogError
+from core.log.mapping import ChannelRequest, LogMapping
+from core.log.model import LogRows
+from core.log.readings import plausible_readings
+from core.log.table import Table
+from core.log.units import PREFIXES, TIME, UNITS
+
+SHOWN_COLUMNS = 24
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Carry one channel's columns and what turns each into SI: `gain * value + bias`."""
+
+    name: str
+    columns: tuple[str, ...]
+    gain: tuple[float, ...]
+    bias: tuple[float, ...]
+
+    def convert(self, block: Series) -> JointSeries:
+        """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
+        values = np.ascontiguousarray(block.T)
+        if any(gain != 1.0 for gain in self.gain):
+            values *= np.array(self.gain)
+        if any(self.bias):
+            values += np.array(self.bias)
+        return values
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Say where each channel is. Without a time column the rows follow a uniform clock of `rate_hz`."""
+
+    time: Channel | None
+    rate_hz: float
+    channels: tuple[Channel, ...]
+    ignored: tuple[str, ...] = ()
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """List all columns that are read, time first."""
+        first = self.time.columns if self.time else ()
+        return first + tuple(column for channel in self.channels for column in channel.columns)
+
+    @property
+    def joints(self) -> int:
+        """Count the joints."""
+        return len(self.channels[0].columns)
+
+    def convert(self, block: Series, start: int) -> LogRows:
+        """Turn a block of `columns` (columns by rows), whose first row has the number start, into SI."""
+        if self.time is None:
+            time = np.arange(start, start + block.shape[1]) / self.rate_hz
+            at = 0
+        else:
+            time = self.time.convert(block[:1])[:, 0]
+            at = 1
+        parts: dict[str, JointSeries] = {}
+        for channel in self.channels:
+            parts[channel.name] = channel.convert(block[at : at + len(channel.columns)])
+            at += len(channel.columns)
+        return LogRows(time, **parts)
+
+
+def bind(table: Table, mapping: LogMapping) -> Layout:
+    """Find every channel's columns.
+
+    Raises
+    ------
+    LogError
+        If time, position, or both torque and current are missing, if a mapped column is not there, if a
+        channel does not have one column per joint, or if a column's unit is neither declared nor given by its
+        default name.
+    """
+    time = _bind_time(table, mapping)
+    bound = [_bind_channel(channel, table, mapping) for channel in PREFIXES]
+    channels = tuple(channel for channel in bound if channel is not None)
+    _require(table, channels)
+    _one_column_per_joint(channels)
+    used = {column for channel in (*channels, *([time] if time else [])) for column in channel.columns}
+    _no_column_twice(channels, time)
+    ignored = tuple(name for name in table.names if name not in used)
+    return Layout(time, mapping.rate_hz or 0.0, channels, ignored)
+
+
+def _bind_time(table: Table, mapping: LogMapping) -> Channel | None:
+    if TIME in mapping.channels:
+        request = mapping.channels[TIME]
+    else:
+        request = _si_request((TIME,)) if TIME in table.names else None
+    if request is not None and mapping.rate_hz is not None:
+        raise LogError(
+            "the log has a time column and the mapping declares rate_hz as well",
+            evidence={"time": request.columns[0], "rate_hz": mapping.rate_hz},
+            remedy='keep the stamps and drop rate_hz, or set "time": null to use the uniform clock',
+        )
+    if request is not None:
+        return _declared(TIME, request, table)
+    if mapping.rate_hz is None:
+        raise _missing(
+            TIME, [TIME], table, 'name the time column, or declare "rate_hz" if the samples are uniform'
+        )
+    return None
+
+
+def _bind_channel(channel: str, table: Table, mapping: LogMapping) -> Channel | None:
+    if channel in mapping.channels:
+        request = mapping.channels[channel]
+        return None if request is None else _declared(channel, request, table)
+    columns = _default_columns(channel, table)
+    return _declared(channel, _si_request(columns), table) if columns else None
+
+
+def _default_columns(channel: str, table: Table) -> tuple[str, ...]:
+    """Find `q_1` to `q_n`, or the single `q` of a one-joint log."""
+    prefix = PREFIXES[channel]
+    numbers = [
+        int(name[len(prefix) + 1 :])
+        for name in table.names
+        if re.fullmatch(f"{prefix}_[1-9][0-9]{{0,3}}", name)
+    ]
+    if not numbers:
+        return (prefix,) if prefix in table.names else ()
+    wanted = [f"{prefix}_{number}" for number in range(1, max(numbers) + 1)]
+    if len(numbers) < len(wanted):
+        raise _missing(channel, wanted, table, "log every joint, or map the columns that are there")
+    return tuple(wanted)
+
+
+def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
+    count = len(columns)
+    return ChannelRequest(columns, ("",) * count, (1.0,) * count, (0.0,) * count)
+
+
+def _declared(channel: str, request: ChannelRequest, table: Table) -> Channel:
+    """Turn a request into gains; default names are SI, others must have declared their unit."""
+    missing = [name for name in request.columns if name not in table.names]
+    if missing:
+        raise _missing(channel, list(request.columns), table, "map columns that the file has")
+    default = re.compile(TIME if channel == TIME else f"{PREFIXES[channel]}(_[1-9][0-9]*)?")
+    if any(
+        not unit and not default.fullmatch(name)
+        for name, unit in zip(request.columns, request.units, strict=True)
+    ):
+        raise _undeclared(channel, request, table)
+    units = [
+        UNITS[channel][unit] if unit else UNITS[channel][next(iter(UNITS[channel]))] for unit in request.units
+    ]
+    return Channel(
+        channel,
+        request.columns,
+        tuple(unit.factor * scale for unit, scale in zip(units, request.scales, strict=True)),
+        tuple(
+            unit.factor * (offset + unit.offset) for unit, offset in zip(units, request.offsets, strict=True)
+        ),
+    )
+
+
+def _require(table: Table, channels: Sequence[Channel]) -> None:
+    names = [channel.name for channel in channels]
+    if "position" not in names:
+        raise _missing("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
+    if "torque" not in names and "current" not in names:
+        raise _missing(
+            "torque", ["tau_1", "...", "current_1", "..."], table, "map torques or currents with their unit"
+        )
+
+
+def _one_column_per_joint(channels: Sequence[Channel]) -> None:
+    counts = {channel.name: len(channel.columns) for channel in channels}
+    if len(set(counts.values())) > 1:
+        odd = next(name for name, count in counts.items() if count != counts["position"])
+        raise LogError(
+            f"{odd} does not have one column per joint",
+            evidence={"columns": counts},
+            remedy=f'log {odd} of every joint, or map it; "{odd}": null in the mapping leaves it out',
+        )
+
+
+def _no_column_twice(channels: Sequence[Channel], time: Channel | None) -> None:
+    columns = [column for channel in (*channels, *([time] if time else [])) for column in channel.columns]
+    twice = sorted({column for column in columns if columns.count(column) > 1})
+    if twice:
+        raise LogError(
+            "a column serves two channels",
+            evidence={"columns": twice},
+            remedy="map every column to one channel",
+        )
+
+
+def _missing(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
+    absent = [name for name in wanted if name not in table.names]
+    nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, table.names, 3))}
+    evidence: dict[str, object] = {
+        "looked_for": wanted[:SHOWN_COLUMNS],
+        "columns": list(table.names[:SHOWN_COLUMNS]),
+        "nearest": nearest,
+    }
+    candidates = [
+        name for name in table.names if not re.fullmatch(r"(time|q|qd|tau|current|temperature)(_\d+)?", name)
+    ]
+    readings = _readings(channel, candidates, table)
+    if readings:
+        evidence["plausible_readings"] = readings
+    return LogError(
+        f"the log has no column for {channel}: {', '.join(absent[:8])}", evidence=evidence, remedy=remedy
+    )
+
+
+def _undeclared(channel: str, request: ChannelRequest, table: Table) -> LogError:
+    columns = [name for name, unit in zip(request.columns, request.units, strict=True) if not unit]
+    readings = _readings(channel, columns, table)
+    first = next(iter(readings.values()), [])
+    return LogError(
+        f"the unit of {channel} is not declared, and {columns[0]!r} is not a default name, which would be SI",
+        evidence={
+            "columns": columns[:SHOWN_COLUMNS],
+            "plausible_readings": readings,
+            "known": list(UNITS[channel]),
+        },
+        remedy=f'declare "unit" for {channel}'
+        + (f", most plausibly {first[0].split(':')[0]}" if first else ""),
+    )
+
+
+def _readings(channel: str, columns: Sequence[str], table: Table) -> dict[str, list[str]]:
+    """Look at the first batch of each column; a column that cannot be read has no reading."""
+    readings: dict[str, list[str]] = {}
+    for name in columns[:SHOWN_COLUMNS]:
+        try:
+            block = next(iter(table.batches([name])), None)
+        except LogError:
+            continue
+        plausible = [] if block is None else plausible_readings(channel, block[0])
+        if plausible:
+            readings[name] = plausible
+    return readings

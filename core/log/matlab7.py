@@ -1,0 +1,77 @@
+"""Read MAT files of version 7.3, which are HDF5, and plain HDF5 files of the same shape.
+
+HDF5 can point at other files on the machine that reads it (external links, external storage, virtual
+datasets); such files are refused. Source: HDF Group, HDF5 file format specification, link and layout
+messages.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from core.errors import LogError
+from core.log.boundary import reading
+from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, expand
+
+FORM = "MATLAB v7.3"
+MAX_DEPTH = 4
+
+
+def open_matlab7(path: Path) -> MemoryTable:
+    """Read all numeric datasets; groups are structures and flatten to `structure.field`.
+
+    Raises
+    ------
+    LogError
+        If the file is damaged or too large, or refers to data outside itself.
+    """
+    import h5py
+
+    with reading(FORM, path), h5py.File(path, "r") as file:
+        datasets = dict(_datasets(file, "", 0))
+        check_columns(list(datasets)[: MAX_COLUMNS + 1])
+        readable = {name: dataset for name, dataset in datasets.items() if dataset is not None}
+        check_shapes([dataset.shape for dataset in readable.values()])
+        variables = {name: np.asarray(readable[name][()]) if name in readable else None for name in datasets}
+    return expand(variables)
+
+
+def _datasets(group: Any, prefix: str, depth: int) -> Iterator[tuple[str, Any]]:  # noqa: ANN401  # untyped
+    """Walk the datasets by hard links only; None stands for what is no array of numbers."""
+    import h5py
+
+    for key in group:
+        name = f"{prefix}{key}"
+        if key.startswith("#"):  # MATLAB's own bookkeeping of cells
+            continue
+        if not isinstance(group.get(key, getlink=True), h5py.HardLink):
+            raise _refers_outside(name, "a link to another place or file")
+        item = group[key]
+        if isinstance(item, h5py.Dataset):
+            _check_storage(name, item)
+            numeric = item.dtype.kind in "iuf" and item.ndim in (1, 2) and "MATLAB_empty" not in item.attrs
+            yield name, item if numeric and not _is_text(item) else None
+        elif isinstance(item, h5py.Group) and depth < MAX_DEPTH:
+            yield from _datasets(item, f"{name}.", depth + 1)
+
+
+def _is_text(dataset: Any) -> bool:  # noqa: ANN401
+    """Tell MATLAB's text, which is stored as 16-bit numbers."""
+    return bytes(dataset.attrs.get("MATLAB_class", b"")) in (b"char", b"cell")
+
+
+def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401
+    if dataset.is_virtual:
+        raise _refers_outside(name, "a virtual dataset")
+    if dataset.external:
+        raise _refers_outside(name, "external storage")
+
+
+def _refers_outside(name: str, what: str) -> LogError:
+    return LogError(
+        "the file refers to data outside itself, which is never followed",
+        evidence={"dataset": name, "found": what},
+        remedy="save the numbers in the file itself",
+    )

@@ -1,0 +1,166 @@
+"""Read a robot's log into a `JointLog`: format by content, units at the door, defects found and listed.
+
+This is the chapter's front door. Formats know columns, the layout knows joints and units, and one pass over
+the samples refuses what cannot be used and lists what is wrong but usable.
+"""
+
+import hashlib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from core.arrays import JointSeries, Samples
+from core.errors import LogError
+from core.log.content import DELIMITED, MATLAB5, MATLAB7, NPZ, PARQUET, Form, recognise
+from core.log.defects.examine import examine
+from core.log.delimited import open_delimited
+from core.log.layout import Channel, Layout, bind
+from core.log.mapping import parse_mapping
+from core.log.matlab5 import open_matlab5
+from core.log.matlab7 import open_matlab7
+from core.log.model import ArraySource, JointLog, LogRows, LogSource
+from core.log.npz import open_npz
+from core.log.parquet import ParquetSource, ParquetTable, open_parquet
+from core.log.table import Table
+from core.log.units import PREFIXES
+
+OPENERS: dict[Form, Callable[[Path], Table]] = {
+    DELIMITED: open_delimited,
+    PARQUET: open_parquet,
+    NPZ: open_npz,
+    MATLAB5: open_matlab5,
+    MATLAB7: open_matlab7,
+}
+
+
+def read_log(
+    path: Path,
+    *,
+    media_type: str | None = None,
+    mapping: Mapping[str, object] | None = None,
+    name: str | None = None,
+    sha256: str = "",
+) -> JointLog:
+    """Read a log and find its defects.
+
+    Parameters
+    ----------
+    path
+        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3; its bytes decide which.
+    media_type
+        The declared content type, checked against the bytes.
+    mapping
+        Which column is what in which unit; see `core.log.mapping`. Default names need none.
+    name
+        The log's name; the file's stem if None.
+    sha256
+        Hash of the file's bytes if it is known already; computed if empty.
+
+    Returns
+    -------
+    JointLog
+        Parquet stays on disk and is read by rows; other formats are held in memory.
+
+    Raises
+    ------
+    LogError
+        If the file cannot be read, a column is missing or of unknown unit, or the samples cannot be used.
+    """
+    form = recognise(path, media_type)
+    table = OPENERS[form](path)
+    layout = bind(table, parse_mapping(mapping))
+    source = _source(table, layout)
+    return _examined(name or path.stem, source, layout, sha256 or _hash(path))
+
+
+def log_from_arrays(
+    name: str, time: Samples, position: JointSeries, torque: JointSeries | None, **channels: JointSeries
+) -> JointLog:
+    """Make a log of arrays in SI, under the same checks as a file.
+
+    Parameters
+    ----------
+    time
+        Stamps in s.
+    position
+        In rad or m; one column per joint.
+    torque
+        In N m or N; None if a current is given.
+    **channels
+        `velocity` per s, `current` in A, `temperature` in degC.
+
+    Raises
+    ------
+    LogError
+        If the shapes disagree, a channel is not known, or the samples cannot be used.
+
+    Examples
+    --------
+    >>> time = np.arange(500) / 250.0
+    >>> swing = np.sin(np.outer(time, [3.0, 4.0]))
+    >>> round(log_from_arrays("swing", time, swing, 5.0 * swing).rate_hz, 6)
+    250.0
+    """
+    given = {"position": position, "torque": torque, **channels}
+    unknown = sorted(set(given) - set(PREFIXES))
+    if unknown:
+        raise LogError(
+            f"there is no channel {unknown[0]!r}",
+            evidence={"known": list(PREFIXES)},
+            remedy="name a known channel",
+        )
+    arrays = {
+        key: np.array(value, dtype=np.float64, order="C", ndmin=2)
+        for key, value in given.items()
+        if value is not None
+    }
+    clock = np.array(time, dtype=np.float64)
+    shapes = {"time": clock.shape, **{key: array.shape for key, array in arrays.items()}}
+    if clock.ndim != 1 or any(
+        array.shape != (len(clock), arrays["position"].shape[1]) for array in arrays.values()
+    ):
+        raise LogError(
+            "the channels disagree in shape", evidence=shapes, remedy="give every channel samples by joints"
+        )
+    if "torque" not in arrays and "current" not in arrays:
+        raise LogError(
+            "the log has neither torque nor current", evidence=shapes, remedy="give one of the two"
+        )
+    joints = range(1, arrays["position"].shape[1] + 1)
+    plain = tuple(1.0 for _ in joints), tuple(0.0 for _ in joints)
+    layout = Layout(
+        time=Channel("time", ("time",), (1.0,), (0.0,)),
+        rate_hz=0.0,
+        channels=tuple(Channel(key, tuple(f"{PREFIXES[key]}_{j}" for j in joints), *plain) for key in arrays),
+    )
+    return _examined(name, ArraySource(LogRows(clock, **arrays)), layout, "")
+
+
+def _source(table: Table, layout: Layout) -> LogSource:
+    if isinstance(table, ParquetTable):
+        return ParquetSource(table, layout)
+    blocks = list(table.batches(layout.columns))
+    whole = np.hstack(blocks) if blocks else np.empty((len(layout.columns), 0))
+    return ArraySource(layout.convert(whole, 0))
+
+
+def _examined(name: str, source: LogSource, layout: Layout, sha256: str) -> JointLog:
+    seen = examine(source, layout)
+    return JointLog(
+        name=name,
+        source=source,
+        joints=layout.joints,
+        rate_hz=seen.rate_hz,
+        duration=seen.duration,
+        segments=seen.segments,
+        defects=seen.defects,
+        channels=tuple(channel.name for channel in layout.channels),
+        ignored_columns=layout.ignored,
+        sha256=sha256,
+    )
+
+
+def _hash(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
