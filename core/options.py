@@ -56,14 +56,11 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     OptionError
         If an option is not known, has the wrong type, or makes no sense.
 
-    Examples
-    --------
-    >>> parse_options({"filter": {"cutoff_hz": 10}}).filter.cutoff_hz
-    10.0
-    >>> parse_options({"fliter": {}})
-    Traceback (most recent call last):
-    core.errors.OptionError: an option is not known (unknown: ['fliter'], known: ['bootstrap', 'bounds', 'essential', \
-'estimator', 'filter', 'prior', 'robust', 'smooth_coulomb', 'solver', 'terms', 'validation']); use the known options only
+    Examples -------- >>> parse_options({"filter": {"cutoff_hz": 10}}).filter.cutoff_hz 10.0 >>>
+    parse_options({"fliter": {}}) Traceback (most recent call last): core.errors.OptionError: an option is not
+    known (unknown: ['fliter'], known: ['bootstrap', 'bounds', 'essential', \
+'estimator', 'filter', 'prior', 'robust', 'smooth_coulomb', 'solver', 'terms', 'validation']); use the known
+options only
     """
     reader = _Reader("", dict(options or {}))
     parsed = IdentifyOptions(
@@ -136,7 +133,10 @@ class _Reader:
         if self.values:
             raise OptionError(
                 "an option is not known",
-                evidence={"unknown": [f"{self.path}/{name}".lstrip("/") for name in sorted(self.values)], "known": sorted(self.known)},
+                evidence={
+                    "unknown": [f"{self.path}/{name}".lstrip("/") for name in sorted(self.values)],
+                    "known": sorted(self.known),
+                },
                 remedy="use the known options only",
             )
 
@@ -178,8 +178,13 @@ def _estimate(reader: _Reader) -> EstimateOptions:
 def _bounds(reader: _Reader) -> Bounds:
     mass = tuple((int(link), low, high) for link, low, high in _rows(reader, "mass", 3))
     total = _rows(reader, "total_mass", 0)
-    boxes = [CentreBox(int(row[0]), _three(row[1:4]), _three(row[4:7])) for row in _rows(reader, "centre_box", 7)]
-    balls = [CentreEllipsoid(int(row[0]), _three(row[1:4]), _three(row[4:7])) for row in _rows(reader, "centre_ellipsoid", 7)]
+    boxes = [
+        CentreBox(int(row[0]), _three(row[1:4]), _three(row[4:7])) for row in _rows(reader, "centre_box", 7)
+    ]
+    balls = [
+        CentreEllipsoid(int(row[0]), _three(row[1:4]), _three(row[4:7]))
+        for row in _rows(reader, "centre_ellipsoid", 7)
+    ]
     parsed = Bounds(
         mass=mass,
         total_mass=(total[0][0], total[0][1]) if total else None,

@@ -69,7 +69,9 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     tell = progress or (lambda stage, fraction: None)
     options = parse_options(request.options)
     if not request.logs:
-        raise LogError("there is no log to identify from", evidence={"logs": 0}, remedy="name at least one log")
+        raise LogError(
+            "there is no log to identify from", evidence={"logs": 0}, remedy="name at least one log"
+        )
     tell("condition", 0.02)
     motions = _condition(request, options)
     held_out = options.validation.chosen(len(motions))
@@ -94,7 +96,11 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
         system,
         tuple(observation.blocks[index] for index in fitted),
         observation.columns_of,
-        lambda drawn: estimate(base, drawn, prior, options.estimate, essential=essential.kept if options.essential else None).base,
+        lambda drawn: (
+            estimate(
+                base, drawn, prior, options.estimate, essential=essential.kept if options.essential else None
+            ).base
+        ),
         draws=options.bootstrap.draws,
         seed=options.bootstrap.seed,
     )
@@ -142,14 +148,18 @@ class _Look:
     motions: tuple[Motion, ...]
     held_out: frozenset[BlockKey]
 
-    def observed(self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None) -> Observation:
+    def observed(
+        self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None
+    ) -> Observation:
         return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
 
     def parts(self, observation: Observation) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """Give the places of the fitted and of the held-out blocks."""
         held = [(block.log, block.number) in self.held_out for block in observation.blocks]
         places = range(len(held))
-        return tuple(place for place in places if not held[place]), tuple(place for place in places if held[place])
+        return tuple(place for place in places if not held[place]), tuple(
+            place for place in places if held[place]
+        )
 
 
 def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Motion, ...]:
@@ -164,7 +174,10 @@ def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Moti
 
 
 def _smoothed(
-    model: DynamicModel, motions: tuple[Motion, ...], held_out: frozenset[BlockKey], progress: Callable[[float], None]
+    model: DynamicModel,
+    motions: tuple[Motion, ...],
+    held_out: frozenset[BlockKey],
+    progress: Callable[[float], None],
 ) -> DynamicModel:
     speed = 100.0 * np.max([motion.recipe.still_speed for motion in motions], axis=0)
     wide = with_candidates(model, speed)

@@ -1,1 +1,4 @@
-"""Say what torque is made of: in comes a `RobotModel` and a choice of terms, out goes a `DynamicModel`, linear in its parameters."""
+"""Say what torque is made of.
+
+In comes a `RobotModel` and a choice of terms, out goes a `DynamicModel`, linear in its parameters.
+"""

@@ -1,6 +1,7 @@
 """Put a robot and its torque effects together into one model that is linear in named parameters.
 
-Extending a model means adding a term; the extended model is the same type, so every later chapter treats it alike.
+Extending a model means adding a term; the extended model is the same type, so every later chapter treats it
+alike.
 """
 
 from collections.abc import Mapping
@@ -34,7 +35,10 @@ STANDARD_TERMS: Mapping[str, type[RigidBody | RotorInertia | Viscous | Coulomb |
 
 @dataclass(frozen=True, eq=False)
 class DynamicModel:
-    """Hold a robot and the terms its joint torque is the sum of: torque = sum over terms of columns times parameters."""
+    """Hold a robot and the terms its joint torque is the sum of.
+
+    Torque = sum over terms of columns times parameters.
+    """
 
     robot: RobotModel
     terms: tuple[Term, ...]

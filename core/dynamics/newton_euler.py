@@ -1,7 +1,7 @@
 """Compute joint torque by the recursive Newton-Euler algorithm, plainly, for whole arrays of samples.
 
-This is the reference that the compiled regressor is held against: it shares no formula with it beyond the laws of mechanics.
-Sources: Luh, Walker & Paul 1980; Khalil & Dombre (2002), ch. 9.
+This is the reference that the compiled regressor is held against: it shares no formula with it beyond the
+laws of mechanics. Sources: Luh, Walker & Paul 1980; Khalil & Dombre (2002), ch. 9.
 """
 
 import numpy as np
@@ -31,7 +31,11 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
     """
     samples = len(state.position)
     poses = [_pose(link, state) for link in robot.links]
-    base = (np.zeros((samples, 3)), np.zeros((samples, 3)), np.tile(-np.asarray(robot.gravity, float), (samples, 1)))
+    base = (
+        np.zeros((samples, 3)),
+        np.zeros((samples, 3)),
+        np.tile(-np.asarray(robot.gravity, float), (samples, 1)),
+    )
     spins: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
     forces, moments = [], []
     for link, pose, body in zip(robot.links, poses, links, strict=True):
@@ -48,7 +52,9 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
         if link.antecedent:
             force = np.einsum("sij,sj->si", rotation, forces[index])
             forces[link.antecedent - 1] += force
-            moments[link.antecedent - 1] += np.einsum("sij,sj->si", rotation, moments[index]) + np.cross(shift, force)
+            moments[link.antecedent - 1] += np.einsum("sij,sj->si", rotation, moments[index]) + np.cross(
+                shift, force
+            )
     return torque
 
 

@@ -1,11 +1,11 @@
 """Define what every torque effect must offer, so that a new effect is one file and no chapter after this one changes.
 
-A term is linear in its parameters. It says which (joint, parameter) pairs can differ from zero and gives one time series for
-each of them; everything that is structurally zero is never computed, filtered or stored.
+A term is linear in its parameters. It says which (joint, parameter) pairs can differ from zero and gives one
+time series for each of them; everything that is structurally zero is never computed, filtered or stored.
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from core.arrays import JointSeries, Series
 from core.robot.model import RobotModel
@@ -17,13 +17,17 @@ Entry = tuple[int, int]
 
 @dataclass(frozen=True, eq=False)
 class MotionState:
-    """Carry position (rad or m), velocity (per s) and acceleration (per s2) of all joints at the same instants."""
+    """Carry position (rad or m).
+
+    Velocity (per s) and acceleration (per s2) of all joints at the same instants.
+    """
 
     position: JointSeries
     velocity: JointSeries
     acceleration: JointSeries
 
 
+@runtime_checkable
 class Term(Protocol):
     """Offer the columns of one torque effect."""
 

@@ -1,1 +1,4 @@
-"""Estimate a robot that can exist: in comes an `Observation` of base columns and a prior, out goes an `Estimate`."""
+"""Estimate a robot that can exist.
+
+In comes an `Observation` of base columns and a prior, out goes an `Estimate`.
+"""

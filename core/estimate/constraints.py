@@ -1,8 +1,9 @@
 """Say what makes a robot possible, and what makes it plausible, as data that any solver can read.
 
-Possible: every link's pseudo-inertia is positive definite, rotor inertias and frictions are not negative. Plausible: bounds on
-masses and mass centres, and a pull towards a prior in the directions that the motion leaves open. "Possible" alone lets links
-of tonnes pass, whose effect on the torque cancels. Sources: Sousa & Cortesao 2014; Wensing, Kim & Slotine 2018.
+Possible: every link's pseudo-inertia is positive definite, rotor inertias and frictions are not negative.
+Plausible: bounds on masses and mass centres, and a pull towards a prior in the directions that the motion
+leaves open. "Possible" alone lets links of tonnes pass, whose effect on the torque cancels. Sources: Sousa &
+Cortesao 2014; Wensing, Kim & Slotine 2018.
 """
 
 from dataclasses import dataclass
@@ -58,12 +59,24 @@ class Bounds:
     def __post_init__(self) -> None:
         """Refuse empty ranges."""
         pairs = [(low, high) for _, low, high in self.mass] + ([self.total_mass] if self.total_mass else [])
-        corners = [pair for box in self.centres if isinstance(box, CentreBox) for pair in zip(box.low, box.high, strict=True)]
+        corners = [
+            pair
+            for box in self.centres
+            if isinstance(box, CentreBox)
+            for pair in zip(box.low, box.high, strict=True)
+        ]
         axes = [one for ball in self.centres if isinstance(ball, CentreEllipsoid) for one in ball.semi_axes]
-        if any(low > high for low, high in [*pairs, *corners]) or any(low < 0.0 for low, _ in pairs) or any(a <= 0 for a in axes):
+        if (
+            any(low > high for low, high in [*pairs, *corners])
+            or any(low < 0.0 for low, _ in pairs)
+            or any(a <= 0 for a in axes)
+        ):
             raise OptionError(
                 "the bounds leave no robot",
-                evidence={"mass_kg": [list(one) for one in self.mass], "total_mass_kg": list(self.total_mass or ())},
+                evidence={
+                    "mass_kg": [list(one) for one in self.mass],
+                    "total_mass_kg": list(self.total_mass or ()),
+                },
                 remedy="give masses from 0 upwards, lower bounds below upper ones, and positive semi-axes",
             )
 
@@ -79,7 +92,8 @@ class Prior:
     scale
         What counts as one unit of deviation, per parameter.
     source
-        Where the belief comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the torques).
+        Where the belief comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the
+        torques).
     """
 
     centre: Parameters
@@ -88,7 +102,10 @@ class Prior:
 
 
 def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:
-    """Give the positions of every link's ten parameters in `model.parameters`; empty when links are not modelled."""
+    """Give the positions of every link's ten parameters in `model.parameters`.
+
+    Empty when links are not modelled.
+    """
     place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
     return tuple(
         tuple(place[f"{symbol}{number}"] for symbol in INERTIAL_SYMBOLS)
@@ -98,7 +115,10 @@ def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:
 
 
 def default_prior(model: DynamicModel, torque_rms: Vector) -> Prior:
-    """Believe the robot's own prior where it has one, else small solid bodies in proportion to the torques and lengths."""
+    """Believe the robot's own prior where it has one.
+
+    Else small solid bodies in proportion to the torques and lengths.
+    """
     length, mass, effort = _proportions(model, torque_rms)
     units = {"kg m2": mass * length**2, "kg m": mass * length, "kg": mass}
     scale = np.array([units.get(parameter.unit, effort) for parameter in model.parameters])
@@ -135,4 +155,3 @@ def _proportions(model: DynamicModel, torque_rms: Vector) -> tuple[float, float,
     gravity = max(float(np.linalg.norm(robot.gravity)), 1.0)
     reach = max(sum(lengths), length)
     return length, max(2.0 * effort / (gravity * reach) / len(robot.links), 1e-3), effort
-

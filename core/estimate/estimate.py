@@ -1,7 +1,7 @@
 """Estimate the parameters: one function for every estimator, one result for everything that follows.
 
-The default is the semidefinite programme on equations weighted per joint; the unconstrained optimum of the same equations is
-always reported beside it, because the difference is the price of feasibility.
+The default is the semidefinite programme on equations weighted per joint; the unconstrained optimum of the
+same equations is always reported beside it, because the difference is the price of feasibility.
 """
 
 from dataclasses import dataclass, replace
@@ -30,7 +30,8 @@ class EstimateOptions:
     Attributes
     ----------
     estimator
-        ``sdp`` feasible and weighted; ``ols`` plain; ``wls`` weighted per joint; ``irls`` weighted per joint and row (Huber).
+        ``sdp`` feasible and weighted; ``ols`` plain; ``wls`` weighted per joint; ``irls`` weighted per joint
+        and row (Huber).
     solver
         ``clarabel`` called directly, or ``cvxpy``.
     robust
@@ -51,7 +52,12 @@ class EstimateOptions:
         if self.estimator not in ESTIMATORS or self.solver not in SOLVERS:
             raise OptionError(
                 "the estimator or solver is not known",
-                evidence={"estimator": self.estimator, "known": list(ESTIMATORS), "solver": self.solver, "solvers": list(SOLVERS)},
+                evidence={
+                    "estimator": self.estimator,
+                    "known": list(ESTIMATORS),
+                    "solver": self.solver,
+                    "solvers": list(SOLVERS),
+                },
                 remedy="choose one of the known names",
             )
         if not 0.0 < self.pull <= 1.0 or not 0.0 <= self.entropy <= 1e6:
@@ -77,7 +83,8 @@ class Estimate:
     base
         Base parameters.
     standard
-        A robot with these base parameters: of the many, the feasible one nearest the prior (`sdp`), or just the nearest.
+        A robot with these base parameters: of the many, the feasible one nearest the prior (`sdp`), or just
+        the nearest.
     unconstrained
         The optimum of the same equations without constraints.
     solution
@@ -103,14 +110,20 @@ class Estimate:
 
 
 def estimate(
-    base: BaseModel, system: System, prior: Prior, options: EstimateOptions, *, essential: Indices | None = None
+    base: BaseModel,
+    system: System,
+    prior: Prior,
+    options: EstimateOptions,
+    *,
+    essential: Indices | None = None,
 ) -> Estimate:
     """Estimate base and standard parameters from weighted equations.
 
     Parameters
     ----------
     essential
-        Positions of the base parameters that may explain torque; the others are left to the prior and do not count.
+        Positions of the base parameters that may explain torque; the others are left to the prior and do not
+        count.
 
     Raises
     ------
@@ -121,8 +134,12 @@ def estimate(
         system = _restricted(system, essential)
     unconstrained = system.solved()
     if options.estimator != "sdp":
-        return Estimate(unconstrained, _nearest(base, unconstrained, prior), unconstrained, system, prior, None)
-    solution = solve(Programme(base, system, prior, options.bounds, options.pull, options.entropy), options.solver)
+        return Estimate(
+            unconstrained, _nearest(base, unconstrained, prior), unconstrained, system, prior, None
+        )
+    solution = solve(
+        Programme(base, system, prior, options.bounds, options.pull, options.entropy), options.solver
+    )
     values = base.base_of(solution.standard)
     if essential is not None:
         values = np.where(np.isin(np.arange(len(values)), essential), values, 0.0)

@@ -1,8 +1,8 @@
 """Ask whether base parameters can belong to any robot at all: the largest margin over all robots that group into them.
 
-Base parameters fix only combinations, so their own signs prove nothing; what counts is whether some choice of the open directions
-makes every pseudo-inertia positive definite. That is a small semidefinite programme with a certificate either way.
-Source: Sousa & Cortesao 2014.
+Base parameters fix only combinations, so their own signs prove nothing; what counts is whether some choice of
+the open directions makes every pseudo-inertia positive definite. That is a small semidefinite programme with
+a certificate either way. Source: Sousa & Cortesao 2014.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,10 @@ _CAP = 1.0
 
 @dataclass(frozen=True)
 class Feasibility:
-    """Tell whether a robot exists; `margin` is the largest least scaled eigenvalue (or signed parameter) any choice reaches."""
+    """Tell whether a robot exists.
+
+    `margin` is the largest least scaled eigenvalue (or signed parameter) any choice reaches.
+    """
 
     feasible: bool
     margin: float
@@ -60,7 +63,9 @@ def feasibility(base: BaseModel, values: BaseParameters, prior: Prior) -> Feasib
     return _maximised(rows, right, cones, size)
 
 
-def _maximised(rows: list[np.ndarray], right: list[np.ndarray], cones: list[object], size: int) -> Feasibility:
+def _maximised(
+    rows: list[np.ndarray], right: list[np.ndarray], cones: list[object], size: int
+) -> Feasibility:
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.max_threads = 1
@@ -76,7 +81,9 @@ def _maximised(rows: list[np.ndarray], right: list[np.ndarray], cones: list[obje
     return Feasibility(margin > -1e-7, margin)
 
 
-def active_constraints(model: DynamicModel, standard: Parameters, prior: Prior, bounds: Bounds) -> tuple[str, ...]:
+def active_constraints(
+    model: DynamicModel, standard: Parameters, prior: Prior, bounds: Bounds
+) -> tuple[str, ...]:
     """Name the constraints that hold the estimate: links at the margin, parameters at their lower bound."""
     held: list[str] = []
     for number, columns in enumerate(link_columns(model), start=1):
@@ -87,4 +94,3 @@ def active_constraints(model: DynamicModel, standard: Parameters, prior: Prior, 
     lower = lower_bounds(model)
     at_bound = (standard - lower) / prior.scale < 1e-5
     return (*held, *(model.parameters[column].name for column in np.flatnonzero(at_bound)))
-

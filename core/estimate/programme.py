@@ -1,10 +1,12 @@
 """State the semidefinite programme once: what is minimised, over what, under which constraints.
 
-    minimise   1/(2 n) ||R G phi - z||^2 + (pull/2) ||(phi - prior) / scale||^2 [+ entropy/n sum_k d(J_k, J_k prior)]
-    subject to D J_k(phi) D >= margin E for every link k,  phi_i >= lower_i,  bounds on masses and mass centres
+    minimise   1/(2 n) ||R G phi - z||^2 + (pull/2) ||(phi - prior) / scale||^2 [+ entropy/n sum_k d(J_k, J_k
+    prior)] subject to D J_k(phi) D >= margin E for every link k,  phi_i >= lower_i,  bounds on masses and
+    mass centres
 
-phi are the standard parameters, G groups them into base parameters, R and z are the weighted factor of the log with n rows. The
-size does not depend on the log's length. Sources: Sousa & Cortesao 2014; Wensing, Kim & Slotine 2018; Lee, Wensing & Park 2020.
+phi are the standard parameters, G groups them into base parameters, R and z are the weighted factor of the
+log with n rows. The size does not depend on the log's length. Sources: Sousa & Cortesao 2014; Wensing, Kim &
+Slotine 2018; Lee, Wensing & Park 2020.
 """
 
 from dataclasses import dataclass
@@ -18,7 +20,10 @@ from core.estimate.system import System
 from core.reduction.base import BaseModel
 
 PULL = 1e-5
-"""Weight of the pull towards the prior; costs a few thousandths of chi^2 at most and bounds what the motion leaves open."""
+"""Weight of the pull towards the prior.
+
+Costs a few thousandths of chi^2 at most and bounds what the motion leaves open.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +53,10 @@ class Programme:
 
     @property
     def scaled_rows(self) -> tuple[Matrix, Vector]:
-        """Give the misfit as rows over phi / scale and target, both divided by the root of the number of equations."""
+        """Give the misfit as rows over phi / scale and target.
+
+        Both divided by the root of the number of equations.
+        """
         size = np.sqrt(self.system.rows)
         return self.system.triangle @ self.base.grouping * self.prior.scale / size, self.system.target / size
 
@@ -94,6 +102,11 @@ _MEANINGS = {
 
 
 def refusal(kind: str, *, status: str, solver: str, iterations: int) -> SolverError:
-    """Translate a solver's status into a sentence with cause and remedy; everything but an optimum is refused."""
+    """Translate a solver's status into a sentence with cause and remedy.
+
+    Everything but an optimum is refused.
+    """
     cause, remedy = _MEANINGS[kind]
-    return SolverError(cause, evidence={"status": status, "solver": solver, "iterations": iterations}, remedy=remedy)
+    return SolverError(
+        cause, evidence={"status": status, "solver": solver, "iterations": iterations}, remedy=remedy
+    )

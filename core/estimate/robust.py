@@ -1,7 +1,8 @@
 """Weigh down the rows that no model of this kind explains: Huber's weights, from the residuals of the fit before.
 
-A row whose residual exceeds 1.345 joint noises counts in proportion to the excess, so that spikes and collisions pull no
-parameter. Residuals are recomputed tile by tile; nothing is stored. Source: Huber 1981; Holland & Welsch 1977.
+A row whose residual exceeds 1.345 joint noises counts in proportion to the excess, so that spikes and
+collisions pull no parameter. Residuals are recomputed tile by tile; nothing is stored. Source: Huber 1981;
+Holland & Welsch 1977.
 """
 
 import numpy as np

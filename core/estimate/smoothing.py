@@ -1,7 +1,8 @@
 """Choose how far to smooth the sign of Coulomb friction, from the fitted data alone.
 
-Every joint's own equations are solved once per candidate width and the width with the smallest residual is taken. All candidates
-ride along as extra columns in one pass over the data, so the choice costs no further visit.
+Every joint's own equations are solved once per candidate width and the width with the smallest residual is
+taken. All candidates ride along as extra columns in one pass over the data, so the choice costs no further
+visit.
 """
 
 from dataclasses import dataclass, replace
@@ -26,7 +27,10 @@ DIRECTIONAL = ("FC", "FCM")
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Offer the direction-dependent columns of a friction term under another name, so that several widths stand side by side."""
+    """Offer the direction-dependent columns of a friction term under another name.
+
+    So that several widths stand side by side.
+    """
 
     term: Coulomb | GearCoupling
     number: int
@@ -36,7 +40,9 @@ class _Candidate:
         return f"{self.term.name}_candidate_{self.number}"
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
-        return tuple(replace(one, symbol=f"{one.symbol}~{self.number}~") for one in self.term.parameters(robot))
+        return tuple(
+            replace(one, symbol=f"{one.symbol}~{self.number}~") for one in self.term.parameters(robot)
+        )
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         return tuple(self.term.entries(robot)[place] for place in self._places(robot))
@@ -46,35 +52,54 @@ class _Candidate:
 
     def _places(self, robot: RobotModel) -> list[int]:
         symbols = [parameter.symbol for parameter in self.term.parameters(robot)]
-        return [place for place, (_, column) in enumerate(self.term.entries(robot)) if symbols[column] in DIRECTIONAL]
+        return [
+            place
+            for place, (_, column) in enumerate(self.term.entries(robot))
+            if symbols[column] in DIRECTIONAL
+        ]
 
 
 def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
-    """Extend a model by its direction-dependent friction at every candidate width; `speed` is the RMS speed per joint."""
+    """Extend a model by its direction-dependent friction at every candidate width.
+
+    `speed` is the RMS speed per joint.
+    """
     joints, extra = len(model.robot.joints), list[Term]()
     for number, share in enumerate(SHARES):
         widths = tuple(float(share * one) for one in speed)
-        coupled = tuple(max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings)
+        coupled = tuple(
+            max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
+        )
         offered = {"coulomb": Coulomb(widths[:joints]), "coupling": GearCoupling(coupled)}
         extra += [_Candidate(offered[term.name], number) for term in model.terms if term.name in offered]
     return replace(model, terms=(*model.terms, *extra))
 
 
-def chosen_widths(observation: Observation, model: DynamicModel, speed: JointVector, fitted: tuple[int, ...]) -> DynamicModel:
-    """Give the model with the widths that leave the smallest residual on the fitted blocks, joint by joint."""
+def chosen_widths(
+    observation: Observation, model: DynamicModel, speed: JointVector, fitted: tuple[int, ...]
+) -> DynamicModel:
+    """Give the model with the widths that leave the smallest residual on the fitted blocks.
+
+    Joint by joint.
+    """
     names = [observation.plan.model.parameters[column].name for column in observation.plan.columns]
     shares = np.zeros(len(model.robot.joints))
     for joint, factor in enumerate(observation.joint_factors(fitted)):
         options = [(0.0, _residual(factor, observation.columns_of[joint], names, None))]
         options += [
-            (share, _residual(factor, observation.columns_of[joint], names, number)) for number, share in enumerate(SHARES)
+            (share, _residual(factor, observation.columns_of[joint], names, number))
+            for number, share in enumerate(SHARES)
         ]
         shares[joint] = min(options, key=lambda one: one[1])[0]
     widths = tuple(float(one) for one in shares * speed)
-    smooth = model.with_term(Coulomb(widths)) if any(term.name == "coulomb" for term in model.terms) else model
+    smooth = (
+        model.with_term(Coulomb(widths)) if any(term.name == "coulomb" for term in model.terms) else model
+    )
     if model.robot.couplings and any(term.name == "coupling" for term in model.terms):
         smooth = smooth.with_term(
-            GearCoupling(tuple(max(widths[joint - 1] for joint in one.joints) for one in model.robot.couplings))
+            GearCoupling(
+                tuple(max(widths[joint - 1] for joint in one.joints) for one in model.robot.couplings)
+            )
         )
     return smooth
 
@@ -82,12 +107,17 @@ def chosen_widths(observation: Observation, model: DynamicModel, speed: JointVec
 def scan_plan(model: DynamicModel, kept: tuple[int, ...]) -> ColumnPlan:
     """Plan for the base columns of the plain model and all candidates."""
     marks = tuple(f"{symbol}~" for symbol in DIRECTIONAL)
-    candidates = [column for column, parameter in enumerate(model.parameters) if parameter.symbol.startswith(marks)]
+    candidates = [
+        column for column, parameter in enumerate(model.parameters) if parameter.symbol.startswith(marks)
+    ]
     return ColumnPlan(model, (*kept, *candidates))
 
 
 def _residual(factor: Factor, columns: Indices, names: list[str], number: int | None) -> float:
-    """Solve one joint's equations alone, with its plain direction columns or those of one candidate instead."""
+    """Solve one joint's equations alone.
+
+    With its plain direction columns or those of one candidate instead.
+    """
     wanted = [place for place, column in enumerate(columns) if _belongs(names[column], number)]
     kept = factor.triangle[:, wanted]
     scale = np.linalg.norm(kept, axis=0)

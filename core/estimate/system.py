@@ -1,7 +1,7 @@
 """Weight and stack the joints' factors into one small least-squares problem over the base parameters.
 
-Joints differ in noise by orders of magnitude, so the default weighs each joint by its own residual, as the IDIM-LS practice does.
-Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
+Joints differ in noise by orders of magnitude, so the default weighs each joint by its own residual, as the
+IDIM-LS practice does. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
 from dataclasses import dataclass
@@ -44,15 +44,23 @@ class System:
         return float(miss @ miss) + self.rest
 
     def solved(self) -> BaseParameters:
-        """Give the unconstrained optimum; directions that the motion does not excite are set to their smallest norm."""
+        """Give the unconstrained optimum.
+
+        Directions that the motion does not excite are set to their smallest norm.
+        """
         scale = column_scale(self.triangle)
         scaled, *_ = np.linalg.lstsq(self.triangle / scale, self.target, rcond=RANK_TOLERANCE)
         return np.asarray(scaled / scale)
 
 
-def stacked(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int, noise: JointVector) -> System:
+def stacked(
+    factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int, noise: JointVector
+) -> System:
     """Stack the joints' factors, each divided by its noise."""
-    rows = [_widened(factor, columns, base) / sigma for factor, columns, sigma in zip(factors, columns_of, noise, strict=True)]
+    rows = [
+        _widened(factor, columns, base) / sigma
+        for factor, columns, sigma in zip(factors, columns_of, noise, strict=True)
+    ]
     whole = Factor.of(np.vstack(rows)).triangle
     inner = whole[:base]
     rest = whole[base:, -1]
@@ -84,22 +92,35 @@ def ordinary(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base:
 
 
 def weighted(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int) -> System:
-    """Stack with each joint divided by the RMS of its own residual, settled in two rounds from the unweighted fit."""
+    """Stack with each joint divided by the RMS of its own residual.
+
+    Settled in two rounds from the unweighted fit.
+    """
     system = ordinary(factors, columns_of, base)
     for _ in range(_REWEIGHTINGS):
         system = stacked(factors, columns_of, base, joint_noise(factors, columns_of, system.solved()))
     return system
 
 
-def joint_noise(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: BaseParameters) -> JointVector:
-    """Give the RMS residual per joint, N m, with the degrees of freedom shared out evenly over the equations."""
+def joint_noise(
+    factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: BaseParameters
+) -> JointVector:
+    """Give the RMS residual per joint, N m.
+
+    With the degrees of freedom shared out evenly over the equations.
+    """
     rows = sum(factor.rows for factor in factors)
     share = max(1.0 - len(base) / rows, 1.0 / rows)
-    squares = [factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True)]
+    squares = [
+        factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True)
+    ]
     torque = [factor.torque_square for factor in factors]
     floors = [max(1e-12 * square, 1e-24) for square in torque]
     return np.array(
-        [np.sqrt(max(square, floor) / max(share * factor.rows, 1.0)) for square, floor, factor in zip(squares, floors, factors, strict=True)]
+        [
+            np.sqrt(max(square, floor) / max(share * factor.rows, 1.0))
+            for square, floor, factor in zip(squares, floors, factors, strict=True)
+        ]
     )
 
 

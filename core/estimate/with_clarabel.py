@@ -1,8 +1,8 @@
 """Give the programme to Clarabel directly, in residual form: the hot path.
 
-Variables are x = (phi / scale, r) with r = R G phi - z as equalities, so that the objective is diagonal and the factor is never
-squared. Cones are written as s = b - A x in the cone, triangles of matrices column by column with off-diagonals times sqrt(2).
-Source: Goulart & Chen, Clarabel, 2024.
+Variables are x = (phi / scale, r) with r = R G phi - z as equalities, so that the objective is diagonal and
+the factor is never squared. Cones are written as s = b - A x in the cone, triangles of matrices column by
+column with off-diagonals times sqrt(2). Source: Goulart & Chen, Clarabel, 2024.
 """
 
 from dataclasses import dataclass, field
@@ -104,7 +104,9 @@ def _add_signs(cones: _Cones, programme: Programme) -> None:
     bounded = np.flatnonzero(np.isfinite(lower))
     if len(bounded):
         rows = -np.eye(len(lower))[bounded]
-        cones.add(clarabel.NonnegativeConeT(len(bounded)), rows, -lower[bounded] / programme.prior.scale[bounded])
+        cones.add(
+            clarabel.NonnegativeConeT(len(bounded)), rows, -lower[bounded] / programme.prior.scale[bounded]
+        )
 
 
 def _add_masses(cones: _Cones, programme: Programme) -> None:

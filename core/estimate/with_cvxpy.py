@@ -1,4 +1,7 @@
-"""State the programme in cvxpy: the readable formulation, which is also the reference that the hot path is held against."""
+"""State the programme in cvxpy.
+
+The readable formulation, which is also the reference that the hot path is held against.
+"""
 
 import cvxpy
 import numpy as np
@@ -48,10 +51,14 @@ def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constr
     links = link_columns(model)
     lower = lower_bounds(model)
     signed = np.flatnonzero(np.isfinite(lower))
-    constraints: list[cvxpy.Constraint] = [phi[signed] >= lower[signed] / scale[signed]] if len(signed) else []
+    constraints: list[cvxpy.Constraint] = (
+        [phi[signed] >= lower[signed] / scale[signed]] if len(signed) else []
+    )
     for columns in links:
         weights = np.diag(congruence(programme.prior, columns))
-        constraints.append(weights @ _pseudo_inertia(programme, phi, columns) @ weights >> bounds.margin * np.eye(4))
+        constraints.append(
+            weights @ _pseudo_inertia(programme, phi, columns) @ weights >> bounds.margin * np.eye(4)
+        )
     masses = cvxpy.hstack([scale[columns[9]] * phi[columns[9]] for columns in links]) if links else None
     for link, low, high in bounds.mass:
         constraints += [masses[link - 1] >= low, masses[link - 1] <= high]
@@ -69,17 +76,25 @@ def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constr
 
 
 def _pseudo_inertia(programme: Programme, phi: cvxpy.Variable, columns: tuple[int, ...]) -> cvxpy.Expression:
-    parts = [programme.prior.scale[column] * phi[column] * PSEUDO_INERTIA_BASIS[k] for k, column in enumerate(columns)]
+    parts = [
+        programme.prior.scale[column] * phi[column] * PSEUDO_INERTIA_BASIS[k]
+        for k, column in enumerate(columns)
+    ]
     return sum(parts[1:], parts[0])
 
 
 def _entropy(programme: Programme, phi: cvxpy.Variable) -> cvxpy.Expression:
-    """Give the log-det divergence of the links from the prior's: trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent."""
+    """Give the log-det divergence of the links from the prior's.
+
+    Trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent.
+    """
     total = 0.0
     for columns in link_columns(programme.base.model):
         believed = pseudo_inertia(programme.prior.centre[list(columns)])
         weights = np.diag(congruence(programme.prior, columns))
         body = weights @ _pseudo_inertia(programme, phi, columns) @ weights
         inverse = np.linalg.solve(weights @ believed @ weights, np.eye(4))
-        total = total + cvxpy.trace(inverse @ body) - cvxpy.log_det(body) - np.linalg.slogdet(inverse)[1] - 4.0
+        total = (
+            total + cvxpy.trace(inverse @ body) - cvxpy.log_det(body) - np.linalg.slogdet(inverse)[1] - 4.0
+        )
     return total

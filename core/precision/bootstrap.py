@@ -1,7 +1,7 @@
 """Draw the log again, block by block: intervals for an estimate whose constraints make textbook deviations one-sided.
 
-Contiguous blocks longer than the residual's memory are drawn with replacement and the programme is solved again on the sum of
-their factors; no sample is ever visited again. Source: Kunsch 1989 (block bootstrap).
+Contiguous blocks longer than the residual's memory are drawn with replacement and the programme is solved
+again on the sum of their factors; no sample is ever visited again. Source: Kunsch 1989 (block bootstrap).
 """
 
 from collections.abc import Callable
@@ -71,4 +71,6 @@ def _system(product: Matrix, like: System) -> System:
     rows = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
     triangle = Factor.of(np.vstack([rows, np.zeros((1, len(product)))])).triangle
     size = len(product) - 1
-    return System(triangle[:size, :-1], triangle[:size, -1], float(triangle[size, -1] ** 2), like.rows, like.noise)
+    return System(
+        triangle[:size, :-1], triangle[:size, -1], float(triangle[size, -1] ** 2), like.rows, like.noise
+    )

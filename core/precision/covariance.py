@@ -1,8 +1,9 @@
 """Give every base parameter its standard deviation, with the residual's memory taken into account.
 
-For independent residuals of variance sigma^2 = ||rho||^2 / (n - d) the covariance is sigma^2 (W'W)^-1 and
-%P = 100 sqrt(diag) / |chi|; the seed's equation (10) omits (W'W)^-1. Filtered samples are not independent, so the covariance is
-(W'W)^-1 W'V W (W'W)^-1 with V the residual's own autocovariance. Sources: Khalil & Dombre (2002), ch. 12; Newey & West 1987.
+For independent residuals of variance sigma^2 = ||rho||^2 / (n - d) the covariance is sigma^2 (W'W)^-1 and %P
+= 100 sqrt(diag) / |chi|; the seed's equation (10) omits (W'W)^-1. Filtered samples are not independent, so
+the covariance is (W'W)^-1 W'V W (W'W)^-1 with V the residual's own autocovariance. Sources: Khalil & Dombre
+(2002), ch. 12; Newey & West 1987.
 """
 
 from dataclasses import dataclass
@@ -30,8 +31,8 @@ class Precision:
     open_share
         Per parameter, the share of its unit vector that lies in directions the motion does not excite.
     memory_factor
-        Per joint, by how much the residual's memory inflates the variance of a constant: the effective number of independent
-        samples is the number of samples divided by it.
+        Per joint, by how much the residual's memory inflates the variance of a constant: the effective number
+        of independent samples is the number of samples divided by it.
     """
 
     information: SquareMatrix
@@ -46,7 +47,10 @@ class Precision:
 
     @property
     def standard_deviation(self) -> Vector:
-        """Give one standard deviation per base parameter; infinite where the motion leaves the parameter open."""
+        """Give one standard deviation per base parameter.
+
+        Infinite where the motion leaves the parameter open.
+        """
         deviation = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         return np.where(self.open_share > 1e-6, np.inf, deviation)
 
@@ -98,7 +102,10 @@ def subset(precision: Precision, chosen: Indices) -> Precision:
     """Give the precision of a model reduced to the chosen base parameters."""
     square = np.ix_(chosen, chosen)
     return Precision(
-        precision.information[square], precision.spread[square], precision.open_share[chosen], precision.memory_factor
+        precision.information[square],
+        precision.spread[square],
+        precision.open_share[chosen],
+        precision.memory_factor,
     )
 
 

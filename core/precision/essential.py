@@ -1,8 +1,9 @@
 """Keep the parameters that matter: the weakest are taken out one by one while the error does not grow significantly.
 
-At each step the parameter with the smallest |value| / deviation leaves and the others are fitted again; taking it out raises the
-weighted squared error by the square of that ratio, so the search stops when the ratio exceeds the 95 % point. Deviations carry
-the residual's memory, else far too many parameters would count. Sources: Khalil & Dombre (2002), ch. 12; Pham & Gautier 1991.
+At each step the parameter with the smallest |value| / deviation leaves and the others are fitted again;
+taking it out raises the weighted squared error by the square of that ratio, so the search stops when the
+ratio exceeds the 95 % point. Deviations carry the residual's memory, else far too many parameters would
+count. Sources: Khalil & Dombre (2002), ch. 12; Pham & Gautier 1991.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,10 @@ from core.precision.covariance import INTERVAL_95, Precision, subset
 
 @dataclass(frozen=True)
 class Elimination:
-    """Record one step: which base parameter left, its ratio |value| / deviation, and the weighted squared error after it."""
+    """Record one step.
+
+    Which base parameter left, its ratio |value| / deviation, and the weighted squared error after it.
+    """
 
     parameter: int
     ratio: float

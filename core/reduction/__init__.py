@@ -1,1 +1,4 @@
-"""Find what can be told apart: in comes a `DynamicModel`, out goes a `BaseModel` of base parameters and how the rest groups."""
+"""Find what can be told apart.
+
+In comes a `DynamicModel`, out goes a `BaseModel` of base parameters and how the rest groups.
+"""

@@ -1,8 +1,9 @@
 """Find the base parameters of a robot: the columns that can be told apart, and into which of them the others group.
 
-Columns are visited in Khalil's order, link after link from the base outwards and YY, MZ, M last within a revolute link; a column
-that the ones before it already span is dropped and its coefficients say how its parameter groups. This gives SYMORO's names and
-groupings without symbolic algebra. Sources: Gautier & Khalil 1990; Gautier 1991 (numerical, by QR); Khalil & Dombre (2002), ch. 9.
+Columns are visited in Khalil's order, link after link from the base outwards and YY, MZ, M last within a
+revolute link; a column that the ones before it already span is dropped and its coefficients say how its
+parameter groups. This gives SYMORO's names and groupings without symbolic algebra. Sources: Gautier & Khalil
+1990; Gautier 1991 (numerical, by QR); Khalil & Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass
@@ -18,7 +19,10 @@ from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS, Parameter
 
 RANK_TOLERANCE = 1e-9
-"""A column is dependent when less than this share of it lies outside the columns before it; rounding leaves about 1e-13."""
+"""A column is dependent when less than this share of it lies outside the columns before it.
+
+Rounding leaves about 1e-13.
+"""
 _SEED = 20221
 _REVOLUTE_ORDER = ("XX", "XY", "XZ", "YZ", "ZZ", "MX", "MY", "IA", "YY", "MZ", "M")
 _PRISMATIC_ORDER = ("M", "MX", "MY", "MZ", "IA", "XX", "XY", "XZ", "YY", "YZ", "ZZ")
@@ -64,7 +68,9 @@ class BaseModel:
         """Give a base parameter as coefficients of standard parameters, its own first."""
         own = self.kept[row]
         others = [column for column in np.flatnonzero(self.grouping[row]) if column != own]
-        return {self.model.parameters[column].name: float(self.grouping[row, column]) for column in (own, *others)}
+        return {
+            self.model.parameters[column].name: float(self.grouping[row, column]) for column in (own, *others)
+        }
 
     def in_words(self, row: int) -> str:
         """Write a base parameter as a sum, e.g. ``ZZ1 + IA1 + YY2``."""
@@ -82,7 +88,10 @@ class BaseModel:
         return tuple(int(column) for column in np.flatnonzero(~self.grouping.any(axis=0)))
 
     def identifiability(self, column: int) -> str:
-        """Tell whether a standard parameter is known ``individually``, ``in_combination`` or not at all (``no``)."""
+        """Tell whether a standard parameter is known ``individually``.
+
+        ``in_combination`` or not at all (``no``).
+        """
         rows = np.flatnonzero(self.grouping[:, column])
         if not len(rows):
             return "no"
@@ -137,7 +146,10 @@ def _random_states(robot: RobotModel, parameters: int) -> MotionState:
 
 
 def _first_independent(matrix: Matrix) -> tuple[list[int], Matrix]:
-    """Pick the columns that the ones before them do not span; give their places and all columns as combinations of them."""
+    """Pick the columns that the ones before them do not span.
+
+    Give their places and all columns as combinations of them.
+    """
     scale = np.linalg.norm(matrix, axis=0)
     used = scale > RANK_TOLERANCE * scale.max()
     scaled = matrix / np.where(used, scale, 1.0)
@@ -157,6 +169,9 @@ def _first_independent(matrix: Matrix) -> tuple[list[int], Matrix]:
 
 
 def _tidied(relation: Matrix) -> Matrix:
-    """Remove the rounding from coefficients: anything below 1e-9 is none, anything within 1e-9 of a whole number is it."""
+    """Remove the rounding from coefficients.
+
+    Anything below 1e-9 is none, anything within 1e-9 of a whole number is it.
+    """
     whole = np.round(relation)
     return np.where(np.abs(relation - whole) < 1e-9, whole, relation)

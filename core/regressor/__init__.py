@@ -1,1 +1,4 @@
-"""Write the model as linear equations: in comes a `DynamicModel` and `Motion`s, out goes an `Observation` of small factors."""
+"""Write the model as linear equations.
+
+In comes a `DynamicModel` and `Motion`s, out goes an `Observation` of small factors.
+"""

@@ -1,6 +1,7 @@
 """Compute the model's non-zero columns for a stretch of motion: the rigid body compiled, every other term by its own series.
 
-A `ColumnPlan` decides once which series are wanted and where each one goes; it is then applied stretch after stretch.
+A `ColumnPlan` decides once which series are wanted and where each one goes; it is then applied stretch after
+stretch.
 """
 
 from dataclasses import dataclass
@@ -64,10 +65,14 @@ class ColumnPlan:
         start = 0
         for term in self.model.terms:
             entries = term.entries(self.model.robot)
-            targets = np.array([slot_of.get((joint, start + parameter), -1) for joint, parameter in entries], dtype=int)
+            targets = np.array(
+                [slot_of.get((joint, start + parameter), -1) for joint, parameter in entries], dtype=int
+            )
             if (targets >= 0).any():
                 if isinstance(term, RigidBody):
-                    fills.append(_RigidBodyFill.prepare(self.model.robot, dict(zip(entries, targets, strict=True))))
+                    fills.append(
+                        _RigidBodyFill.prepare(self.model.robot, dict(zip(entries, targets, strict=True)))
+                    )
                 else:
                     fills.append(_TermFill(self.model.robot, term, targets))
             start += len(term.parameters(self.model.robot))

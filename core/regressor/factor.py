@@ -1,8 +1,9 @@
 """Condense equations: the triangular factor of a least-squares problem, which merges like a sum.
 
-R of [W Y] holds all that least squares can know of its rows: R'R = [W Y]'[W Y]. Two factors merge by one more triangularisation,
-so the statistic of a long log is the merged statistic of its parts, in any order. QR is used rather than the normal equations
-because extended models are nearly collinear. Source: Golub & Van Loan, Matrix Computations, ch. 5; Lawson & Hanson 1974, ch. 27.
+R of [W Y] holds all that least squares can know of its rows: R'R = [W Y]'[W Y]. Two factors merge by one more
+triangularisation, so the statistic of a long log is the merged statistic of its parts, in any order. QR is
+used rather than the normal equations because extended models are nearly collinear. Source: Golub & Van Loan,
+Matrix Computations, ch. 5; Lawson & Hanson 1974, ch. 27.
 """
 
 from dataclasses import dataclass

@@ -1,9 +1,10 @@
 """Compute the rigid body's regressor, compiled: torque per unit inertial parameter for every joint that carries the link.
 
-Each link's six-by-ten force map is written in the link's own frame and projected on the axes of the joints that carry it,
-which are themselves carried outwards link by link; no six-by-six transform appears. Samples are taken in blocks small enough
-for the first-level cache, with the sample index innermost so that the compiler can use vector instructions.
-Sources: Atkeson, An & Hollerbach 1986 (linearity); Khalil & Dombre (2002), ch. 9.
+Each link's six-by-ten force map is written in the link's own frame and projected on the axes of the joints
+that carry it, which are themselves carried outwards link by link; no six-by-six transform appears. Samples
+are taken in blocks small enough for the first-level cache, with the sample index innermost so that the
+compiler can use vector instructions. Sources: Atkeson, An & Hollerbach 1986 (linearity); Khalil & Dombre
+(2002), ch. 9.
 """
 
 import numpy as np
@@ -39,9 +40,10 @@ def rigid_body_series(  # pragma: no cover  (compiled)  # noqa: PLR0912, PLR0913
 ):
     """Fill `out[slot[pair, k]]` with the torque on a carrying joint per unit parameter k of a link.
 
-    `cosine`, `sine`, `stroke` are (links, samples); `velocity`, `acceleration` are (joints, samples); pairs run over links and,
-    within a link, over its chain from the base outwards; `slot` is -1 where the series is not wanted. Where two carriers move
-    with the same joint their series add up, so `out` must come in as zeros.
+    `cosine`, `sine`, `stroke` are (links, samples); `velocity`, `acceleration` are (joints, samples); pairs
+    run over links and, within a link, over its chain from the base outwards; `slot` is -1 where the series is
+    not wanted. Where two carriers move with the same joint their series add up, so `out` must come in as
+    zeros.
     """
     links = len(antecedent)
     samples = cosine.shape[1]

@@ -1,9 +1,10 @@
 """Remember how rows relate to the rows shortly after them, so that a residual's memory can be judged without storing W.
 
-For filtered samples the residuals are not independent, and the textbook variance is wrong. The variance of a least-squares
-estimate needs W'V W with V the residual's covariance; with V Toeplitz over a few lags that is a sum of lagged products
-G_l = sum_t w(t) w(t + l)', which accumulate like any other statistic. With the torque as last column of w the same products give
-the residual's autocovariance for any parameters. Source: Newey & West 1987, in its homoskedastic form.
+For filtered samples the residuals are not independent, and the textbook variance is wrong. The variance of a
+least-squares estimate needs W'V W with V the residual's covariance; with V Toeplitz over a few lags that is a
+sum of lagged products G_l = sum_t w(t) w(t + l)', which accumulate like any other statistic. With the torque
+as last column of w the same products give the residual's autocovariance for any parameters. Source: Newey &
+West 1987, in its homoskedastic form.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,10 @@ from core.arrays import Matrix, Parameters, Vector
 
 @dataclass(frozen=True, eq=False)
 class LaggedProducts:
-    """Hold G_0 .. G_LAGS of one joint's rows [w y] and their number; rows that are not used must come in as zeros."""
+    """Hold G_0 .. G_LAGS of one joint's rows [w y] and their number.
+
+    Rows that are not used must come in as zeros.
+    """
 
     LAGS: ClassVar[int] = 12
     products: np.ndarray
@@ -47,7 +51,10 @@ class LaggedProducts:
         return np.array([weights @ product @ weights for product in self.products])
 
     def spread(self, autocorrelation: Vector) -> Matrix:
-        """Give W'V W for a residual of unit variance with this autocorrelation, tapered so that V is positive (Bartlett)."""
+        """Give W'V W for a residual of unit variance with this autocorrelation.
+
+        Tapered so that V is positive (Bartlett).
+        """
         width = len(autocorrelation)
         total = self.products[0][:-1, :-1].copy()
         for lag in range(1, min(width, self.LAGS + 1)):

@@ -1,7 +1,8 @@
 """Write down all equations of a study, and keep only their factors: W of a long log is never stored.
 
-Per joint and per contiguous block of every log one triangular factor is kept, plus per joint the lagged products that tell how
-far the residual's memory inflates a variance. Blocks are what hold-out and bootstrap choose from.
+Per joint and per contiguous block of every log one triangular factor is kept, plus per joint the lagged
+products that tell how far the residual's memory inflates a variance. Blocks are what hold-out and bootstrap
+choose from.
 """
 
 from collections.abc import Callable, Iterator
@@ -114,9 +115,7 @@ def observe(
             done += len(tile.time)
             if progress is not None:
                 progress(done / total)
-    blocks = tuple(
-        block for number, gathering in enumerate(gathered) for block in gathering.blocks(number)
-    )
+    blocks = tuple(block for number, gathering in enumerate(gathered) for block in gathering.blocks(number))
     memory = tuple(
         reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered))
         for joint in range(len(plan.columns_of))
@@ -158,7 +157,9 @@ class _Gathering:
             if tile.block in self.held_out:
                 self._tails[joint] = self._tails[joint][:0]
             else:
-                self.memory[joint] = self.memory[joint].extended(self._tails[joint], marked, int(usable.sum()))
+                self.memory[joint] = self.memory[joint].extended(
+                    self._tails[joint], marked, int(usable.sum())
+                )
                 self._tails[joint] = marked[-LaggedProducts.LAGS :]
 
     def blocks(self, log: int) -> list[Block]:
@@ -186,13 +187,19 @@ class _OpenBlock:
 def joint_residuals(plan: ColumnPlan, pairs: list[Rows], parameters: BaseParameters) -> JointSeries:
     """Give measured minus predicted torque of a tile's rows, N m."""
     return np.column_stack(
-        [rows[:, -1] - rows[:, :-1] @ parameters[columns] for (rows, _), columns in zip(pairs, plan.columns_of, strict=True)]
+        [
+            rows[:, -1] - rows[:, :-1] @ parameters[columns]
+            for (rows, _), columns in zip(pairs, plan.columns_of, strict=True)
+        ]
     )
 
 
 @dataclass(frozen=True, eq=False)
 class ResidualTile:
-    """Carry filtered torque and residual (measured minus predicted, N m) of all joints at the kept instants."""
+    """Carry filtered torque and residual (measured minus predicted.
+
+    N m) of all joints at the kept instants.
+    """
 
     time: Samples
     torque: JointSeries

@@ -1,1 +1,4 @@
-"""Compose the reader's page: in come all chapters' results, out goes the result document; the only place that formats numbers."""
+"""Compose the reader's page: in come all chapters' results, out goes the result document.
+
+The only place that formats numbers.
+"""

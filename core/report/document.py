@@ -59,7 +59,11 @@ def identification_document(found: Identification, *, version: str, options: obj
         "kind": "identify",
         "robot": to_description(found.base.model.robot),
         "logs": [_log(log, motion) for log, motion in zip(found.logs, found.motions, strict=True)],
-        "provenance": {"version": version, "log_sha256": [log.sha256 for log in found.logs], "options": options},
+        "provenance": {
+            "version": version,
+            "log_sha256": [log.sha256 for log in found.logs],
+            "options": options,
+        },
         "counts": {
             "standard": len(found.base.model.parameters),
             "base": len(found.base.kept),
@@ -138,7 +142,9 @@ def _standard_parameters(found: Identification) -> list[dict[str, object]]:
 
 def _feasibility(found: Identification) -> dict[str, object]:
     return {
-        "feasible": found.estimate_feasibility.feasible and found.trajectory.positive and found.workspace.positive,
+        "feasible": found.estimate_feasibility.feasible
+        and found.trajectory.positive
+        and found.workspace.positive,
         "margin": found.estimate_feasibility.margin,
         "ols_feasible": found.unconstrained_feasibility.feasible,
         "ols_margin": found.unconstrained_feasibility.margin,

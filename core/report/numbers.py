@@ -1,6 +1,7 @@
 """Round numbers for a reader, and keep them JSON: the only place where either happens.
 
-Ten significant digits are far beyond any parameter's precision and hide the last bits that differ between processors.
+Ten significant digits are far beyond any parameter's precision and hide the last bits that differ between
+processors.
 """
 
 from collections.abc import Mapping

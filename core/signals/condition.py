@@ -1,8 +1,9 @@
 """Condition a log: position, velocity, acceleration and torque on one clock, tile after tile, whatever the log's length.
 
-The chain is the seed's: running median, zero-phase Butterworth on q, centred differences; the parallel filter follows when the
-equations are written. What the filters reach of log ends and standstill is marked unusable, because there the derivatives are
-guesses and friction is not sign(velocity). Source: the seed paper, section 4.1.
+The chain is the seed's: running median, zero-phase Butterworth on q, centred differences; the parallel filter
+follows when the equations are written. What the filters reach of log ends and standstill is marked unusable,
+because there the derivatives are guesses and friction is not sign(velocity). Source: the seed paper, section
+4.1.
 """
 
 from collections.abc import Iterator
@@ -89,7 +90,9 @@ class Motion:
         borders = [self.kept * number // self.blocks for number in range(self.blocks + 1)]
         done = 0
         for segment in self.segments:
-            cuts = {0, segment.kept} | {border - done for border in borders if 0 < border - done < segment.kept}
+            cuts = {0, segment.kept} | {
+                border - done for border in borders if 0 < border - done < segment.kept
+            }
             ordered = sorted(cuts)
             for begin, end in zip(ordered, ordered[1:], strict=False):
                 block = int(np.searchsorted(borders, done + begin, side="right")) - 1
@@ -98,7 +101,9 @@ class Motion:
             done += segment.kept
 
 
-def condition(log: JointLog, robot: RobotModel, options: FilterOptions | None = None, *, blocks: int = 20) -> Motion:
+def condition(
+    log: JointLog, robot: RobotModel, options: FilterOptions | None = None, *, blocks: int = 20
+) -> Motion:
     """Settle clock, recipe and torque channel of a log for a robot.
 
     Raises
@@ -173,7 +178,9 @@ class _Segment:
         left, right = max(0, begin - halo), min(self.samples, end + halo)
         position, torque = self._read(left, right)
         padded = _extend(position, halo - (begin - left), halo - (right - end))
-        smooth = oaconvolve(median(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0)
+        smooth = oaconvolve(
+            median(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0
+        )
         velocity = centred_difference(smooth, self.rate_hz)
         acceleration = centred_difference(velocity, self.rate_hz)
         state = MotionState(smooth[2:-2], velocity[1:-1], acceleration)
@@ -215,9 +222,7 @@ def _segment(log: JointLog, recipe: Recipe, start: int, stop: int) -> _Segment |
         return None
     rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
     even = is_uniform(stamps, float(rate))
-    return _Segment(
-        log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps
-    )
+    return _Segment(log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps)
 
 
 def _effort(rows: LogRows) -> JointSeries:
@@ -228,14 +233,18 @@ def _effort(rows: LogRows) -> JointSeries:
 def _effort_scale(log: JointLog, robot: RobotModel) -> np.ndarray:
     if "torque" in log.channels:
         return np.ones(len(robot.joints))
-    undeclared = [joint.name for joint in robot.joints if joint.torque_constant is None or joint.gear_ratio is None]
+    undeclared = [
+        joint.name for joint in robot.joints if joint.torque_constant is None or joint.gear_ratio is None
+    ]
     if undeclared:
         raise LogError(
             "the log holds currents, and the robot does not say what torque a current gives",
             evidence={"joints": undeclared, "log": log.name},
             remedy="declare torque_constant (N m/A) and gear_ratio of these joints, or log joint torque",
         )
-    return np.array([float(joint.torque_constant or 0.0) * float(joint.gear_ratio or 0.0) for joint in robot.joints])
+    return np.array(
+        [float(joint.torque_constant or 0.0) * float(joint.gear_ratio or 0.0) for joint in robot.joints]
+    )
 
 
 def _extend(position: JointSeries, before: int, after: int) -> JointSeries:
@@ -247,7 +256,10 @@ def _extend(position: JointSeries, before: int, after: int) -> JointSeries:
 
 
 def without_standstill_mask(motion: Motion) -> Motion:
-    """Give the same motion with standing samples counted as usable; for causes whose evidence lies at standstill."""
+    """Give the same motion with standing samples counted as usable.
+
+    For causes whose evidence lies at standstill.
+    """
     recipe = replace(motion.recipe, still_speed=np.full_like(motion.recipe.still_speed, -1.0))
     segments = tuple(replace(segment, recipe=recipe) for segment in motion.segments)
     return replace(motion, recipe=recipe, segments=segments)

@@ -1,7 +1,7 @@
 """Differentiate and remove absurd samples: the two local operations of the seed's chain.
 
-Both work on a stretch that carries its neighbours on either side and give back the inner part, so that a long log can be
-processed stretch after stretch without seams. Source: the seed paper, section 4.1.
+Both work on a stretch that carries its neighbours on either side and give back the inner part, so that a long
+log can be processed stretch after stretch without seams. Source: the seed paper, section 4.1.
 """
 
 import numpy as np

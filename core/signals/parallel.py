@@ -1,7 +1,8 @@
 """Filter and thin many series at once: the parallel filter of the observation matrix, as one matrix product per tile.
 
-Filtering both sides of a linear equation with the same linear filter leaves the equation true; so no delay, no edge effect and
-no choice of cut-off can bias it. Only the kept instants are computed. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
+Filtering both sides of a linear equation with the same linear filter leaves the equation true; so no delay,
+no edge effect and no choice of cut-off can bias it. Only the kept instants are computed. Source: Gautier
+1997; Khalil & Dombre (2002), ch. 12.
 """
 
 from dataclasses import dataclass
@@ -48,7 +49,10 @@ class ParallelFilter:
         return np.abs(self._band) / np.abs(self.response).sum()
 
     def apply(self, series: Series, first: int, kept: int) -> Series:
-        """Give `kept` filtered instants; the first lies at sample `first` of the series, beyond whose ends zeros are assumed."""
+        """Give `kept` filtered instants.
+
+        The first lies at sample `first` of the series, beyond whose ends zeros are assumed.
+        """
         return self._run(self._band, series, first, kept)
 
     def influence(self, marks: Series, first: int, kept: int) -> Series:

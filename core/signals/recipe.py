@@ -1,6 +1,7 @@
 """Decide how signals are conditioned: the seed's chain, with cut-offs read off the motion's own spectrum unless they are given.
 
-Nothing here looks at the torque: a cut-off chosen to make the residual small would be tuned on what it is judged by.
+Nothing here looks at the torque: a cut-off chosen to make the residual small would be tuned on what it is
+judged by.
 """
 
 from dataclasses import dataclass
@@ -16,9 +17,15 @@ from core.signals.resample import uniform
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
 PARALLEL_OVER_MOTION = 10.0
-"""The parallel filter passes ten times the motion's band: products of the joints' motions lie above each of them."""
+"""The parallel filter passes ten times the motion's band.
+
+Products of the joints' motions lie above each of them.
+"""
 POSITION_OVER_PARALLEL = 5.0
-"""Positions keep a band five times wider, so that their filter does not bend what the parallel filter passes."""
+"""Positions keep a band five times wider.
+
+So that their filter does not bend what the parallel filter passes.
+"""
 _LOOK_SECONDS = 60.0
 _LOOKS = 8
 
@@ -27,7 +34,8 @@ _LOOKS = 8
 class FilterOptions:
     """Ask for a recipe; None leaves the choice to the motion.
 
-    `cutoff_hz` and `order` are the parallel filter's; `position_cutoff_hz` is that of the filter on q (same order).
+    `cutoff_hz` and `order` are the parallel filter's; `position_cutoff_hz` is that of the filter on q (same
+    order).
     """
 
     median_order: int = 5
@@ -100,7 +108,9 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
                 remedy=f"give a cut-off above 0 and below {0.5 * rate:.6g} Hz",
             )
     decimation = options.decimation or max(1, int(0.4 * rate / cutoff))
-    chosen = "given" if options.cutoff_hz else f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
+    chosen = (
+        "given" if options.cutoff_hz else f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
+    )
     return Recipe(
         median_order=options.median_order,
         position_cutoff_hz=position,

@@ -1,7 +1,8 @@
 """Bring stamped samples onto one clock: real stamps are honoured, uniform ones are left exactly as they are.
 
-Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be differentiated
-twice, torques carry noise that a spline would amplify. Rows that repeat the row before are dropped samples and are left out.
+Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be
+differentiated twice, torques carry noise that a spline would amplify. Rows that repeat the row before are
+dropped samples and are left out.
 """
 
 import numpy as np
@@ -27,7 +28,11 @@ def is_uniform(time: Samples, rate_hz: float) -> bool:
 
 
 def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointSeries]:
-    """Give time, position and torque (or current where no torque was logged) on a uniform clock that starts at the first stamp."""
+    """Give time.
+
+    Position and torque (or current where no torque was logged) on a uniform clock that starts at the first
+    stamp.
+    """
     effort = rows.torque if rows.torque is not None else rows.current
     if effort is None:
         effort = np.zeros_like(rows.position)

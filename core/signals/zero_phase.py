@@ -1,9 +1,10 @@
 """Low-pass without delay: the zero-phase Butterworth filter as the symmetric kernel it is.
 
-Running a Butterworth filter forwards and backwards multiplies the spectrum by |H|^2, which for the bilinear design is
-1 / (1 + (tan(w/2) / tan(wc/2))^(2 order)). Its impulse response decays exponentially, so cut where it has fallen below rounding
-it gives a finite kernel that can be applied to any stretch of a long log by itself; away from the ends it equals
-`scipy.signal.sosfiltfilt`. Source: Oppenheim & Schafer, Discrete-Time Signal Processing, ch. 7.
+Running a Butterworth filter forwards and backwards multiplies the spectrum by |H|^2, which for the bilinear
+design is 1 / (1 + (tan(w/2) / tan(wc/2))^(2 order)). Its impulse response decays exponentially, so cut where
+it has fallen below rounding it gives a finite kernel that can be applied to any stretch of a long log by
+itself; away from the ends it equals `scipy.signal.sosfiltfilt`. Source: Oppenheim & Schafer, Discrete-Time
+Signal Processing, ch. 7.
 """
 
 from functools import lru_cache
@@ -26,7 +27,9 @@ def gain(frequency_hz: Vector, *, cutoff_hz: float, rate_hz: float, order: int) 
     """
     half = np.pi / rate_hz
     with np.errstate(over="ignore"):
-        return np.asarray(1.0 / (1.0 + (np.tan(half * frequency_hz) / np.tan(half * cutoff_hz)) ** (2 * order)))
+        return np.asarray(
+            1.0 / (1.0 + (np.tan(half * frequency_hz) / np.tan(half * cutoff_hz)) ** (2 * order))
+        )
 
 
 @lru_cache(maxsize=64)
@@ -45,7 +48,9 @@ def kernel(cutoff_hz: float, rate_hz: float, order: int) -> Samples:
             remedy="ask for a cut-off above 0 and below half the sampling rate, and an order from 1 to 12",
         )
     size = 1 << int(np.ceil(np.log2(max(64.0, 80.0 * order * rate_hz / cutoff_hz))))
-    response = np.fft.irfft(gain(np.fft.rfftfreq(size, 1.0 / rate_hz), cutoff_hz=cutoff_hz, rate_hz=rate_hz, order=order))
+    response = np.fft.irfft(
+        gain(np.fft.rfftfreq(size, 1.0 / rate_hz), cutoff_hz=cutoff_hz, rate_hz=rate_hz, order=order)
+    )
     half = response[: size // 2]
     reach = int(np.flatnonzero(np.abs(half) > _FLOOR * half[0])[-1])
     both = np.concatenate([half[reach:0:-1], half[: reach + 1]])

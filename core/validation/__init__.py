@@ -1,1 +1,4 @@
-"""Ask whether it predicts the unseen: in comes an estimate and held-out equations, out come scores and certificates."""
+"""Ask whether it predicts the unseen.
+
+In comes an estimate and held-out equations, out come scores and certificates.
+"""

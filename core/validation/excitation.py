@@ -1,8 +1,8 @@
 """Tell how well the motion excites the parameters: the condition of W, and each column's own share.
 
-The condition number depends on units, so it is given as it is and with columns scaled to unit length. A column's own share is
-what is left of it once all other columns have explained what they can; a parameter with a small share is known through it alone.
-Source: Gautier & Khalil 1992; Belsley, Kuh & Welsch 1980.
+The condition number depends on units, so it is given as it is and with columns scaled to unit length. A
+column's own share is what is left of it once all other columns have explained what they can; a parameter with
+a small share is known through it alone. Source: Gautier & Khalil 1992; Belsley, Kuh & Welsch 1980.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,10 @@ from core.arrays import Matrix, Vector
 
 @dataclass(frozen=True, eq=False)
 class ExcitationScore:
-    """Hold the condition numbers and every column's own share (0..1); infinite condition where a column is not excited."""
+    """Hold the condition numbers and every column's own share (0..1).
+
+    Infinite condition where a column is not excited.
+    """
 
     condition_number: float
     condition_number_scaled: float

@@ -1,6 +1,7 @@
 """Set blocks aside before anything is fitted: contiguous stretches, or whole logs, never shuffled samples.
 
-Neighbouring samples share noise and motion, so a shuffled hold-out is no hold-out at all. Source: Roberts et al., Ecography 2017.
+Neighbouring samples share noise and motion, so a shuffled hold-out is no hold-out at all. Source: Roberts et
+al., Ecography 2017.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,9 @@
 """Check that the robot's mass matrix is positive along the motion and all over the workspace.
 
-M(q) > 0 is what the seed paper checks after the fact. Here it follows: links whose pseudo-inertias are positive definite have
-positive kinetic energy in every motion, so M(q) > 0 everywhere; the numbers below confirm it and tell how close to singular
-it comes. Source: Wensing, Kim & Slotine 2018; the seed paper, section 3.2.
+M(q) > 0 is what the seed paper checks after the fact. Here it follows: links whose pseudo-inertias are
+positive definite have positive kinetic energy in every motion, so M(q) > 0 everywhere; the numbers below
+confirm it and tell how close to singular it comes. Source: Wensing, Kim & Slotine 2018; the seed paper,
+section 3.2.
 """
 
 from dataclasses import dataclass, replace
@@ -24,7 +25,10 @@ _SEED = 733
 
 @dataclass(frozen=True, eq=False)
 class MassMatrixCheck:
-    """Hold the smallest eigenvalue met (kg m2; mixed units with prismatic joints) and whether Cholesky passed everywhere."""
+    """Hold the smallest eigenvalue met (kg m2.
+
+    Mixed units with prismatic joints) and whether Cholesky passed everywhere.
+    """
 
     min_eigenvalue: float
     positive: bool
@@ -68,8 +72,12 @@ def workspace(robot: RobotModel, configurations: int = CONFIGURATIONS) -> JointS
 def pseudo_inertia_eigenvalues(model: DynamicModel, standard: Parameters) -> tuple[float, ...]:
     """Give the smallest eigenvalue of every link's pseudo-inertia (mixed units kg m2, kg m, kg)."""
     place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
-    links = [place[f"XX{number}"] for number in range(1, len(model.robot.links) + 1) if f"XX{number}" in place]
-    return tuple(float(np.linalg.eigvalsh(pseudo_inertia(standard[first : first + 10]))[0]) for first in links)
+    links = [
+        place[f"XX{number}"] for number in range(1, len(model.robot.links) + 1) if f"XX{number}" in place
+    ]
+    return tuple(
+        float(np.linalg.eigvalsh(pseudo_inertia(standard[first : first + 10]))[0]) for first in links
+    )
 
 
 def _inertial(model: DynamicModel) -> DynamicModel:

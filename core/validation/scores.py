@@ -1,6 +1,7 @@
 """Score a prediction joint by joint, with the denominator of every relative error in its name.
 
-An error of a tenth of the torque's range and one of a tenth of its RMS differ by a factor of three to six; papers mix them.
+An error of a tenth of the torque's range and one of a tenth of its RMS differ by a factor of three to six;
+papers mix them.
 """
 
 from dataclasses import dataclass
@@ -37,7 +38,9 @@ def total_percent(observation: Observation, chosen: tuple[int, ...], base: BaseP
     """Give 100 times the norm of the residual over the norm of the torque, all joints together."""
     factors = observation.joint_factors(chosen)
     columns_of: tuple[Indices, ...] = observation.columns_of
-    left = sum(factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True))
+    left = sum(
+        factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True)
+    )
     return _percent(np.sqrt(left), np.sqrt(sum(factor.torque_square for factor in factors)))
 
 

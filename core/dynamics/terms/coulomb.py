@@ -1,8 +1,8 @@
 """Give the friction that only knows the direction: FC times sign(velocity), with the sign smoothed where asked.
 
-The sign is wrong within the velocity's error of zero, where a measured velocity changes sign too early or too late. A smoothed
-sign tanh(v / width) spreads the step over a width that the caller chooses per joint from data that is not held out.
-Source: the seed paper, eq. (4).
+The sign is wrong within the velocity's error of zero, where a measured velocity changes sign too early or too
+late. A smoothed sign tanh(v / width) spreads the step over a width that the caller chooses per joint from
+data that is not held out. Source: the seed paper, eq. (4).
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,7 @@
-"""Share what terms have in common that act on their own joint only: one parameter, one column, one series per joint."""
+"""Share what terms have in common that act on their own joint only.
+
+One parameter, one column, one series per joint.
+"""
 
 from collections.abc import Callable
 
@@ -13,7 +16,10 @@ from core.robot.parameters import Parameter
 def own_joint_parameters(
     robot: RobotModel, joints: tuple[int, ...], symbol: str, units: tuple[str, str], lower: float | None
 ) -> tuple[Parameter, ...]:
-    """Name one parameter for each of the joints (from 0); `units` are those for a revolute and for a prismatic joint."""
+    """Name one parameter for each of the joints (from 0).
+
+    `units` are those for a revolute and for a prismatic joint.
+    """
     kinds = {link.joint - 1: link.kind for link in reversed(robot.links)}
     return tuple(
         Parameter(symbol, joint + 1, joint + 1, units[kinds[joint] == "prismatic"], lower) for joint in joints
@@ -25,7 +31,9 @@ def own_joint_entries(joints: tuple[int, ...]) -> tuple[Entry, ...]:
     return tuple((joint, position) for position, joint in enumerate(joints))
 
 
-def own_joint_series(joints: tuple[int, ...], samples: int, column: Callable[[int], Samples | float]) -> Series:
+def own_joint_series(
+    joints: tuple[int, ...], samples: int, column: Callable[[int], Samples | float]
+) -> Series:
     """Stack the column of each joint."""
     rows = np.empty((len(joints), samples))
     for position, joint in enumerate(joints):

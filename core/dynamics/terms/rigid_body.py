@@ -1,7 +1,8 @@
 """Give the torque of moving masses: ten parameters per link, the inertia of every body that a joint carries.
 
-The series here come from the plain Newton-Euler recursion with one unit parameter at a time; the regressor chapter computes
-the same series compiled and a law holds the two equal. Source: Khalil & Dombre (2002), ch. 12.
+The series here come from the plain Newton-Euler recursion with one unit parameter at a time; the regressor
+chapter computes the same series compiled and a law holds the two equal. Source: Khalil & Dombre (2002), ch.
+12.
 """
 
 from dataclasses import dataclass

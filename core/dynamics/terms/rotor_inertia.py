@@ -1,6 +1,7 @@
 """Give the torque that turns the rotor: inertia seen at the joint (gear ratio squared included) times joint acceleration.
 
-The gyroscopic torque of a rotor spun by its carrier is left out, as in the seed's model. Source: Khalil & Dombre (2002), ch. 9.
+The gyroscopic torque of a rotor spun by its carrier is left out, as in the seed's model. Source: Khalil &
+Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass
@@ -28,7 +29,9 @@ class RotorInertia:
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter."""
-        return own_joint_series(_joints(robot), len(state.position), lambda joint: state.acceleration[:, joint])
+        return own_joint_series(
+            _joints(robot), len(state.position), lambda joint: state.acceleration[:, joint]
+        )
 
 
 def _joints(robot: RobotModel) -> tuple[int, ...]:
