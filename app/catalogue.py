@@ -1,0 +1,169 @@
+"""Take robots and logs in, and find them again: documents and bytes become records here, or the reason why they cannot.
+
+Everything here may take a while and is called from worker threads, never on the event loop.
+"""
+
+from pathlib import PurePath
+
+from app.jobs import science
+from app.jobs.computation import LogFile
+from app.problems import Problem
+from app.store.blobs import Incoming
+from app.store.records import Document, LogRecord, RobotRecord
+from app.store.store import Store
+from core.robot.model import RobotModel
+
+LONGEST_NAME = 200
+
+
+class Catalogue:
+    """Know all robots and logs, the built-in robots among them."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._base_parameters: dict[str, Document] = {}
+        self.built_in = {
+            name: _built_in(name, description)
+            for name, description in science.built_in_descriptions().items()
+        }
+
+    def add_description(self, description: Document) -> RobotRecord:
+        """Keep a robot that is described by the service's own document.
+
+        Raises
+        ------
+        RobotError
+            If the description cannot be used.
+        """
+        return self._add(*science.read_description(description))
+
+    def add_urdf(
+        self,
+        text: bytes,
+        *,
+        base_link: str | None = None,
+        tip_link: str | None = None,
+        gravity: tuple[float, ...] | None = None,
+    ) -> RobotRecord:
+        """Keep a robot that is described by a URDF.
+
+        Raises
+        ------
+        RobotError
+            If the URDF cannot be used.
+        """
+        return self._add(*science.read_urdf(text, base_link=base_link, tip_link=tip_link, gravity=gravity))
+
+    def robot(self, identity: str, *, named_in_body: bool = False) -> RobotRecord:
+        """Find a robot.
+
+        Raises
+        ------
+        Problem
+            If there is none (404, or 422 where the body of the request names it).
+        """
+        found = self.built_in.get(identity) or self._store.robots.get(identity)
+        if found is None:
+            raise _missing("robot", identity, named_in_body=named_in_body)
+        return found
+
+    def robots(self, *, limit: int, offset: int) -> tuple[list[RobotRecord], int]:
+        """List robots, built-in ones first, and count all of them."""
+        fixed = list(self.built_in.values())
+        first = fixed[offset : offset + limit]
+        others, count = self._store.robots.page(limit=limit - len(first), offset=max(0, offset - len(fixed)))
+        return first + others, count + len(fixed)
+
+    def remove_robot(self, identity: str) -> None:
+        """Forget a robot.
+
+        Raises
+        ------
+        Problem
+            If there is none (404), or it is built in (409).
+        """
+        robot = self.robot(identity)
+        if robot.built_in:
+            raise Problem(
+                "built-in",
+                f"{robot.id} is built in and cannot be deleted",
+                evidence={"robot": robot.id},
+                remedy="delete only robots that were created by a request",
+            )
+        self._store.robots.remove(robot.id)
+        self._base_parameters.pop(robot.id, None)
+
+    def base_parameters(self, identity: str) -> Document:
+        """Say what motion of a robot can tell apart; computed once and remembered.
+
+        Raises
+        ------
+        Problem
+            If there is no such robot (404).
+        """
+        robot = self.robot(identity)
+        if robot.id not in self._base_parameters:
+            self._base_parameters[robot.id] = science.base_parameters(robot.description)
+        return {"robot": robot.id} | self._base_parameters[robot.id]
+
+    def add_log(
+        self, incoming: Incoming, *, name: str, mapping: Document | None, media_type: str | None = None
+    ) -> LogRecord:
+        """Read an uploaded log once, and keep it if it can be used.
+
+        Raises
+        ------
+        LogError
+            If the log cannot be used; nothing is kept then.
+        """
+        incoming.finish()
+        log = LogFile(incoming.path, log_name(name), mapping, incoming.sha256)
+        summary = science.summarise_log(log, media_type=media_type) | {"bytes": incoming.size}
+        return self._store.keep_log(incoming, mapping=mapping, summary=summary)
+
+    def log(self, identity: str, *, named_in_body: bool = False) -> LogRecord:
+        """Find a log.
+
+        Raises
+        ------
+        Problem
+            If there is none (404, or 422 where the body of the request names it).
+        """
+        found = self._store.logs.get(identity)
+        if found is None:
+            raise _missing("log", identity, named_in_body=named_in_body)
+        return found
+
+    def _add(self, robot: RobotModel, description: Document) -> RobotRecord:
+        return self._store.robots.add(
+            name=robot.name,
+            joints=len(robot.joints),
+            description=description,
+            suspicions=science.doubts(robot),
+        )
+
+
+def log_name(given: str) -> str:
+    r"""Make a log's name of what a client calls it: the last part of a path, printable and not too long.
+
+    Examples
+    --------
+    >>> log_name("C:\\runs\\run 1.csv"), log_name("")
+    ('run 1.csv', 'log')
+    """
+    last = PurePath(given.replace("\\", "/")).name
+    return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "log"
+
+
+def _built_in(name: str, description: Document) -> RobotRecord:
+    robot, written = science.read_description(description)
+    return RobotRecord(name, robot.name, len(robot.joints), True, written, science.doubts(robot), None)
+
+
+def _missing(what: str, identity: str, *, named_in_body: bool) -> Problem:
+    return Problem(
+        "unknown-reference" if named_in_body else "not-found",
+        f"there is no {what} {identity}",
+        evidence={what: identity},
+        remedy=f"GET /v1/{what}s lists what there is",
+    )

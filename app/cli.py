@@ -1,0 +1,120 @@
+"""Offer the service on the command line; every setting can also stand in the environment.
+
+Source of the names: `app.settings`.
+"""
+
+import json
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from pydantic import ValidationError
+
+from app.settings import PREFIX, Settings, reaches_other_machines
+from app.version import VERSION
+
+COMPILE_SECONDS = 60
+DEFAULTS = Settings.model_construct()
+
+COMMANDS = typer.Typer(
+    name="veritorque",
+    help="From a robot's log to a robot that can physically exist.",
+    no_args_is_help=True,
+    add_completion=False,
+)
+
+
+def main() -> None:
+    """Run the command line."""
+    COMMANDS()
+
+
+@COMMANDS.command()
+def serve(
+    host: Annotated[str, typer.Option(envvar=PREFIX + "HOST", help="Address to listen on.")] = DEFAULTS.host,
+    port: Annotated[int, typer.Option(envvar=PREFIX + "PORT", help="Port to listen on.")] = DEFAULTS.port,
+    data_dir: Annotated[
+        Path,
+        typer.Option(envvar=PREFIX + "DATA_DIR", help="Where logs, results and compiled kernels are kept."),
+    ] = DEFAULTS.data_dir,
+    workers: Annotated[
+        int, typer.Option(envvar=PREFIX + "WORKERS", help="Computations at the same time.")
+    ] = DEFAULTS.workers,
+    max_upload_bytes: Annotated[
+        int, typer.Option(envvar=PREFIX + "MAX_UPLOAD_BYTES", help="Largest log taken.")
+    ] = DEFAULTS.max_upload_bytes,
+    job_timeout_s: Annotated[
+        float, typer.Option(envvar=PREFIX + "JOB_TIMEOUT_S", help="Longest computation, s.")
+    ] = DEFAULTS.job_timeout_s,
+) -> None:
+    """Start the service. It listens on loopback unless VERITORQUE_ALLOW_REMOTE=1 is set: there are no keys yet."""
+    settings = _settings(
+        host=host,
+        port=port,
+        data_dir=data_dir,
+        workers=workers,
+        max_upload_bytes=max_upload_bytes,
+        job_timeout_s=job_timeout_s,
+    )
+    if reaches_other_machines(settings.host) and not settings.allow_remote:
+        _stop(
+            f"{settings.host} can be reached from other machines, and the service has no keys yet; set "
+            f"{PREFIX}ALLOW_REMOTE=1 if everybody who reaches the port may use it, or keep --host 127.0.0.1"
+        )
+    _keep_compiled_kernels(settings.data_dir)
+    _listen(settings)
+
+
+@COMMANDS.command()
+def openapi() -> None:
+    """Print the contract as OpenAPI 3.1."""
+    from app.main import create_app
+
+    print(json.dumps(create_app(Settings.model_construct()).openapi(), indent=2))
+
+
+@COMMANDS.command()
+def version() -> None:
+    """Print the version."""
+    print(VERSION)
+
+
+def _settings(**chosen: object) -> Settings:
+    try:
+        return Settings.model_validate(Settings().model_dump() | chosen)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        _stop(f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}")
+        raise
+
+
+def _keep_compiled_kernels(data_dir: Path) -> None:
+    """Let numba keep what it compiles in the data directory, and say so where it has not compiled yet."""
+    kernels = Path(os.environ.setdefault("NUMBA_CACHE_DIR", str((data_dir / "kernels").resolve())))
+    if not any(kernels.rglob("*.nbi")):
+        print(
+            f"compiling the regressor once, about {COMPILE_SECONDS} s (kept in {kernels}); jobs wait for it"
+        )
+
+
+def _listen(settings: Settings) -> None:
+    import uvicorn
+
+    from app.main import create_app
+
+    shown = f"[{settings.host}]" if ":" in settings.host else settings.host
+    print(f"http://{shown}:{settings.port}/docs", flush=True)
+    uvicorn.run(
+        create_app(settings),
+        host=settings.host,
+        port=settings.port,
+        server_header=False,
+        log_level="info",
+        timeout_graceful_shutdown=5,
+    )
+
+
+def _stop(reason: str) -> None:
+    typer.echo(reason, err=True)
+    raise typer.Exit(2)

@@ -1,0 +1,94 @@
+"""Turn everything that can go wrong into a problem document, whoever raised it: the science, the framework or a bug."""
+
+import logging
+import secrets
+
+from fastapi import FastAPI
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Match
+
+from app.documents import canonical_json
+from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of
+from app.reading import invalid
+from core.errors import VeritorqueError
+
+LOGGER = logging.getLogger(__name__)
+METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
+_KIND_OF_STATUS = {400: "bad-request", 404: "not-found", 405: "method-not-allowed", 413: "too-large"}
+
+
+def problem_response(problem: Problem) -> Response:
+    """Answer with a problem document."""
+    return Response(
+        canonical_json(problem.document()),
+        status_code=problem.status_code,
+        headers=dict(problem.headers or {}),
+        media_type=MEDIA_TYPE,
+    )
+
+
+def install(app: FastAPI) -> None:
+    """Let the app answer every failure with a problem document."""
+    app.add_exception_handler(HTTPException, _on_http)
+    app.add_exception_handler(RequestValidationError, _on_validation)
+    app.add_exception_handler(VeritorqueError, _on_science)
+    app.add_exception_handler(Exception, _on_mistake)
+
+
+async def _on_http(request: Request, error: Exception) -> Response:
+    if isinstance(error, Problem):
+        return problem_response(error)
+    status = error.status_code if isinstance(error, HTTPException) else 500
+    if status == KINDS["method-not-allowed"][0]:
+        return problem_response(_wrong_method(request))
+    kind = _KIND_OF_STATUS.get(status, "bad-request")
+    cause = str(error.detail) if isinstance(error, HTTPException) else ""
+    path = request.url.path
+    if kind == "not-found":
+        cause = f"there is nothing at {path}"
+    remedy = "/docs lists all resources" if kind == "not-found" else "send the request as /docs shows it"
+    return problem_response(Problem(kind, cause, evidence={"path": path}, remedy=remedy))
+
+
+async def _on_validation(_request: Request, error: Exception) -> Response:
+    complaints = list(error.errors()) if isinstance(error, RequestValidationError) else []
+    return problem_response(invalid(complaints))
+
+
+async def _on_science(_request: Request, error: Exception) -> Response:
+    return problem_response(problem_of(error) if isinstance(error, VeritorqueError) else _mistake(""))
+
+
+async def _on_mistake(request: Request, error: Exception) -> Response:
+    incident = secrets.token_hex(6)
+    LOGGER.error("incident %s at %s %s", incident, request.method, request.url.path, exc_info=error)
+    return problem_response(_mistake(incident))
+
+
+def _wrong_method(request: Request) -> Problem:
+    allowed = [method for method in METHODS if _takes(request, method)]
+    return Problem(
+        "method-not-allowed",
+        f"{request.url.path} does not take {request.method}",
+        evidence={"method": request.method, "allowed": allowed},
+        remedy="use one of the allowed methods",
+        headers={"Allow": ", ".join(allowed)},
+    )
+
+
+def _takes(request: Request, method: str) -> bool:
+    """Ask all routes, since each knows only its own method while several share a path."""
+    scope = {**request.scope, "method": method}
+    return any(route.matches(scope)[0] is Match.FULL for route in request.app.routes)
+
+
+def _mistake(incident: str) -> Problem:
+    return Problem(
+        "internal",
+        "the service made a mistake",
+        evidence={"incident": incident},
+        remedy="report it with the incident's number; the service's own log holds the details",
+    )

@@ -1,0 +1,66 @@
+"""Say what is computed and how it can end, in plain types that travel between processes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.store.records import Document
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class LogFile:
+    """Name the file of a log and how to read it.
+
+    Attributes
+    ----------
+    path
+        The bytes as they were uploaded.
+    name
+        The log's name.
+    mapping
+        Which column is what; None for the default names.
+    sha256
+        Hash of the bytes.
+    """
+
+    path: Path
+    name: str
+    mapping: Document | None
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Computation:
+    """Describe a computation completely: equal computations give equal results."""
+
+    kind: str
+    robot: Document
+    logs: tuple[LogFile, ...]
+    options: Document
+
+
+Work = Callable[[Computation, Progress], Document]
+
+
+@dataclass(frozen=True)
+class Finished:
+    """Carry the result document, as the bytes that are stored and sent."""
+
+    result: bytes
+
+
+@dataclass(frozen=True)
+class Failed:
+    """Carry the problem document that says why there is no result."""
+
+    problem: Document
+
+
+@dataclass(frozen=True)
+class Stopped:
+    """Say that the computation was stopped on demand."""
+
+
+Outcome = Finished | Failed | Stopped

@@ -1,0 +1,132 @@
+"""Run computations so that they can be followed, stopped and survived.
+
+The interface is one method; the one implementation gives every computation a process of its own, forked from a server process
+that has the solver loaded already. A crash, a dismissal or a timeout ends that process and nothing else.
+"""
+
+import json
+import logging
+import multiprocessing
+import time
+from collections.abc import Callable
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from threading import Event
+from typing import Protocol
+
+from app.jobs import science, worker
+from app.jobs.computation import Computation, Failed, Finished, Outcome, Progress, Stopped, Work
+from app.problems import Problem
+
+LOGGER = logging.getLogger(__name__)
+LOOK_EVERY_S = 0.05
+
+Stop = Callable[[], bool]
+
+
+class Executor(Protocol):
+    """Run computations one by one, from several threads at the same time."""
+
+    def prepare(self) -> None:
+        """Load what the first computation would otherwise wait for."""
+        ...
+
+    def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
+        """Run a computation to its end, until `stop` is set, or until the time is over (s)."""
+        ...
+
+
+class ProcessExecutor:
+    """Give every computation a process of its own.
+
+    Parameters
+    ----------
+    work
+        What is computed; a function that the process can import.
+    preload
+        Modules that the server process loads before it forks.
+    """
+
+    def __init__(self, work: Work = science.identify, *, preload: tuple[str, ...] = ("core.study",)) -> None:
+        self._work = work
+        self._context = multiprocessing.get_context("forkserver")
+        self._context.set_forkserver_preload(["app.jobs.worker", *preload])
+
+    def prepare(self) -> None:
+        """Let the server process load the solver, then load it here too, where options are checked."""
+        process = self._context.Process(target=worker.nothing, daemon=True)
+        process.start()
+        process.join()
+        process.close()
+        science.load()
+
+    def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
+        """Run a computation in a new process; see `Executor`."""
+        ours, theirs = self._context.Pipe()
+        process = self._context.Process(
+            target=worker.compute, args=(theirs, self._work, computation), daemon=True
+        )
+        try:
+            process.start()
+            theirs.close()
+            return _follow(process, ours, progress=progress, stop=stop, timeout_s=timeout_s)
+        finally:
+            if process.pid is not None:
+                process.kill()
+                process.join()
+            process.close()
+            theirs.close()
+            ours.close()
+
+
+def _follow(
+    process: BaseProcess, pipe: Connection, *, progress: Progress, stop: Event, timeout_s: float
+) -> Outcome:
+    deadline = time.monotonic() + timeout_s
+    while not stop.is_set():
+        if time.monotonic() > deadline:
+            return Failed(_too_slow(timeout_s).document())
+        if not wait([pipe], timeout=LOOK_EVERY_S):
+            continue
+        try:
+            message = pipe.recv_bytes()
+        except (EOFError, OSError):
+            process.join()
+            return Failed(_vanished(process.exitcode).document())
+        outcome = _read(message, progress)
+        if outcome is not None:
+            return outcome
+    return Stopped()
+
+
+def _read(message: bytes, progress: Progress) -> Outcome | None:
+    letter, content = message[:1], message[1:]
+    if letter == worker.RESULT:
+        return Finished(content)
+    if letter == worker.FAILURE:
+        return Failed(json.loads(content))
+    if letter == worker.TRACE:
+        LOGGER.error("a computation met a mistake of ours:\n%s", content.decode(errors="replace"))
+    else:
+        stage, fraction = json.loads(content)
+        progress(stage, fraction)
+    return None
+
+
+def _too_slow(timeout_s: float) -> Problem:
+    return Problem(
+        "job-timeout",
+        f"the computation took longer than {timeout_s:g} s",
+        evidence={"timeout_s": timeout_s},
+        remedy="shorten the log, raise the decimation, or let the operator raise VERITORQUE_JOB_TIMEOUT_S",
+    )
+
+
+def _vanished(exit_code: int | None) -> Problem:
+    """Say that the process ended without a word; a negative exit code is the number of the signal that ended it."""
+    return Problem(
+        "computation-stopped",
+        "the computation's process ended without a result",
+        evidence={"exit_code": exit_code},
+        remedy="a signal 9 points to too little memory: shorten the log or raise the decimation",
+    )

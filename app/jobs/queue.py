@@ -1,0 +1,73 @@
+"""Accept jobs and let go of them: what cannot succeed is refused at once, with the same words as the science would use."""
+
+from app.jobs import science
+from app.jobs.runner import Runner
+from app.problems import Problem
+from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
+from app.store.store import Store
+from core.errors import LogError
+
+
+class Queue:
+    """Accept, dismiss and delete jobs."""
+
+    def __init__(self, store: Store, runner: Runner) -> None:
+        self._store, self._runner = store, runner
+
+    def submit(
+        self, *, kind: str, robot: RobotRecord, logs: tuple[LogRecord, ...], options: Document
+    ) -> JobRecord:
+        """Queue a job.
+
+        Raises
+        ------
+        OptionError
+            If the kind or an option does not exist or makes no sense.
+        LogError
+            If a log has not as many joints as the robot.
+        """
+        science.check_options(kind, options)
+        for log in logs:
+            _check_joints(robot, log)
+        request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
+        job = self._store.jobs.add(request)
+        self._runner.wake()
+        return job
+
+    def dismiss(self, job: JobRecord) -> JobRecord:
+        """Dismiss an unfinished job and end its computation."""
+        self._store.jobs.dismiss(job.id)
+        self._runner.stop(job.id)
+        return self._store.jobs.get(job.id) or job
+
+    def refuse_if_needed(self, *, robot: str | None = None, log: str | None = None) -> None:
+        """Refuse to delete what an unfinished job needs.
+
+        Raises
+        ------
+        Problem
+            If an unfinished job names the robot or the log (409).
+        """
+        waiting = self._store.jobs.unfinished_requests()
+        users = [request for request in waiting if request.robot == robot or log in request.logs]
+        if users:
+            raise Problem(
+                "in-use",
+                f"{robot or log} is needed by jobs that are not finished",
+                evidence={"jobs": len(users), "states": list(UNFINISHED)},
+                remedy="wait for these jobs or dismiss them",
+            )
+
+
+def _check_joints(robot: RobotRecord, log: LogRecord) -> None:
+    if log.joints != robot.joints:
+        raise LogError(
+            f"the log {log.summary['name']} has {log.joints} joints, the robot {robot.name} has {robot.joints}",
+            evidence={
+                "log": log.id,
+                "log_joints": log.joints,
+                "robot": robot.id,
+                "robot_joints": robot.joints,
+            },
+            remedy="choose the robot that was measured, or map exactly one column per joint",
+        )

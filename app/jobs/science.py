@@ -1,0 +1,142 @@
+"""Meet the science: the one place where documents become core's types and core's types become documents.
+
+`core.study` is imported where it is used, because it brings the solver and the compiled kernels with it: the service answers
+before they are loaded, and a command that prints the contract never loads them.
+"""
+
+from dataclasses import asdict
+from pathlib import Path
+
+from app.documents import plain
+from app.jobs.computation import Computation, LogFile, Progress
+from app.store.records import Document
+from core.errors import OptionError
+from core.log.reader import read_log
+from core.robot.builtin import builtin_description, builtin_robots
+from core.robot.description import robot_from_description
+from core.robot.model import RobotModel
+from core.robot.suspicions import suspicions
+from core.robot.urdf import robot_from_urdf
+from core.robot.writing import to_description
+
+KINDS = ("identify",)
+
+
+def built_in_descriptions() -> dict[str, Document]:
+    """Give the descriptions of the built-in robots by name."""
+    return {name: builtin_description(name) for name in builtin_robots()}
+
+
+def read_description(description: Document) -> tuple[RobotModel, Document]:
+    """Read a robot description, and write it again with every default filled in.
+
+    Raises
+    ------
+    RobotError
+        If the description cannot be used.
+    """
+    robot = robot_from_description(description)
+    return robot, to_description(robot)
+
+
+def read_urdf(
+    text: bytes, *, base_link: str | None, tip_link: str | None, gravity: tuple[float, ...] | None
+) -> tuple[RobotModel, Document]:
+    """Read a URDF, and write it as a description.
+
+    Raises
+    ------
+    RobotError
+        If the URDF cannot be used.
+    """
+    if gravity is None:
+        robot = robot_from_urdf(text, base_link=base_link, tip_link=tip_link)
+    else:
+        robot = robot_from_urdf(text, base_link=base_link, tip_link=tip_link, gravity=gravity)
+    return robot, to_description(robot)
+
+
+def doubts(robot: RobotModel) -> tuple[str, ...]:
+    """List what looks like a mistake in a description, although it can be used."""
+    return suspicions(robot)
+
+
+def summarise_log(log: LogFile, *, media_type: str | None) -> Document:
+    """Read a log once and say what is in it.
+
+    Raises
+    ------
+    LogError
+        If the log cannot be used.
+    """
+    seen = read_log(log.path, media_type=media_type, mapping=log.mapping, name=log.name, sha256=log.sha256)
+    summary = {
+        "name": seen.name,
+        "sha256": log.sha256,
+        "mapping": log.mapping,
+        "samples": seen.samples,
+        "duration_s": seen.duration,
+        "rate_hz": seen.rate_hz,
+        "joints": seen.joints,
+        "channels": seen.channels,
+        "ignored_columns": seen.ignored_columns,
+        "defects": [asdict(defect) for defect in seen.defects],
+    }
+    return {name: plain(value) for name, value in summary.items()}
+
+
+def check_options(kind: str, options: Document) -> None:
+    """Refuse options before anything is computed.
+
+    Raises
+    ------
+    OptionError
+        If there is no such kind of job, or an option does not exist or makes no sense.
+    """
+    if kind not in KINDS:
+        raise OptionError(
+            f"there is no job of kind {kind}",
+            evidence={"given": kind, "known": list(KINDS)},
+            remedy="ask for one of the known kinds",
+        )
+    from core.study import parse_options
+
+    parse_options(options)
+
+
+def base_parameters(description: Document) -> Document:
+    """Say which combinations of parameters any motion of a robot can tell apart.
+
+    Raises
+    ------
+    RobotError
+        If the description cannot be used.
+    """
+    from core import study
+
+    document: Document = study.base_parameters(robot_from_description(description))
+    return document
+
+
+def identify(computation: Computation, progress: Progress) -> Document:
+    """Identify a robot; the work of a job.
+
+    Raises
+    ------
+    VeritorqueError
+        If the robot, the logs or the options do not allow it.
+    """
+    from core import study
+
+    robot = robot_from_description(computation.robot)
+    logs = tuple(
+        read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256) for log in computation.logs
+    )
+    request = study.IdentifyRequest(robot=robot, logs=logs, options=computation.options)
+    document: Document = study.identify(request, progress)
+    return document
+
+
+def load() -> None:
+    """Load the solver and the compiled kernels; compiles them where no earlier run has left them on the disk."""
+    import core.study  # noqa: F401  (the import is the work)

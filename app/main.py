@@ -1,0 +1,74 @@
+"""Put the service together: settings in, one ASGI application out.
+
+Nothing is opened before the application starts, so that the contract can be printed without a database or a solver.
+"""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+import anyio
+from fastapi import FastAPI
+
+from app import handlers, openapi
+from app.jobs.executor import Executor, ProcessExecutor
+from app.middleware import BodyLimit, SafeHeaders
+from app.routes import health, identify, jobs, logs, pages, robots
+from app.services import Services
+from app.settings import Settings
+from app.version import VERSION
+
+TAGS = [
+    {"name": "robots", "description": "What is believed before measuring: joints, geometry, gravity."},
+    {"name": "logs", "description": "What was measured: position, torque or current over time."},
+    {"name": "jobs", "description": "What is computed from them."},
+    {"name": "identify", "description": "Everything in one request."},
+    {"name": "service", "description": "For operators."},
+]
+
+
+def create_app(settings: Settings | None = None, *, executor: Executor | None = None) -> FastAPI:
+    """Make the application.
+
+    Parameters
+    ----------
+    settings
+        Read from the environment if None.
+    executor
+        What computes; a process per computation if None.
+    """
+    chosen = settings or Settings()
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        app.state.services = await anyio.to_thread.run_sync(
+            Services.open, chosen, executor or ProcessExecutor()
+        )
+        try:
+            yield
+        finally:
+            await anyio.to_thread.run_sync(app.state.services.close)
+
+    app = FastAPI(
+        title="Veritorque",
+        version=VERSION,
+        summary="Convex semidefinite robot dynamic identification",
+        license_info={"name": "Apache-2.0", "identifier": "Apache-2.0"},
+        openapi_tags=TAGS,
+        docs_url=None,
+        redoc_url=None,
+        lifespan=lifespan,
+    )
+    for chapter in (robots, logs, jobs, identify, health, pages):
+        app.include_router(chapter.ROUTER)
+    handlers.install(app)
+    app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes)
+    app.add_middleware(SafeHeaders)
+
+    def contract() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            app.openapi_schema = openapi.document(app)
+        return app.openapi_schema
+
+    app.openapi = contract  # type: ignore[method-assign]
+    return app

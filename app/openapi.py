@@ -1,0 +1,84 @@
+"""Write the contract as OpenAPI 3.1: what FastAPI derives from the routes, plus the bodies they read by hand and the problems.
+
+Routes read bodies themselves, so that they can be streamed, bounded and refused with reasons; their documentation is given here.
+"""
+
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import BaseModel
+from pydantic.json_schema import models_json_schema
+
+from app.problems import KINDS, MEDIA_TYPE
+from app.schemas.common import ProblemDocument
+from app.schemas.jobs import JobRequest
+from app.schemas.results import ResultDocument
+from app.schemas.robots import RobotDescription
+
+SCHEMAS = "#/components/schemas/"
+DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultDocument, ProblemDocument)
+DESCRIPTION = """From a robot's log to a robot that can physically exist.
+
+Create a robot (or use a built-in one), upload a log, ask for a job of kind `identify`, read its results.
+Units are SI, angles rad, joints counted from 1. Numbers are finite: no request and no answer holds NaN or Infinity.
+Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
+
+
+def reference(model: type[BaseModel]) -> dict[str, str]:
+    """Refer to a model of the contract."""
+    return {"$ref": SCHEMAS + model.__name__}
+
+
+def body(content: dict[str, Any]) -> dict[str, Any]:
+    """Document the body of a request, by media type."""
+    return {"requestBody": {"required": True, "content": content}}
+
+
+def file_part(description: str) -> dict[str, Any]:
+    """Document a file in a form."""
+    return {"type": "string", "format": "binary", "description": description}
+
+
+def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """Document which failures a route answers with."""
+    return {
+        status: {"description": "; ".join(title for code, title in KINDS.values() if code == status)}
+        for status in statuses
+    }
+
+
+def document(app: FastAPI) -> dict[str, Any]:
+    """Write the contract of an app."""
+    contract = get_openapi(
+        title=app.title,
+        version=app.version,
+        openapi_version=app.openapi_version,
+        summary=app.summary,
+        description=DESCRIPTION,
+        routes=app.routes,
+        tags=app.openapi_tags,
+        license_info=app.license_info,
+    )
+    schemas = contract.setdefault("components", {}).setdefault("schemas", {})
+    _, definitions = models_json_schema(
+        [(model, "validation") for model in DOCUMENTED], ref_template=SCHEMAS + "{model}"
+    )
+    schemas |= definitions["$defs"]
+    for name in ("HTTPValidationError", "ValidationError"):  # replaced by problem documents
+        schemas.pop(name, None)
+    contract["components"]["schemas"] = dict(sorted(schemas.items()))
+    for operations in contract["paths"].values():
+        for operation in operations.values():
+            _state_problems(operation)
+    return contract
+
+
+def _state_problems(operation: dict[str, Any]) -> None:
+    answers = operation["responses"]
+    for status, answer in answers.items():
+        if int(status) >= 400:
+            answer["content"] = {MEDIA_TYPE: {"schema": reference(ProblemDocument)}}
+            if status == "422" and answer["description"] == "Validation Error":
+                answer["description"] = KINDS["request"][1]
+    operation["responses"] = dict(sorted(answers.items()))

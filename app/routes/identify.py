@@ -1,0 +1,144 @@
+"""Serve the whole story in one request, for people and for continuous integration: robot and log in, result out."""
+
+from typing import Annotated
+
+import anyio
+from fastapi import APIRouter, Header, Request, Response
+from fastapi.responses import JSONResponse
+from starlette.datastructures import FormData, UploadFile
+
+from app.handlers import problem_response
+from app.negotiation import LONGEST_WAIT_S, wait_seconds
+from app.openapi import body, file_part, problems
+from app.problems import KINDS, URN, Problem
+from app.reading import parse_object, require_media_type
+from app.schemas.examples import MAPPING
+from app.schemas.jobs import Job
+from app.schemas.results import ResultDocument
+from app.services import Services, ServicesOf
+from app.store.records import JobRecord, LogRecord, RobotRecord
+from app.uploads import (
+    MULTIPART,
+    claimed_type,
+    files_of,
+    open_form,
+    receive_part,
+    refuse_unknown_parts,
+    text_of,
+)
+from app.views import job_document
+from app.waiting import wait_for
+
+ROUTER = APIRouter(prefix="/v1/identify", tags=["identify"])
+PARTS = ("robot", "log", "mapping", "options")
+LONGEST_ROBOT = 5 * 1024**2
+FORM_SCHEMA = {
+    "type": "object",
+    "required": ["robot", "log"],
+    "properties": {
+        "robot": {
+            "type": "string",
+            "description": "the id of a robot, a description (JSON) or a URDF (XML); as text or as a file",
+            "default": "yumi-left",
+        },
+        "log": {
+            "type": "array",
+            "items": file_part("a log"),
+            "minItems": 1,
+            "description": "one or more logs",
+        },
+        "mapping": {"type": "string", "description": f"JSON, the same for all logs, e.g. {MAPPING}"},
+        "options": {"type": "string", "description": "JSON; options of the job", "default": "{}"},
+    },
+    "additionalProperties": False,
+}
+
+
+@ROUTER.post(
+    "",
+    response_model=ResultDocument,
+    summary="Identify a robot from a log in one request",
+    responses=problems(400, 413, 415, 422)
+    | {202: {"model": Job, "description": "It takes longer than the client waits; follow the job"}},
+    openapi_extra=body({MULTIPART: {"schema": FORM_SCHEMA}}),
+)
+async def identify(
+    request: Request,
+    services: ServicesOf,
+    prefer: Annotated[
+        str | None, Header(max_length=200, description="wait=N: wait up to N seconds; default 60")
+    ] = None,
+) -> Response:
+    """Create the robot, upload the logs, run the job and answer its result document; a failed job's problem is the answer's."""
+    require_media_type(request, (MULTIPART,))
+    async with open_form(request, longest_text=LONGEST_ROBOT) as form:
+        refuse_unknown_parts(form, PARTS)
+        options = parse_object(text_of(form, "options"), what="options") or {}
+        mapping = parse_object(text_of(form, "mapping"), what="the mapping")
+        files = files_of(form, "log")
+        robot = await _robot(services, form)
+        logs = tuple([await _log(services, part, mapping) for part in files])
+    job = await anyio.to_thread.run_sync(
+        lambda: services.queue.submit(kind="identify", robot=robot, logs=logs, options=options)
+    )
+    seconds = wait_seconds(prefer)
+    job = await wait_for(services.store, job, LONGEST_WAIT_S if seconds is None else seconds)
+    return await anyio.to_thread.run_sync(_answer, services, job)
+
+
+async def _robot(services: Services, form: FormData) -> RobotRecord:
+    given = form.getlist("robot")
+    if len(given) != 1:
+        raise Problem(
+            "request",
+            "the form holds no part named robot" if not given else "the form holds several robots",
+            evidence={"parts": sorted(set(form))},
+            remedy="send one: an id, a description in JSON, or a URDF",
+        )
+    part = given[0]
+    content = await part.read(LONGEST_ROBOT + 1) if isinstance(part, UploadFile) else part.encode()
+    return await anyio.to_thread.run_sync(_find_or_create, services, content.strip())
+
+
+def _find_or_create(services: Services, content: bytes) -> RobotRecord:
+    if content.startswith(b"{"):
+        return services.catalogue.add_description(parse_object(content, what="the robot") or {})
+    if content.startswith((b"<", b"\xef\xbb\xbf")):
+        return services.catalogue.add_urdf(content)
+    return services.catalogue.robot(content.decode(errors="replace")[:100], named_in_body=True)
+
+
+async def _log(services: Services, part: UploadFile, mapping: dict[str, object] | None) -> LogRecord:
+    with services.store.blobs.receive() as incoming:
+        await receive_part(part, incoming)
+        return await anyio.to_thread.run_sync(
+            lambda: services.catalogue.add_log(
+                incoming, name=part.filename or "log", mapping=mapping, media_type=claimed_type(part)
+            )
+        )
+
+
+def _answer(services: Services, job: JobRecord) -> Response:
+    path = f"/v1/jobs/{job.id}"
+    if job.result_sha256 is not None:
+        result = services.store.blobs.path(job.result_sha256).read_bytes()
+        return Response(
+            result, media_type="application/json", headers={"Content-Location": f"{path}/results"}
+        )
+    if job.state == "dismissed":
+        return problem_response(Problem("job-dismissed", "the job was dismissed", remedy="ask for it again"))
+    if job.problem is not None:
+        return problem_response(_of_document(job.problem))
+    return JSONResponse(job_document(job), 202, headers={"Location": path, "Retry-After": "1"})
+
+
+def _of_document(problem: dict[str, object]) -> Problem:
+    """Read a stored problem back."""
+    kind = str(problem["type"]).removeprefix(URN)
+    evidence = problem["evidence"]
+    return Problem(
+        kind if kind in KINDS else "internal",
+        str(problem["cause"]),
+        evidence=evidence if isinstance(evidence, dict) else {},
+        remedy=str(problem["remedy"]),
+    )

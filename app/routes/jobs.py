@@ -1,0 +1,205 @@
+"""Serve jobs: asked for, followed, waited for, dismissed, and read."""
+
+import json
+from typing import Annotated
+
+import anyio
+from fastapi import APIRouter, Header, Query, Request, Response
+from fastapi.responses import JSONResponse
+
+from app.negotiation import matches, preferred, wait_seconds
+from app.openapi import body, problems, reference
+from app.problems import Problem
+from app.reading import check, parse_json, require_media_type
+from app.schemas.examples import JOB_REQUEST
+from app.schemas.jobs import Job, JobList, JobRequest
+from app.schemas.results import ResultDocument
+from app.services import Services, ServicesOf
+from app.store.records import JobRecord
+from app.tables import ARTIFACTS
+from app.views import job_document
+from app.waiting import wait_for
+
+ROUTER = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+RETRY_AFTER_S = "1"
+RESULT_FORMS = ("application/json", "text/csv")
+
+
+@ROUTER.post(
+    "",
+    status_code=202,
+    response_model=Job,
+    summary="Ask for a computation",
+    responses=problems(400, 413, 415, 422)
+    | {200: {"model": Job, "description": "It finished while the client waited"}},
+    openapi_extra=body({"application/json": {"schema": reference(JobRequest), "example": JOB_REQUEST}}),
+)
+async def create_job(
+    request: Request,
+    services: ServicesOf,
+    prefer: Annotated[
+        str | None, Header(max_length=200, description="wait=N: wait up to N seconds (at most 60)")
+    ] = None,
+) -> Response:
+    """Queue a computation. What cannot succeed is refused at once."""
+    require_media_type(request, ("application/json",))
+    asked = check(JobRequest, parse_json(await request.body()))
+    job = await anyio.to_thread.run_sync(_submit, services, asked)
+    seconds = wait_seconds(prefer)
+    if seconds is not None:
+        job = await wait_for(services.store, job, seconds)
+    return _job_response(job, applied=seconds)
+
+
+@ROUTER.get("", response_model=JobList, summary="List jobs", responses=problems(422))
+def list_jobs(
+    services: ServicesOf,
+    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+) -> Response:
+    """List jobs, the newest first."""
+    jobs, total = services.store.jobs.page(limit=limit, offset=offset)
+    return JSONResponse({"jobs": [job_document(job) for job in jobs], "total": total})
+
+
+@ROUTER.get(
+    "/{job_id}",
+    response_model=Job,
+    summary="Follow a job",
+    responses=problems(404) | {304: {"description": "Nothing has changed since"}},
+)
+def read_job(
+    services: ServicesOf, job_id: str, if_none_match: Annotated[str | None, Header(max_length=1000)] = None
+) -> Response:
+    """Read how far a job is. Send the ETag of the last answer as If-None-Match to hear only of changes."""
+    job = _find(services, job_id)
+    headers = {"ETag": f'"{job.id}-{job.version}"', "Cache-Control": "no-cache"}
+    if not job.finished:
+        headers["Retry-After"] = RETRY_AFTER_S
+    if matches(if_none_match, headers["ETag"]):
+        return Response(status_code=304, headers=headers)
+    return JSONResponse(job_document(job), headers=headers)
+
+
+@ROUTER.get(
+    "/{job_id}/results",
+    response_model=ResultDocument,
+    summary="Read the result",
+    responses=problems(404, 406, 409)
+    | {
+        200: {
+            "content": {"text/csv": {"schema": {"type": "string"}}},
+            "description": "The result, or its base parameters as CSV",
+        }
+    },
+)
+def read_results(
+    services: ServicesOf, job_id: str, accept: Annotated[str | None, Header(include_in_schema=False)] = None
+) -> Response:
+    """Read the result document; with Accept: text/csv its base parameters as a table."""
+    form = preferred(accept, RESULT_FORMS)
+    if form is None:
+        raise Problem(
+            "not-acceptable",
+            f"results do not come as {accept}",
+            evidence={"accept": accept, "known": list(RESULT_FORMS)},
+            remedy="accept one of the known forms",
+        )
+    content, etag = _result(services, job_id)
+    headers = {"ETag": etag, "Vary": "Accept"}
+    if form == "text/csv":
+        table = ARTIFACTS["parameters.csv"](json.loads(content))
+        return Response(table, media_type="text/csv", headers={"Vary": "Accept"})
+    return Response(content, media_type=form, headers=headers)
+
+
+@ROUTER.get(
+    "/{job_id}/results/{artifact}",
+    response_class=Response,
+    summary="Read a part of the result as a file",
+    responses=problems(404, 409)
+    | {200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}},
+)
+def read_artifact(services: ServicesOf, job_id: str, artifact: str) -> Response:
+    """Read parameters.csv or standard_parameters.csv."""
+    content, _ = _result(services, job_id)
+    if artifact not in ARTIFACTS:
+        raise Problem(
+            "not-found",
+            f"the result has no file {artifact}",
+            evidence={"artifact": artifact, "known": list(ARTIFACTS)},
+            remedy="ask for one of the known files",
+        )
+    headers = {"Content-Disposition": f'attachment; filename="{artifact}"'}
+    return Response(ARTIFACTS[artifact](json.loads(content)), media_type="text/csv", headers=headers)
+
+
+@ROUTER.delete(
+    "/{job_id}",
+    response_model=Job,
+    summary="Dismiss a job, or delete a finished one",
+    responses=problems(404)
+    | {
+        200: {"description": "It was unfinished and is now dismissed"},
+        204: {"description": "It was finished and is gone"},
+    },
+)
+def delete_job(services: ServicesOf, job_id: str) -> Response:
+    """Dismiss an unfinished job, which ends its computation; delete a finished one with its result."""
+    job = _find(services, job_id)
+    if services.store.remove_job(job.id):
+        return Response(status_code=204)
+    return JSONResponse(job_document(services.queue.dismiss(job)))
+
+
+def _submit(services: Services, asked: JobRequest) -> JobRecord:
+    return services.queue.submit(
+        kind=asked.kind,
+        robot=services.catalogue.robot(asked.robot, named_in_body=True),
+        logs=tuple(services.catalogue.log(identity, named_in_body=True) for identity in asked.logs),
+        options=dict(asked.options),
+    )
+
+
+def _job_response(job: JobRecord, *, applied: int | None) -> Response:
+    headers = {"Location": f"/v1/jobs/{job.id}"}
+    if applied is not None:
+        headers["Preference-Applied"] = f"wait={applied}"
+    if job.finished:
+        return JSONResponse(job_document(job), 200, headers=headers)
+    return JSONResponse(job_document(job), 202, headers=headers | {"Retry-After": RETRY_AFTER_S})
+
+
+def _find(services: Services, job_id: str) -> JobRecord:
+    job = services.store.jobs.get(job_id)
+    if job is None:
+        raise Problem(
+            "not-found",
+            f"there is no job {job_id}",
+            evidence={"job": job_id},
+            remedy="GET /v1/jobs lists what there is",
+        )
+    return job
+
+
+def _result(services: Services, job_id: str) -> tuple[bytes, str]:
+    job = _find(services, job_id)
+    if job.result_sha256 is not None:
+        return services.store.blobs.path(job.result_sha256).read_bytes(), f'"{job.result_sha256}"'
+    if job.state == "failed":
+        evidence = {"state": job.state, "problem": job.problem}
+        cause = str((job.problem or {}).get("cause", "the job failed"))
+        raise Problem(
+            "job-failed", cause, evidence=evidence, remedy=str((job.problem or {}).get("remedy", ""))
+        )
+    if job.state == "dismissed":
+        raise Problem(
+            "job-dismissed", "the job was dismissed", evidence={"state": job.state}, remedy="ask for it again"
+        )
+    raise Problem(
+        "job-unfinished",
+        "the job is not finished",
+        evidence={"state": job.state, "stage": job.stage, "fraction": job.fraction},
+        remedy=f"follow /v1/jobs/{job.id} until its state is successful",
+        headers={"Retry-After": RETRY_AFTER_S},
+    )

@@ -1,0 +1,124 @@
+"""Serve logs: uploaded as they were recorded, read once to say what is in them, kept as the bytes they came in."""
+
+from typing import Annotated
+
+import anyio
+from fastapi import APIRouter, Query, Request, Response
+from fastapi.responses import JSONResponse
+
+from app.openapi import body, file_part, problems
+from app.reading import media_type_of, parse_object, require_media_type
+from app.schemas.examples import CSV_LOG, MAPPING
+from app.schemas.logs import LogList, LogSummary
+from app.services import Services, ServicesOf
+from app.store.blobs import Incoming
+from app.store.records import LogRecord
+from app.uploads import (
+    LOG_MEDIA_TYPES,
+    MULTIPART,
+    claimed_type,
+    files_of,
+    open_form,
+    receive_body,
+    receive_part,
+    refuse_unknown_parts,
+    text_of,
+)
+from app.views import log_document
+
+ROUTER = APIRouter(prefix="/v1/logs", tags=["logs"])
+LONGEST_MAPPING = 256 * 1024
+FORM_SCHEMA = {
+    "type": "object",
+    "required": ["file"],
+    "properties": {
+        "file": file_part(
+            "CSV, Parquet, NPZ or MATLAB; columns time, q_1.., tau_1.. unless a mapping names others"
+        ),
+        "mapping": {
+            "type": "string",
+            "description": f"JSON: which column is what, in which unit, e.g. {MAPPING}",
+        },
+        "name": {"type": "string", "maxLength": 200},
+    },
+    "additionalProperties": False,
+}
+RAW_CONTENT = {
+    kind: {"schema": {"type": "string", "format": "binary"}} for kind in LOG_MEDIA_TYPES if kind != "text/csv"
+}
+
+
+@ROUTER.post(
+    "",
+    status_code=201,
+    response_model=LogSummary,
+    summary="Upload a log",
+    responses=problems(400, 413, 415, 422),
+    openapi_extra=body(
+        {MULTIPART: {"schema": FORM_SCHEMA}, "text/csv": {"schema": {"type": "string"}, "example": CSV_LOG}}
+        | RAW_CONTENT
+    ),
+)
+async def create_log(
+    request: Request,
+    services: ServicesOf,
+    name: Annotated[str | None, Query(max_length=200)] = None,
+    mapping: Annotated[str | None, Query(max_length=60_000, description=f"JSON, e.g. {MAPPING}")] = None,
+) -> Response:
+    """Upload a log, as the body itself or as a form. Unusable data is refused; usable data comes with its defects listed."""
+    media_type = require_media_type(request, (MULTIPART, *LOG_MEDIA_TYPES))
+    with services.store.blobs.receive() as incoming:
+        if media_type == MULTIPART:
+            log = await _from_form(request, services, incoming, name=name, mapping=mapping)
+        else:
+            await receive_body(request, incoming)
+            log = await _add(
+                services, incoming, name=name or "log", mapping=mapping, kind=media_type_of(request)
+            )
+    return JSONResponse(log_document(log), 201, headers={"Location": f"/v1/logs/{log.id}"})
+
+
+@ROUTER.get("", response_model=LogList, summary="List logs", responses=problems(422))
+def list_logs(
+    services: ServicesOf,
+    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+) -> Response:
+    """List logs, the newest first."""
+    logs, total = services.store.logs.page(limit=limit, offset=offset)
+    return JSONResponse({"logs": [log_document(log) for log in logs], "total": total})
+
+
+@ROUTER.get("/{log_id}", response_model=LogSummary, summary="Read what is in a log", responses=problems(404))
+def read_log(services: ServicesOf, log_id: str) -> Response:
+    """Read the summary of a log with its defects."""
+    return JSONResponse(log_document(services.catalogue.log(log_id)))
+
+
+@ROUTER.delete("/{log_id}", status_code=204, summary="Delete a log", responses=problems(404, 409))
+def delete_log(services: ServicesOf, log_id: str) -> None:
+    """Delete a log that no unfinished job needs."""
+    log = services.catalogue.log(log_id)
+    services.queue.refuse_if_needed(log=log.id)
+    services.store.remove_log(log)
+
+
+async def _from_form(
+    request: Request, services: Services, incoming: Incoming, *, name: str | None, mapping: str | None
+) -> LogRecord:
+    async with open_form(request, longest_text=LONGEST_MAPPING) as form:
+        refuse_unknown_parts(form, ("file", "mapping", "name"))
+        part = files_of(form, "file")[0]
+        name = text_of(form, "name") or name or part.filename or "log"
+        mapping = text_of(form, "mapping") or mapping
+        await receive_part(part, incoming)
+        return await _add(services, incoming, name=name, mapping=mapping, kind=claimed_type(part))
+
+
+async def _add(
+    services: Services, incoming: Incoming, *, name: str, mapping: str | None, kind: str | None
+) -> LogRecord:
+    columns = parse_object(mapping, what="the mapping")
+    return await anyio.to_thread.run_sync(
+        lambda: services.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind)
+    )

@@ -1,0 +1,122 @@
+"""Serve robots: created from a description or a URDF, never changed, found by their content."""
+
+from typing import Annotated
+
+import anyio
+from fastapi import APIRouter, Query, Request, Response
+from fastapi.responses import JSONResponse
+
+from app.openapi import body, problems, reference
+from app.problems import Problem
+from app.reading import parse_object, require_media_type
+from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
+from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
+from app.services import ServicesOf
+from app.views import robot_document, robot_summary
+
+ROUTER = APIRouter(prefix="/v1/robots", tags=["robots"])
+XML_TYPES = ("application/xml", "text/xml")
+LinkName = Annotated[str | None, Query(max_length=200)]
+
+
+@ROUTER.post(
+    "",
+    status_code=201,
+    response_model=Robot,
+    summary="Create a robot from a description or a URDF",
+    responses=problems(400, 413, 415, 422),
+    openapi_extra=body(
+        {
+            "application/json": {"schema": reference(RobotDescription), "example": YUMI_LEFT},
+            "application/xml": {"schema": {"type": "string"}, "example": PENDULUM_URDF},
+        }
+    ),
+)
+async def create_robot(
+    request: Request,
+    services: ServicesOf,
+    base_link: LinkName = None,
+    tip_link: LinkName = None,
+    gravity: Annotated[
+        str | None,
+        Query(max_length=100, description="URDF: x,y,z in m/s2 in the base frame; default 0,0,-9.81"),
+    ] = None,
+) -> Response:
+    """Create a robot. The same content gives the same robot."""
+    media_type = require_media_type(request, ("application/json", *XML_TYPES))
+    content = await request.body()
+    if media_type in XML_TYPES:
+        vector = _vector(gravity)
+        robot = await anyio.to_thread.run_sync(
+            lambda: services.catalogue.add_urdf(
+                content, base_link=base_link, tip_link=tip_link, gravity=vector
+            )
+        )
+    else:
+        _refuse_urdf_options(base_link=base_link, tip_link=tip_link, gravity=gravity)
+        description = parse_object(content or b"null", what="the body") or {}
+        robot = await anyio.to_thread.run_sync(services.catalogue.add_description, description)
+    return JSONResponse(robot_document(robot), 201, headers={"Location": f"/v1/robots/{robot.id}"})
+
+
+@ROUTER.get("", response_model=RobotList, summary="List robots", responses=problems(422))
+def list_robots(
+    services: ServicesOf,
+    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+) -> Response:
+    """List robots: built-in ones first, then the newest."""
+    robots, total = services.catalogue.robots(limit=limit, offset=offset)
+    return JSONResponse({"robots": [robot_summary(robot) for robot in robots], "total": total})
+
+
+@ROUTER.get("/{robot_id}", response_model=Robot, summary="Read a robot", responses=problems(404))
+def read_robot(services: ServicesOf, robot_id: str) -> Response:
+    """Read a robot with every default of its description filled in."""
+    return JSONResponse(robot_document(services.catalogue.robot(robot_id)))
+
+
+@ROUTER.get(
+    "/{robot_id}/base-parameters",
+    response_model=BaseParameters,
+    summary="Read what can be told apart",
+    responses=problems(404, 422),
+)
+def read_base_parameters(services: ServicesOf, robot_id: str) -> Response:
+    """Read the combinations of parameters that some motion can tell apart, and how the standard parameters group in them."""
+    return JSONResponse(services.catalogue.base_parameters(robot_id))
+
+
+@ROUTER.delete("/{robot_id}", status_code=204, summary="Delete a robot", responses=problems(404, 409))
+def delete_robot(services: ServicesOf, robot_id: str) -> None:
+    """Delete a robot that no unfinished job needs. Built-in robots stay."""
+    services.queue.refuse_if_needed(robot=robot_id)
+    services.catalogue.remove_robot(robot_id)
+
+
+def _vector(text: str | None) -> tuple[float, ...] | None:
+    if text is None:
+        return None
+    try:
+        parts = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        parts = ()
+    if len(parts) != 3:
+        raise Problem(
+            "request",
+            "gravity is not three numbers",
+            evidence={"parameter": "gravity", "given": text},
+            remedy="write it as gravity=0,0,-9.81",
+        )
+    return parts
+
+
+def _refuse_urdf_options(**options: str | None) -> None:
+    given = [name for name, value in options.items() if value is not None]
+    if given:
+        raise Problem(
+            "request",
+            f"{given[0]} belongs to a URDF, not to a description",
+            evidence={"parameters": given},
+            remedy="leave it out, or write gravity into the description",
+        )

@@ -1,0 +1,53 @@
+"""Describe jobs as they are sent and answered."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, JsonValue
+
+from app.schemas.common import Identity, Instant, Open, Options, ProblemDocument, Strict
+
+State = Literal["accepted", "running", "successful", "failed", "dismissed"]
+
+
+class JobRequest(Strict):
+    """What to compute: the kind, a robot and logs by id, and options."""
+
+    kind: Annotated[Literal["identify"], Field(description="what to compute")]
+    robot: Identity
+    logs: Annotated[list[Identity], Field(min_length=1, max_length=100)]
+    options: Annotated[
+        Options, Field(description="unknown options are refused with the list of known ones")
+    ] = {}
+
+
+class Progress(Open):
+    """How far a job is."""
+
+    stage: str
+    fraction: Annotated[float, Field(ge=0, le=1)]
+
+
+class Job(Open):
+    """A job: what was asked for, how far it is, and how it ended."""
+
+    id: str
+    kind: str
+    robot: str
+    logs: list[str]
+    options: dict[str, JsonValue]
+    state: State
+    progress: Progress
+    created_at: Instant
+    started_at: Instant | None
+    finished_at: Instant | None
+    problem: Annotated[ProblemDocument | None, Field(description="why a failed job has no results")]
+    links: Annotated[
+        dict[str, str], Field(description="paths of this job and, once it is successful, of its results")
+    ]
+
+
+class JobList(Open):
+    """Jobs, the newest first."""
+
+    jobs: list[Job]
+    total: int

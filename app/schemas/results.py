@@ -1,0 +1,61 @@
+"""Describe the result document; it is stored and sent as the bytes that the computation wrote."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, JsonValue
+
+from app.schemas.common import Open
+
+
+class BaseParameter(Open):
+    """A combination of standard parameters, how large it is and how well it is known."""
+
+    name: Annotated[str, Field(examples=["ZZR1"])]
+    joint: int
+    unit: Annotated[str, Field(examples=["kg m2"])]
+    value: Annotated[float, Field(description="of the robot that can exist")]
+    value_ols: Annotated[float, Field(description="of ordinary least squares, which knows nothing of bodies")]
+    standard_deviation: float
+    relative_deviation_percent: Annotated[float | None, Field(description="%P")]
+    essential: bool | None = None
+    grouping: Annotated[str, Field(examples=["ZZ1 + IA1 + YY2"])]
+
+
+class StandardParameter(Open):
+    """One of the ten parameters of a link, or one of a joint's drive."""
+
+    name: str
+    joint: int
+    unit: str
+    value: float
+    identifiable: Literal["individually", "in_combination", "no"]
+
+
+class JointFit(Open):
+    """How well the model predicts the torque of a joint."""
+
+    joint: int
+    rms_torque: float
+    rms_residual: float
+    nrmse_of_range_percent: float | None
+    nrmse_of_rms_percent: float | None
+
+
+class ResultDocument(Open):
+    """The identified robot: parameters, how well each is known, whether it can exist, and how well it predicts."""
+
+    schema_version: str
+    kind: str
+    robot: dict[str, JsonValue]
+    logs: list[dict[str, JsonValue]]
+    provenance: dict[str, JsonValue]
+    counts: Annotated[dict[str, int | None], Field(examples=[{"standard": 98, "base": 71, "essential": 57}])]
+    base_parameters: list[BaseParameter]
+    standard_parameters: list[StandardParameter]
+    feasibility: dict[str, JsonValue]
+    solver: dict[str, JsonValue]
+    fit: list[JointFit]
+    validation: Annotated[list[JointFit], Field(description="on blocks that the fit has not seen")]
+    condition_number: float | None
+    defects: list[JsonValue]
+    diagnosis: JsonValue = None

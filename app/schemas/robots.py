@@ -1,0 +1,165 @@
+"""Describe robots as they are sent and answered.
+
+`RobotDescription` documents what `core.robot.description` reads and judges; a test keeps the two naming the same fields.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, JsonValue
+
+from app.schemas.common import Instant, Open, Strict
+
+Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
+Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+
+
+class Limits(Strict):
+    """Bounds of a joint; null where unknown."""
+
+    position: Annotated[Pair | None, Field(description="lower and upper, rad or m")] = None
+    velocity: Annotated[float | None, Field(gt=0, description="rad/s or m/s")] = None
+    torque: Annotated[float | None, Field(gt=0, description="N m or N")] = None
+
+
+class JointDescription(Strict):
+    """A joint and the link it moves.
+
+    With `convention` modified-dh, alpha, d, r and theta_offset are needed (Khalil-Kleinfinger letters: d is Craig's a, r is
+    Craig's d). With frames, rotation and translation are needed.
+    """
+
+    name: Annotated[str | None, Field(max_length=100)] = None
+    link: Annotated[str | None, Field(max_length=100, description="the moving body's name")] = None
+    type: Literal["revolute", "prismatic"]
+    antecedent: Annotated[
+        int | None,
+        Field(
+            ge=0,
+            description="number of the joint that carries this one, 0 for the base; default: the joint before",
+        ),
+    ] = None
+    alpha: Annotated[
+        float | None, Field(description="rad, about x, from the antecedent's z axis to this one")
+    ] = None
+    d: Annotated[float | None, Field(description="m, along x, from the antecedent's z axis to this one")] = (
+        None
+    )
+    r: Annotated[
+        float | None, Field(description="m, along z; the variable of a prismatic joint adds to it")
+    ] = None
+    theta_offset: Annotated[
+        float | None, Field(description="rad, about z; the variable of a revolute joint adds to it")
+    ] = None
+    gamma: Annotated[float, Field(description="rad, about the antecedent's z axis (branches of a tree)")] = (
+        0.0
+    )
+    b: Annotated[float, Field(description="m, along the antecedent's z axis (branches of a tree)")] = 0.0
+    rotation: Annotated[
+        list[Triple] | None,
+        Field(min_length=3, max_length=3, description="frames: from this frame into the antecedent's"),
+    ] = None
+    translation: Annotated[
+        Triple | None, Field(description="frames: origin in the antecedent's frame, m")
+    ] = None
+    ratio: Annotated[float, Field(description="frames: of a joint that mimics another")] = 1.0
+    offset: Annotated[float, Field(description="frames: of a joint that mimics another, rad or m")] = 0.0
+    mimics: Annotated[
+        str | None, Field(description="frames: the joint whose coordinate moves this one too")
+    ] = None
+    limits: Limits | None = None
+    rotor_inertia: Annotated[bool, Field(description="identify the rotor's inertia IA of this joint")] = True
+    friction: Annotated[list[Literal["viscous", "coulomb", "offset"]], Field(max_length=3)] = [
+        "viscous",
+        "coulomb",
+        "offset",
+    ]
+    torque_constant: Annotated[
+        float | None, Field(description="N m/A, motor side; turns a logged current into torque")
+    ] = None
+    gear_ratio: Annotated[float | None, Field(description="motor turns per joint turn")] = None
+
+
+class CouplingDescription(Strict):
+    """A motor that turns with a weighted sum of joints (Staubli TX40: motor 6 turns with q5 + q6)."""
+
+    name: Annotated[str, Field(max_length=100)]
+    number: Annotated[
+        int | None, Field(ge=1, description="in its parameters' names; default: its last joint")
+    ] = None
+    joints: Annotated[list[int], Field(min_length=2, description="counted from 1")]
+    weights: Annotated[list[float], Field(min_length=2)]
+
+
+class StandardParameters(Strict):
+    """Ten inertial parameters of a link about the origin of its frame: kg m2, kg m, kg."""
+
+    XX: float
+    XY: float
+    XZ: float
+    YY: float
+    YZ: float
+    ZZ: float
+    MX: float
+    MY: float
+    MZ: float
+    M: float
+
+
+class LinkPrior(Strict):
+    """What is believed about a link beforehand: either standard, or mass, center_of_mass and inertia_at_com."""
+
+    standard: StandardParameters | None = None
+    mass: Annotated[float | None, Field(description="kg")] = None
+    center_of_mass: Annotated[Triple | None, Field(description="m, in the link's frame")] = None
+    inertia_at_com: Annotated[
+        list[float] | None, Field(min_length=6, max_length=6, description="XX XY XZ YY YZ ZZ, kg m2")
+    ] = None
+
+
+class RobotDescription(Strict):
+    """A robot: its joints, gravity in the base frame, couplings, and what is believed about its bodies."""
+
+    name: Annotated[str, Field(max_length=100)]
+    convention: Literal["modified-dh", "frames"] = "modified-dh"
+    joints: Annotated[list[JointDescription], Field(min_length=1, max_length=64)]
+    gravity: Annotated[
+        Triple,
+        Field(description="acceleration of gravity in the base frame, m/s2; points down on a level base"),
+    ] = [0.0, 0.0, -9.81]
+    couplings: list[CouplingDescription] | None = None
+    prior: Annotated[list[LinkPrior] | None, Field(description="one entry per joint")] = None
+
+
+class RobotSummary(Open):
+    """A robot in a list."""
+
+    id: str
+    name: str
+    joints: int
+    built_in: bool
+    created_at: Instant | None
+
+
+class Robot(RobotSummary):
+    """A robot. It never changes: the same description has the same id."""
+
+    suspicions: Annotated[
+        list[str],
+        Field(description="what looks like a mistake, such as degrees for radians, although it can be used"),
+    ]
+    description: RobotDescription
+
+
+class RobotList(Open):
+    """Robots, built-in ones first, then the newest."""
+
+    robots: list[RobotSummary]
+    total: int
+
+
+class BaseParameters(Open):
+    """The combinations of standard parameters that motion can tell apart."""
+
+    robot: str
+    counts: dict[str, int]
+    base_parameters: list[dict[str, JsonValue]]

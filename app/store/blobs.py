@@ -1,0 +1,105 @@
+"""Keep bytes under the hash of their content: written aside, synced, then renamed, so that a file is whole or not there.
+
+Equal bytes are kept once. A name is a SHA-256 computed here, never anything that a client sent.
+"""
+
+import hashlib
+import os
+import secrets
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+
+class Incoming:
+    """Take bytes that arrive piece by piece, hashing them on the way; what is not kept is removed at the end.
+
+    Attributes
+    ----------
+    path
+        Where the bytes are meanwhile.
+    size
+        Bytes so far.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.size = 0
+        self._hash = hashlib.sha256()
+        self._file = path.open("xb")
+
+    @property
+    def sha256(self) -> str:
+        """Give the hash of the bytes so far, in hexadecimal."""
+        return self._hash.hexdigest()
+
+    def write(self, piece: bytes) -> None:
+        """Add bytes."""
+        self._file.write(piece)
+        self._hash.update(piece)
+        self.size += len(piece)
+
+    def finish(self) -> None:
+        """Put everything on the disk."""
+        if not self._file.closed:
+            self._file.flush()
+            os.fsync(self._file.fileno())
+            self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._file.close()
+        self.path.unlink(missing_ok=True)
+
+
+class BlobStore:
+    """Keep files by content.
+
+    Parameters
+    ----------
+    root
+        Directory to keep them in; what an earlier run left half received is removed.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self._kept = root / "kept"
+        self._aside = root / "incoming"
+        for directory in (self._kept, self._aside):
+            directory.mkdir(parents=True, exist_ok=True)
+        for leftover in self._aside.iterdir():
+            leftover.unlink(missing_ok=True)
+
+    def receive(self) -> Incoming:
+        """Start to take bytes; use as a context manager."""
+        return Incoming(self._aside / secrets.token_hex(16))
+
+    def keep(self, incoming: Incoming) -> str:
+        """Keep what was received and give its hash."""
+        incoming.finish()
+        target = self.path(incoming.sha256)
+        target.parent.mkdir(exist_ok=True)
+        incoming.path.replace(target)
+        directory = os.open(target.parent, os.O_RDONLY)
+        try:
+            os.fsync(directory)  # the new name is on the disk too
+        finally:
+            os.close(directory)
+        return incoming.sha256
+
+    def put(self, content: bytes) -> str:
+        """Keep bytes that are all there and give their hash."""
+        with self.receive() as incoming:
+            incoming.write(content)
+            return self.keep(incoming)
+
+    def path(self, sha256: str) -> Path:
+        """Say where the bytes of a hash are kept."""
+        return self._kept / sha256[:2] / sha256
+
+    def remove(self, sha256: str) -> None:
+        """Forget bytes; it is no error that they are gone."""
+        self.path(sha256).unlink(missing_ok=True)

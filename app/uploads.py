@@ -1,0 +1,135 @@
+"""Receive files: streamed to the disk while they are hashed, however large they are, and never kept in memory as a whole."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+import anyio
+from python_multipart.exceptions import FormParserError
+from starlette.datastructures import FormData, UploadFile
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect, Request
+
+from app.problems import Problem
+from app.store.blobs import Incoming
+from core.log.content import FORMS, NO_CLAIM
+
+MULTIPART = "multipart/form-data"
+LOG_MEDIA_TYPES = tuple(dict.fromkeys(kind for form in FORMS for kind in form.media_types)) + (
+    "application/octet-stream",
+)
+MOST_PARTS = 32
+PIECE = 1 << 20
+
+
+async def receive_body(request: Request, incoming: Incoming) -> None:
+    """Write the body of a request aside.
+
+    Raises
+    ------
+    Problem
+        If the client went away meanwhile (400).
+    """
+    try:
+        async for piece in request.stream():
+            if piece:
+                await anyio.to_thread.run_sync(incoming.write, piece)
+    except ClientDisconnect:
+        raise Problem("bad-request", "the upload ended early", remedy="send it again") from None
+
+
+async def receive_part(part: UploadFile, incoming: Incoming) -> None:
+    """Write an uploaded part aside."""
+    while piece := await part.read(PIECE):
+        await anyio.to_thread.run_sync(incoming.write, piece)
+
+
+@asynccontextmanager
+async def open_form(request: Request, *, longest_text: int) -> AsyncIterator[FormData]:
+    """Read a multipart form; large parts wait on the disk and are gone at the end.
+
+    Raises
+    ------
+    Problem
+        If the body is no form (400).
+    """
+    try:
+        form = await request.form(max_files=MOST_PARTS, max_fields=MOST_PARTS, max_part_size=longest_text)
+    except Problem:
+        raise
+    except (HTTPException, FormParserError, ClientDisconnect, ValueError, KeyError) as error:
+        reason = error.detail if isinstance(error, HTTPException) else str(error) or type(error).__name__
+        raise Problem(
+            "bad-request",
+            "the body is no multipart form that can be read",
+            evidence={"reason": reason},
+            remedy=f"send {MULTIPART} with a boundary and at most {MOST_PARTS} parts, as curl -F does",
+        ) from None
+    try:
+        yield form
+    finally:
+        await form.close()
+
+
+def refuse_unknown_parts(form: FormData, known: tuple[str, ...]) -> None:
+    """Refuse parts that the contract does not name.
+
+    Raises
+    ------
+    Problem
+        If there is one (422).
+    """
+    unknown = sorted({name for name in form if name not in known})
+    if unknown:
+        raise Problem(
+            "request",
+            f"the form has a part that does not exist: {unknown[0]}",
+            evidence={"unknown": unknown, "known": list(known)},
+            remedy="leave it out or name it as one of the known parts",
+        )
+
+
+def files_of(form: FormData, name: str) -> list[UploadFile]:
+    """Give the files of a form under one name.
+
+    Raises
+    ------
+    Problem
+        If there is none, or one of them is plain text (422).
+    """
+    given = form.getlist(name)
+    files = [part for part in given if isinstance(part, UploadFile)]
+    if not files or len(files) < len(given):
+        raise Problem(
+            "request",
+            f"the form holds no file named {name}" if not files else f"a part named {name} is no file",
+            evidence={"parts": sorted(set(form))},
+            remedy=f"attach the file, as curl -F {name}=@log.csv does",
+        )
+    return files
+
+
+def text_of(form: FormData, name: str) -> str | None:
+    """Give a text part of a form; None where there is none.
+
+    Raises
+    ------
+    Problem
+        If it is given twice or as a file (422).
+    """
+    given = form.getlist(name)
+    if not given:
+        return None
+    if len(given) > 1 or not isinstance(given[0], str):
+        raise Problem(
+            "request",
+            f"the part {name} is not one text",
+            evidence={"count": len(given)},
+            remedy="send it once, as text",
+        )
+    return given[0]
+
+
+def claimed_type(part: UploadFile) -> str | None:
+    """Give the media type that a part claims where logs come in it; clients guess the others, so that they claim nothing."""
+    claim = (part.content_type or "").split(";")[0].strip().lower()
+    return claim if claim in LOG_MEDIA_TYPES and claim not in NO_CLAIM else None

@@ -1,0 +1,21 @@
+"""Wait for a job without holding a thread: the client's patience costs the service a look at the database now and then."""
+
+import time
+
+import anyio
+
+from app.store.records import JobRecord
+from app.store.store import Store
+
+FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.02, 0.25
+
+
+async def wait_for(store: Store, job: JobRecord, seconds: float) -> JobRecord:
+    """Give the job as it is when it is finished, or when the time is over."""
+    deadline = time.monotonic() + seconds
+    pause = FIRST_PAUSE_S
+    while not job.finished and (left := deadline - time.monotonic()) > 0.0:
+        await anyio.sleep(min(pause, left))
+        pause = min(1.5 * pause, LONGEST_PAUSE_S)
+        job = await anyio.to_thread.run_sync(store.jobs.get, job.id) or job
+    return job
