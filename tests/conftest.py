@@ -1,7 +1,7 @@
 """Set the stage for every test: shapes are checked at run time, and a random law is the same law tomorrow.
 
-The import hook has to be in place before core is imported, so nothing in this file imports core. Packages with
-kernels compiled by numba are left out, because a wrapped function cannot be compiled.
+The import hook has to be in place before core is imported, so nothing in this file imports core. Packages
+with kernels compiled by numba are left out, because a wrapped function cannot be compiled.
 """
 
 from hypothesis import HealthCheck, settings
