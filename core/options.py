@@ -38,10 +38,10 @@ class IdentifyOptions:
         Whether only essential base parameters may explain torque.
     """
 
-    filter: FilterOptions = FilterOptions()
-    estimate: EstimateOptions = EstimateOptions()
-    validation: HoldOut = HoldOut()
-    bootstrap: BootstrapOptions = BootstrapOptions()
+    filter: FilterOptions
+    estimate: EstimateOptions
+    validation: HoldOut
+    bootstrap: BootstrapOptions
     terms: tuple[str, ...] | None = None
     smooth_coulomb: bool = False
     essential: bool = False
@@ -60,7 +60,7 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     parse_options({"fliter": {}}) Traceback (most recent call last): core.errors.OptionError: an option is not
     known (unknown: ['fliter'], known: ['bootstrap', 'bounds', 'essential', \
 'estimator', 'filter', 'prior', 'robust', 'smooth_coulomb', 'solver', 'terms', 'validation']); use the known
-options only
+    options only
     """
     reader = _Reader("", dict(options or {}))
     parsed = IdentifyOptions(

@@ -66,7 +66,7 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
 
 def identify_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Identification:
     """Identify a robot and give every chapter's result."""
-    tell = progress or (lambda stage, fraction: None)
+    tell = progress or _say_nothing
     options = parse_options(request.options)
     if not request.logs:
         raise LogError(
@@ -200,6 +200,10 @@ def _system(look: _Look, observation: Observation, options: IdentifyOptions) -> 
         factors = observation.joint_factors(look.parts(observation)[0])
         system = stacked(factors, observation.columns_of, size, system.noise)
     return observation, system
+
+
+def _say_nothing(_stage: str, _fraction: float) -> None:
+    pass
 
 
 def _version() -> str:

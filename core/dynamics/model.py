@@ -77,7 +77,7 @@ class DynamicModel:
 
 
 def standard_model(robot: RobotModel, names: tuple[str, ...] | None = None) -> DynamicModel:
-    """Build the seed's model: rigid bodies, rotor inertia, viscous and Coulomb friction, offset, declared couplings.
+    """Build the seed's model: rigid bodies, rotor inertia, friction, offset and declared couplings.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Define what every torque effect must offer, so that a new effect is one file and no chapter after this one changes.
+"""Define what every torque effect must offer, so that a new effect is one file and later chapters stay.
 
 A term is linear in its parameters. It says which (joint, parameter) pairs can differ from zero and gives one
 time series for each of them; everything that is structurally zero is never computed, filtered or stored.

@@ -28,7 +28,7 @@ class CentreBox:
 
 @dataclass(frozen=True)
 class CentreEllipsoid:
-    """Keep a link's mass centre in an ellipsoid with this centre and these semi-axes along the link frame's axes, m."""
+    """Keep a link's mass centre in an ellipsoid whose semi-axes lie along the link frame's axes, m."""
 
     link: int
     centre: tuple[float, float, float]

@@ -4,7 +4,7 @@ The default is the semidefinite programme on equations weighted per joint; the u
 same equations is always reported beside it, because the difference is the price of feasibility.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -45,7 +45,7 @@ class EstimateOptions:
     robust: bool = False
     pull: float = PULL
     entropy: float = 0.0
-    bounds: Bounds = Bounds()
+    bounds: Bounds = field(default_factory=Bounds)
 
     def __post_init__(self) -> None:
         """Refuse unknown names and impossible weights."""

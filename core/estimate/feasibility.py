@@ -1,4 +1,4 @@
-"""Ask whether base parameters can belong to any robot at all: the largest margin over all robots that group into them.
+"""Ask whether base parameters can belong to any robot at all, by the largest margin that one could have.
 
 Base parameters fix only combinations, so their own signs prove nothing; what counts is whether some choice of
 the open directions makes every pseudo-inertia positive definite. That is a small semidefinite programme with

@@ -1,4 +1,4 @@
-"""Weigh down the rows that no model of this kind explains: Huber's weights, from the residuals of the fit before.
+"""Weigh down the rows that no model of this kind explains: Huber's weights from the fit before.
 
 A row whose residual exceeds 1.345 joint noises counts in proportion to the excess, so that spikes and
 collisions pull no parameter. Residuals are recomputed tile by tile; nothing is stored. Source: Huber 1981;
@@ -28,4 +28,4 @@ def huber_weights(base: BaseParameters, columns_of: tuple[Indices, ...], noise: 
 
 def _root_weight(residual: Samples, noise: float) -> Samples:
     size = np.maximum(np.abs(residual), 1e-300)
-    return np.sqrt(np.minimum(1.0, HUBER * noise / size))
+    return np.asarray(np.sqrt(np.minimum(1.0, HUBER * noise / size)))

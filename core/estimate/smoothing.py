@@ -70,7 +70,10 @@ def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
         coupled = tuple(
             max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
         )
-        offered = {"coulomb": Coulomb(widths[:joints]), "coupling": GearCoupling(coupled)}
+        offered: dict[str, Coulomb | GearCoupling] = {
+            "coulomb": Coulomb(widths[:joints]),
+            "coupling": GearCoupling(coupled),
+        }
         extra += [_Candidate(offered[term.name], number) for term in model.terms if term.name in offered]
     return replace(model, terms=(*model.terms, *extra))
 

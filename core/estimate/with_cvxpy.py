@@ -59,11 +59,11 @@ def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constr
         constraints.append(
             weights @ _pseudo_inertia(programme, phi, columns) @ weights >> bounds.margin * np.eye(4)
         )
-    masses = cvxpy.hstack([scale[columns[9]] * phi[columns[9]] for columns in links]) if links else None
+    masses = [scale[columns[9]] * phi[columns[9]] for columns in links]
     for link, low, high in bounds.mass:
         constraints += [masses[link - 1] >= low, masses[link - 1] <= high]
     if bounds.total_mass is not None:
-        constraints += [cvxpy.sum(masses) >= bounds.total_mass[0], cvxpy.sum(masses) <= bounds.total_mass[1]]
+        constraints += [sum(masses) >= bounds.total_mass[0], sum(masses) <= bounds.total_mass[1]]
     for region in bounds.centres:
         first = list(links[region.link - 1][6:9])
         moment, mass = cvxpy.multiply(scale[first], phi[first]), masses[region.link - 1]

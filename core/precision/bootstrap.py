@@ -1,4 +1,4 @@
-"""Draw the log again, block by block: intervals for an estimate whose constraints make textbook deviations one-sided.
+"""Draw the log again, block by block: intervals for an estimate that its constraints make one-sided.
 
 Contiguous blocks longer than the residual's memory are drawn with replacement and the programme is solved
 again on the sum of their factors; no sample is ever visited again. Source: Kunsch 1989 (block bootstrap).
@@ -53,7 +53,7 @@ def bootstrap(
 
 def intervals(draws: Matrix) -> Matrix:
     """Give the 2.5 and 97.5 % points per parameter, one row each."""
-    return np.quantile(draws, [0.025, 0.975], axis=0).T
+    return np.asarray(np.quantile(draws, [0.025, 0.975], axis=0).T)
 
 
 def _products(blocks: tuple[Block, ...], columns_of: tuple[Indices, ...], system: System) -> np.ndarray:

@@ -110,10 +110,12 @@ def subset(precision: Precision, chosen: Indices) -> Precision:
 
 
 def _sandwich(information: SquareMatrix, spread: SquareMatrix) -> SquareMatrix:
+    """Give A^-1 B A^-1 within the directions in which A is not zero."""
     scale = np.sqrt(np.maximum(np.diag(information), np.finfo(float).tiny))
-    inner = np.linalg.pinv(information / np.outer(scale, scale), rcond=_RANK_TOLERANCE**2, hermitian=True)
-    inverse = inner / np.outer(scale, scale)
-    return np.asarray(inverse @ spread @ inverse)
+    values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
+    excited = values > _RANK_TOLERANCE**2 * values[-1]
+    root = vectors[:, excited] / values[excited] @ vectors[:, excited].T / np.outer(scale, scale)
+    return np.asarray(root @ spread @ root)
 
 
 def _open_share(triangle: Matrix) -> Vector:

@@ -1,4 +1,4 @@
-"""Keep the parameters that matter: the weakest are taken out one by one while the error does not grow significantly.
+"""Keep the parameters that matter: the weakest leave one by one while the error does not grow much.
 
 At each step the parameter with the smallest |value| / deviation leaves and the others are fitted again;
 taking it out raises the weighted squared error by the square of that ratio, so the search stops when the

@@ -1,4 +1,4 @@
-"""Find the base parameters of a robot: the columns that can be told apart, and into which of them the others group.
+"""Find the base parameters of a robot: the columns that can be told apart, and how the others group.
 
 Columns are visited in Khalil's order, link after link from the base outwards and YY, MZ, M last within a
 revolute link; a column that the ones before it already span is dropped and its coefficients say how its
@@ -67,7 +67,7 @@ class BaseModel:
     def relation(self, row: int) -> dict[str, float]:
         """Give a base parameter as coefficients of standard parameters, its own first."""
         own = self.kept[row]
-        others = [column for column in np.flatnonzero(self.grouping[row]) if column != own]
+        others = [int(column) for column in np.flatnonzero(self.grouping[row]) if column != own]
         return {
             self.model.parameters[column].name: float(self.grouping[row, column]) for column in (own, *others)
         }

@@ -68,4 +68,4 @@ class Factor:
 def _triangle(rows: Matrix) -> Matrix:
     if len(rows) <= rows.shape[1]:
         return rows
-    return np.linalg.qr(rows, mode="r")
+    return np.asarray(np.linalg.qr(rows, mode="r"))

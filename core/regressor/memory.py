@@ -1,4 +1,4 @@
-"""Remember how rows relate to the rows shortly after them, so that a residual's memory can be judged without storing W.
+"""Remember how rows relate to the rows shortly after them: a residual's memory, judged without storing W.
 
 For filtered samples the residuals are not independent, and the textbook variance is wrong. The variance of a
 least-squares estimate needs W'V W with V the residual's covariance; with V Toeplitz over a few lags that is a
@@ -56,9 +56,9 @@ class LaggedProducts:
         Tapered so that V is positive (Bartlett).
         """
         width = len(autocorrelation)
-        total = self.products[0][:-1, :-1].copy()
+        total = np.array(self.products[0][:-1, :-1])
         for lag in range(1, min(width, self.LAGS + 1)):
             weight = (1.0 - lag / width) * autocorrelation[lag]
             product = self.products[lag][:-1, :-1]
             total += weight * (product + product.T)
-        return total
+        return np.asarray(total)

@@ -12,7 +12,6 @@ from functools import reduce
 import numpy as np
 
 from core.arrays import BaseParameters, Indices, JointSeries, JointVector, Matrix, SampleMask, Samples
-from core.dynamics.model import DynamicModel
 from core.regressor.columns import ColumnPlan
 from core.regressor.factor import Factor
 from core.regressor.memory import LaggedProducts

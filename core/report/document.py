@@ -11,6 +11,7 @@ from core.arrays import Matrix
 from core.estimate.estimate import Estimate
 from core.estimate.feasibility import Feasibility
 from core.log.model import JointLog
+from core.precision.bootstrap import intervals
 from core.precision.covariance import INTERVAL_95, Precision, relative_deviation_percent
 from core.precision.essential import Essential
 from core.reduction.base import BaseModel
@@ -98,7 +99,7 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
     deviation = found.precision.standard_deviation
     percent = relative_deviation_percent(estimate.base, deviation)
     essential = set(found.essential.kept.tolist())
-    drawn = np.quantile(found.draws, [0.025, 0.975], axis=0).T if len(found.draws) else None
+    drawn = intervals(found.draws) if len(found.draws) else None
     return [
         {
             **grouping_row(found.base, row),

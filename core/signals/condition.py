@@ -1,4 +1,4 @@
-"""Condition a log: position, velocity, acceleration and torque on one clock, tile after tile, whatever the log's length.
+"""Condition a log: position, velocity, acceleration and torque on one clock, tile after tile.
 
 The chain is the seed's: running median, zero-phase Butterworth on q, centred differences; the parallel filter
 follows when the equations are written. What the filters reach of log ends and standstill is marked unusable,
@@ -9,11 +9,12 @@ because there the derivatives are guesses and friction is not sign(velocity). So
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from scipy.signal import oaconvolve
 
-from core.arrays import JointMask, JointSeries, Samples, SampleMask, Series
+from core.arrays import JointMask, JointSeries, SampleMask, Samples, Series
 from core.dynamics.term import MotionState
 from core.errors import LogError
 from core.log.model import JointLog, LogRows
@@ -28,7 +29,7 @@ TILE_KEPT = 512
 STILL_SECONDS = 0.2
 END_SHARE = 1e-3
 UNUSABLE_SHARE = 0.05
-"""A kept instant is left out when more than this share of the parallel filter's mass falls on unusable samples."""
+"""A kept instant is left out when more of the parallel filter's mass than this falls on unusable samples."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,7 @@ class Motion:
                 border - done for border in borders if 0 < border - done < segment.kept
             }
             ordered = sorted(cuts)
-            for begin, end in zip(ordered, ordered[1:], strict=False):
+            for begin, end in pairwise(ordered):
                 block = int(np.searchsorted(borders, done + begin, side="right")) - 1
                 for start in range(begin, end, TILE_KEPT):
                     yield segment.tile(self, start, min(start + TILE_KEPT, end), block)
@@ -205,13 +206,17 @@ class _Segment:
 
 
 def _long_runs(mask: JointMask, run: int) -> JointMask:
-    """Keep the stretches of a mask that last at least `run` samples (morphological opening by running means)."""
+    """Keep the stretches of a mask that last at least `run` samples: those that some full window covers."""
     if len(mask) < run:
-        return mask & mask.all(axis=0)
-    window = np.lib.stride_tricks.sliding_window_view(mask, run, axis=0).all(axis=-1)
-    padded = np.zeros((len(mask) + run - 1, mask.shape[1]), dtype=bool)
-    padded[run - 1 : run - 1 + len(window)] = window
-    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, run, axis=0).any(axis=-1))
+        return np.asarray(mask & mask.all(axis=0))
+    full = _window_sums(mask, run) == run
+    return np.asarray(_window_sums(np.pad(full, ((run - 1, run - 1), (0, 0))), run) > 0)
+
+
+def _window_sums(mask: JointMask, run: int) -> np.ndarray:
+    """Count the marks in every window of `run` samples."""
+    sums = np.cumsum(np.pad(mask, ((1, 0), (0, 0))), axis=0)
+    return np.asarray(sums[run:] - sums[:-run])
 
 
 def _segment(log: JointLog, recipe: Recipe, start: int, stop: int) -> _Segment | None:

@@ -1,4 +1,4 @@
-"""Filter and thin many series at once: the parallel filter of the observation matrix, as one matrix product per tile.
+"""Filter and thin many series at once: the parallel filter as one matrix product per tile.
 
 Filtering both sides of a linear equation with the same linear filter leaves the equation true; so no delay,
 no edge effect and no choice of cut-off can bias it. Only the kept instants are computed. Source: Gautier
@@ -46,7 +46,7 @@ class ParallelFilter:
 
     @cached_property
     def _magnitude_band(self) -> Matrix:
-        return np.abs(self._band) / np.abs(self.response).sum()
+        return np.asarray(np.abs(self._band) / np.abs(self.response).sum())
 
     def apply(self, series: Series, first: int, kept: int) -> Series:
         """Give `kept` filtered instants.

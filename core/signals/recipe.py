@@ -1,4 +1,4 @@
-"""Decide how signals are conditioned: the seed's chain, with cut-offs read off the motion's own spectrum unless they are given.
+"""Decide how signals are conditioned: the seed's chain, with cut-offs read off the motion's own spectrum.
 
 Nothing here looks at the torque: a cut-off chosen to make the residual small would be tuned on what it is
 judged by.
@@ -119,12 +119,15 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         decimation=decimation,
         motion_band_hz=band,
         still_speed=0.01 * speeds,
-        reason=f"parallel filter at {cutoff:.3g} Hz ({chosen}), positions at {position:.3g} Hz, every {decimation}. sample kept",
+        reason=(
+            f"parallel filter at {cutoff:.3g} Hz ({chosen}), positions at {position:.3g} Hz,"
+            f" one sample in {decimation} kept"
+        ),
     )
 
 
 def _survey(log: JointLog) -> tuple[JointVector, JointVector]:
-    """Give band (Hz) and RMS speed of every joint from up to eight looks spread over the log's longest segment."""
+    """Give band (Hz) and RMS speed of every joint, from up to eight looks over the longest segment."""
     start, stop = max(log.segments, key=lambda one: one[1] - one[0])
     length = min(stop - start, int(_LOOK_SECONDS * log.rate_hz))
     count = min(_LOOKS, max(1, (stop - start) // length))

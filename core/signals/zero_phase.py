@@ -18,7 +18,7 @@ _FLOOR = 1e-14
 
 
 def gain(frequency_hz: Vector, *, cutoff_hz: float, rate_hz: float, order: int) -> Vector:
-    """Give the filter's gain; at the cut-off it is one half, because each of the two passes has the power of one half.
+    """Give the filter's gain; at the cut-off it is one half, since each of the two passes halves the power.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def kernel(cutoff_hz: float, rate_hz: float, order: int) -> Samples:
 
 
 def reach_of(response: Samples, share: float) -> int:
-    """Count the samples beyond which a symmetric kernel holds less than a share of its absolute mass on one side.
+    """Count the samples beyond which one side of a symmetric kernel holds less than a share of its mass.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Give the friction that only knows the direction: FC times sign(velocity), with the sign smoothed where asked.
+"""Give the friction that only knows the direction: FC times sign(velocity), smoothed where asked.
 
 The sign is wrong within the velocity's error of zero, where a measured velocity changes sign too early or too
 late. A smoothed sign tanh(v / width) spreads the step over a width that the caller chooses per joint from

@@ -1,4 +1,4 @@
-"""Give the torque of motors that turn with a sum of joints: inertia, viscous and Coulomb friction of that sum.
+"""Give the torque of motors that turn with a sum of joints: its inertia, viscous and Coulomb friction.
 
 By virtual work the motor's torque acts on joint i with the weight that joint i has in the sum. Source:
 Staubli wrists 5-6, as in Janot, Vandanjon & Gautier, IEEE TCST 22(1), 2014.

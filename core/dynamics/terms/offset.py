@@ -1,4 +1,4 @@
-"""Give the constant torque offset: amplifier offset and the asymmetry of Coulomb friction, which cannot be told apart.
+"""Give the constant torque offset: amplifier offset and asymmetric Coulomb friction, which look the same.
 
 Source: the seed paper, eq. (4).
 """
@@ -28,7 +28,7 @@ class Offset:
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter."""
-        return own_joint_series(_joints(robot), len(state.position), lambda joint: 1.0)
+        return own_joint_series(_joints(robot), len(state.position), lambda _joint: 1.0)
 
 
 def _joints(robot: RobotModel) -> tuple[int, ...]:

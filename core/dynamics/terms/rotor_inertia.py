@@ -1,4 +1,4 @@
-"""Give the torque that turns the rotor: inertia seen at the joint (gear ratio squared included) times joint acceleration.
+"""Give the torque that turns the rotor: inertia seen at the joint (gear ratio squared included).
 
 The gyroscopic torque of a rotor spun by its carrier is left out, as in the seed's model. Source: Khalil &
 Dombre (2002), ch. 9.
