@@ -44,13 +44,13 @@ SHAPES: Final = (
 The masses are kept as they stand here, 9.5 kg together, which is what one arm of the robot weighs."""
 
 CLOSENESS: Final = 0.03
-    """Give the 4x4 pseudo-inertia of a homogeneous ellipsoid: second moment m a2/5 along a half axis a."""
+"""Weight of Table 3 against the plausible bodies; large enough to matter, small enough to keep bodies thick."""
 
 
 def pseudo_inertia_of_shape(
     mass: float, centre: tuple[float, ...], half_axes: tuple[float, ...]
 ) -> np.ndarray:
-    """Give the 4x4 pseudo-inertia of a homogeneous ellipsoid: second moment m a2/5 along each half axis a."""
+    """Give the 4x4 pseudo-inertia of a homogeneous ellipsoid: second moment m a2/5 along a half axis a."""
     lever = np.append(centre, 1.0)
     spread = np.zeros((4, 4))
     spread[:3, :3] = np.diag(mass * np.square(half_axes) / 5.0)
