@@ -1,6 +1,7 @@
 """Say why something cannot be done: one tree of errors, each with cause, evidence and remedy.
 
-Every failure a caller can provoke ends here, so that a service can turn it into a problem document without guessing.
+Every failure a caller can provoke ends here, so that a service can turn it into a problem document without
+guessing.
 
     VeritorqueError
     |-- RobotError        the description of the robot cannot be used
@@ -29,9 +30,9 @@ class VeritorqueError(Exception):
 
     Examples
     --------
-    >>> error = LogError("the log is empty", evidence={"rows": 0}, remedy="upload at least one second of motion")
+    >>> error = LogError("the log is empty", evidence={"rows": 0}, remedy="upload a motion")
     >>> str(error)
-    'the log is empty (rows: 0); upload at least one second of motion'
+    'the log is empty (rows: 0); upload a motion'
     """
 
     def __init__(self, cause: str, *, evidence: Evidence | None = None, remedy: str = "") -> None:

@@ -56,11 +56,12 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     OptionError
         If an option is not known, has the wrong type, or makes no sense.
 
-    Examples -------- >>> parse_options({"filter": {"cutoff_hz": 10}}).filter.cutoff_hz 10.0 >>>
-    parse_options({"fliter": {}}) Traceback (most recent call last): core.errors.OptionError: an option is not
-    known (unknown: ['fliter'], known: ['bootstrap', 'bounds', 'essential', \
-'estimator', 'filter', 'prior', 'robust', 'smooth_coulomb', 'solver', 'terms', 'validation']); use the known
-    options only
+    Examples
+    --------
+    >>> parse_options({"filter": {"cutoff_hz": 10}}).filter.cutoff_hz
+    10.0
+    >>> parse_options({"validation": {"fraction": 0.3}}).validation.fraction
+    0.3
     """
     reader = _Reader("", dict(options or {}))
     parsed = IdentifyOptions(

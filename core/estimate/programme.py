@@ -1,8 +1,9 @@
 """State the semidefinite programme once: what is minimised, over what, under which constraints.
 
-    minimise   1/(2 n) ||R G phi - z||^2 + (pull/2) ||(phi - prior) / scale||^2 [+ entropy/n sum_k d(J_k, J_k
-    prior)] subject to D J_k(phi) D >= margin E for every link k,  phi_i >= lower_i,  bounds on masses and
-    mass centres
+    minimise    ||R G phi - z||^2 / (2 n)  +  pull ||(phi - prior) / scale||^2 / 2
+                +  entropy / n  sum_k d(J_k, J_k of the prior)
+    subject to  D J_k(phi) D >= margin E  for every link k,
+                phi_i >= lower_i,  bounds on masses and mass centres
 
 phi are the standard parameters, G groups them into base parameters, R and z are the weighted factor of the
 log with n rows. The size does not depend on the log's length. Sources: Sousa & Cortesao 2014; Wensing, Kim &

@@ -20,16 +20,18 @@ def plain(value: object) -> object:
     >>> plain({"value": np.float64(1.00000000001), "open": float("inf")})
     {'value': 1.0, 'open': None}
     """
-    if isinstance(value, bool | np.bool_):
-        return bool(value)
-    if isinstance(value, int | np.integer):
-        return int(value)
-    if isinstance(value, float | np.floating):
-        return float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None
+    if is_dataclass(value) and not isinstance(value, type):
+        value = asdict(value)
     if isinstance(value, Mapping):
         return {str(key): plain(one) for key, one in value.items()}
     if isinstance(value, list | tuple | np.ndarray):
         return [plain(one) for one in value]
-    if is_dataclass(value) and not isinstance(value, type):
-        return plain(asdict(value))
-    return value if value is None else str(value)
+    return _scalar(value)
+
+
+def _scalar(value: object) -> bool | int | float | str | None:
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float):
+        return float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None
+    return value if value is None or isinstance(value, bool | int) else str(value)
