@@ -1,1 +1,1 @@
-"""Offer the science over HTTP: in come robots, logs and jobs, out go result documents; no mathematics lives here."""
+"""Offer the science over HTTP: in come robots, logs and jobs, out go result documents."""

@@ -1,4 +1,4 @@
-"""Take robots and logs in, and find them again: documents and bytes become records here, or the reason why they cannot.
+"""Take robots and logs in, and find them again: documents and bytes become records here, or problems.
 
 Everything here may take a while and is called from worker threads, never on the event loop.
 """
@@ -157,7 +157,15 @@ def log_name(given: str) -> str:
 
 def _built_in(name: str, description: Document) -> RobotRecord:
     robot, written = science.read_description(description)
-    return RobotRecord(name, robot.name, len(robot.joints), True, written, science.doubts(robot), None)
+    return RobotRecord(
+        id=name,
+        name=robot.name,
+        joints=len(robot.joints),
+        built_in=True,
+        description=written,
+        suspicions=science.doubts(robot),
+        created_at=None,
+    )
 
 
 def _missing(what: str, identity: str, *, named_in_body: bool) -> Problem:

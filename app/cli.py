@@ -48,7 +48,10 @@ def serve(
         float, typer.Option(envvar=PREFIX + "JOB_TIMEOUT_S", help="Longest computation, s.")
     ] = DEFAULTS.job_timeout_s,
 ) -> None:
-    """Start the service. It listens on loopback unless VERITORQUE_ALLOW_REMOTE=1 is set: there are no keys yet."""
+    """Start the service.
+
+    It listens on loopback unless VERITORQUE_ALLOW_REMOTE=1 is set: there are no keys yet.
+    """
     settings = _settings(
         host=host,
         port=port,

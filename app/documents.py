@@ -1,4 +1,4 @@
-"""Write JSON in the one way that the service allows, so that equal documents are equal bytes and no reader meets NaN.
+"""Write JSON in the one way that the service allows: equal documents are equal bytes, and none holds NaN.
 
 RFC 8259 leaves the order of names and the spaces open; a document that is hashed, stored and compared cannot.
 """

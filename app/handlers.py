@@ -1,4 +1,4 @@
-"""Turn everything that can go wrong into a problem document, whoever raised it: the science, the framework or a bug."""
+"""Turn all that can go wrong into a problem document, whether science, framework or a bug raised it."""
 
 import logging
 import secrets

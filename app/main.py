@@ -1,6 +1,7 @@
 """Put the service together: settings in, one ASGI application out.
 
-Nothing is opened before the application starts, so that the contract can be printed without a database or a solver.
+Nothing is opened before the application starts, so that the contract can be printed without a database or a
+solver.
 """
 
 from collections.abc import AsyncIterator

@@ -1,4 +1,4 @@
-"""Stand before every request: bodies are bounded before they are read, and no answer is guessed at by a browser."""
+"""Stand before every request: bodies are bounded, and no answer is guessed at by a browser."""
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 

@@ -1,6 +1,6 @@
 """Choose among the forms of a resource by what the client accepts, and read how long it is willing to wait.
 
-Sources: RFC 9110, HTTP Semantics (2022), section 12.5.1 for Accept and 13.1.2 for If-None-Match; RFC 7240 for Prefer.
+Sources: RFC 9110, HTTP Semantics (2022), 12.5.1 for Accept and 13.1.2 for If-None-Match; RFC 7240, Prefer.
 """
 
 import re
@@ -62,7 +62,7 @@ def _range(part: str) -> tuple[str, float]:
 
 def _quality(offer: str, ranges: list[tuple[str, float]]) -> float:
     """Give the quality of the most specific range which covers the offer."""
-    family = offer.split("/")[0] + "/*"
+    family = offer.split("/", maxsplit=1)[0] + "/*"
     for covering in (offer, family, "*/*"):
         found = [quality for media, quality in ranges if media == covering]
         if found:

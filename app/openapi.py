@@ -1,6 +1,7 @@
-"""Write the contract as OpenAPI 3.1: what FastAPI derives from the routes, plus the bodies they read by hand and the problems.
+"""Write the contract as OpenAPI 3.1: the routes, the bodies they read by hand, and the problems.
 
-Routes read bodies themselves, so that they can be streamed, bounded and refused with reasons; their documentation is given here.
+Routes read bodies themselves, so that they can be streamed, bounded and refused with reasons; their
+documentation is given here.
 """
 
 from typing import Any
@@ -21,8 +22,8 @@ DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultD
 DESCRIPTION = """From a robot's log to a robot that can physically exist.
 
 Create a robot (or use a built-in one), upload a log, ask for a job of kind `identify`, read its results.
-Units are SI, angles rad, joints counted from 1. Numbers are finite: no request and no answer holds NaN or Infinity.
-Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
+Units are SI, angles rad, joints counted from 1. Numbers are finite: no request and no answer holds NaN or
+Infinity. Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
 
 
 def reference(model: type[BaseModel]) -> dict[str, str]:

@@ -1,7 +1,7 @@
-"""Say every failure as one RFC 9457 problem document: a stable type, a status, and cause, evidence and remedy.
+"""Say every failure as one RFC 9457 problem document: stable type, status, cause, evidence and remedy.
 
-The table of kinds is the complete list of what can go wrong over HTTP; a kind is never renamed, because clients branch on it.
-Source: RFC 9457, Problem Details for HTTP APIs (2023).
+The table of kinds is the complete list of what can go wrong over HTTP; a kind is never renamed, because
+clients branch on it. Source: RFC 9457, Problem Details for HTTP APIs (2023).
 """
 
 from collections.abc import Mapping

@@ -1,10 +1,12 @@
 """Read JSON from outside strictly, and check it against the models of the contract.
 
-RFC 8259 leaves room for NaN, a name twice and any depth; here all of them are refused at the door, with the reason.
+RFC 8259 leaves room for NaN, a name twice and any depth; here all of them are refused at the door, with the
+reason.
 """
 
 import json
 import math
+from collections.abc import Iterable
 from typing import NoReturn, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -49,7 +51,7 @@ def parse_json(text: bytes | str, *, what: str = "the body") -> object:
     Raises
     ------
     Problem
-        If it is no JSON, or holds NaN, Infinity, a name twice, half a character, or more than 32 levels (400).
+        If it is no JSON, or holds NaN, Infinity, a name twice, half a character, or too many levels (400).
 
     Examples
     --------
@@ -103,10 +105,10 @@ def check(model: type[Model], document: object) -> Model:
     try:
         return model.model_validate(document, strict=True)
     except ValidationError as error:
-        raise invalid(list(error.errors(include_url=False, include_context=False))) from None
+        raise invalid(error.errors(include_url=False, include_context=False)) from None
 
 
-def invalid(errors: list[dict[str, object]] | list[object]) -> Problem:
+def invalid(errors: Iterable[object]) -> Problem:
     """Turn the complaints of pydantic or FastAPI into one problem."""
     spots = [_spot(error) for error in errors if isinstance(error, dict)]
     first = spots[0] if spots else {"message": "it does not fit"}
@@ -120,16 +122,16 @@ def invalid(errors: list[dict[str, object]] | list[object]) -> Problem:
 
 
 def _spot(error: dict[str, object]) -> dict[str, object]:
-    location = [str(step) for step in error["loc"]] if isinstance(error.get("loc"), tuple) else []  # type: ignore[union-attr]
+    place = error.get("loc")
+    location = [str(step) for step in place] if isinstance(place, tuple | list) else []
     spot: dict[str, object] = {"message": str(error.get("msg", ""))[:LONGEST_REASON]}
     if location[:1] and location[0] in {"query", "path", "header"}:
         spot["parameter"] = "/".join(location[1:])
     else:
         steps = location[1:] if location[:1] == ["body"] else location
         spot["pointer"] = "".join("/" + step.replace("~", "~0").replace("/", "~1") for step in steps)
-    spot["given"] = (
-        error.get("input") if _is_scalar(error.get("input")) else type(error.get("input")).__name__
-    )
+    given = error.get("input")
+    spot["given"] = given if _is_scalar(given) else type(given).__name__
     return spot
 
 

@@ -1,6 +1,7 @@
-"""Hold what an operator may choose, read once from the environment (``VERITORQUE_PORT=9000``) and never changed afterwards.
+"""Hold what an operator may choose, read once from the environment (``VERITORQUE_PORT=9000``).
 
-The command line offers the same settings by the same names, so that a container and a terminal are told the same thing.
+Settings never change afterwards. The command line offers the same by the same names, so that a container and
+a terminal are told the same thing.
 """
 
 import ipaddress
@@ -28,7 +29,8 @@ class Settings(BaseSettings):
     job_timeout_s
         Longest a computation may take, s.
     allow_remote
-        Permit a `host` that other machines can reach. There are no keys yet: whoever reaches the port may use the service.
+        Permit a `host` that other machines can reach. There are no keys yet: whoever reaches the port may use
+        the service.
     """
 
     model_config = SettingsConfigDict(env_prefix=PREFIX, frozen=True, allow_inf_nan=False)

@@ -1,4 +1,4 @@
-"""Receive files: streamed to the disk while they are hashed, however large they are, and never kept in memory as a whole."""
+"""Receive files: streamed to the disk while they are hashed, never in memory as a whole."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -14,9 +14,7 @@ from app.store.blobs import Incoming
 from core.log.content import FORMS, NO_CLAIM
 
 MULTIPART = "multipart/form-data"
-LOG_MEDIA_TYPES = tuple(dict.fromkeys(kind for form in FORMS for kind in form.media_types)) + (
-    "application/octet-stream",
-)
+LOG_MEDIA_TYPES = (*sorted({kind for form in FORMS for kind in form.media_types}), "application/octet-stream")
 MOST_PARTS = 32
 PIECE = 1 << 20
 
@@ -130,6 +128,6 @@ def text_of(form: FormData, name: str) -> str | None:
 
 
 def claimed_type(part: UploadFile) -> str | None:
-    """Give the media type that a part claims where logs come in it; clients guess the others, so that they claim nothing."""
+    """Give the media type that a part claims, where logs come in it; other claims are guesses."""
     claim = (part.content_type or "").split(";")[0].strip().lower()
     return claim if claim in LOG_MEDIA_TYPES and claim not in NO_CLAIM else None

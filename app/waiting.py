@@ -1,4 +1,4 @@
-"""Wait for a job without holding a thread: the client's patience costs the service a look at the database now and then."""
+"""Wait for a job without holding a thread: patience costs a look at the database now and then."""
 
 import time
 
@@ -17,5 +17,8 @@ async def wait_for(store: Store, job: JobRecord, seconds: float) -> JobRecord:
     while not job.finished and (left := deadline - time.monotonic()) > 0.0:
         await anyio.sleep(min(pause, left))
         pause = min(1.5 * pause, LONGEST_PAUSE_S)
-        job = await anyio.to_thread.run_sync(store.jobs.get, job.id) or job
+        now = await anyio.to_thread.run_sync(store.jobs.get, job.id)
+        if now is None:  # deleted meanwhile
+            return job
+        job = now
     return job

@@ -1,1 +1,1 @@
-"""Run computations away from the service: in comes a queued job, out goes a result document or the reason why there is none."""
+"""Run computations away from the service: in comes a queued job, out goes a result or a problem."""

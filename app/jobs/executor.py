@@ -1,7 +1,8 @@
 """Run computations so that they can be followed, stopped and survived.
 
-The interface is one method; the one implementation gives every computation a process of its own, forked from a server process
-that has the solver loaded already. A crash, a dismissal or a timeout ends that process and nothing else.
+The interface is one method; the one implementation gives every computation a process of its own, forked from
+a server process that has the solver loaded already. A crash, a dismissal or a timeout ends that process and
+nothing else.
 """
 
 import json
@@ -123,7 +124,7 @@ def _too_slow(timeout_s: float) -> Problem:
 
 
 def _vanished(exit_code: int | None) -> Problem:
-    """Say that the process ended without a word; a negative exit code is the number of the signal that ended it."""
+    """Say that the process ended without a word; a negative exit code is a signal's number."""
     return Problem(
         "computation-stopped",
         "the computation's process ended without a result",

@@ -1,4 +1,4 @@
-"""Accept jobs and let go of them: what cannot succeed is refused at once, with the same words as the science would use."""
+"""Accept jobs and let go of them; what cannot succeed is refused at once, in the words of the science."""
 
 from app.jobs import science
 from app.jobs.runner import Runner
@@ -60,14 +60,11 @@ class Queue:
 
 
 def _check_joints(robot: RobotRecord, log: LogRecord) -> None:
-    if log.joints != robot.joints:
-        raise LogError(
-            f"the log {log.summary['name']} has {log.joints} joints, the robot {robot.name} has {robot.joints}",
-            evidence={
-                "log": log.id,
-                "log_joints": log.joints,
-                "robot": robot.id,
-                "robot_joints": robot.joints,
-            },
-            remedy="choose the robot that was measured, or map exactly one column per joint",
-        )
+    if log.joints == robot.joints:
+        return
+    name = log.summary["name"]
+    raise LogError(
+        f"the log {name} has {log.joints} joints, the robot {robot.name} has {robot.joints}",
+        evidence={"log": log.id, "log_joints": log.joints, "robot": robot.id, "robot_joints": robot.joints},
+        remedy="choose the robot that was measured, or map exactly one column per joint",
+    )

@@ -1,6 +1,7 @@
-"""Take waiting jobs from the store and see each to its end; what the service leaves behind is taken up again at its next start.
+"""Take waiting jobs from the store and see each to its end, even past a restart of the service.
 
-One thread per computation that may run at the same time; the computing itself happens in the executor's processes.
+One thread per computation that may run at the same time; the computing itself happens in the executor's
+processes.
 """
 
 import logging
@@ -58,8 +59,7 @@ class Runner:
         self._closing.set()
         for stop in list(self._stops.values()):
             stop.set()
-        for thread in self._threads:
-            self._wake.release()
+        self._wake.release(len(self._threads))
         for thread in self._threads:
             thread.join()
 

@@ -1,11 +1,10 @@
 """Meet the science: the one place where documents become core's types and core's types become documents.
 
-`core.study` is imported where it is used, because it brings the solver and the compiled kernels with it: the service answers
-before they are loaded, and a command that prints the contract never loads them.
+`core.study` is imported where it is used, because it brings the solver and the compiled kernels with it: the
+service answers before they are loaded, and a command that prints the contract never loads them.
 """
 
 from dataclasses import asdict
-from pathlib import Path
 
 from app.documents import plain
 from app.jobs.computation import Computation, LogFile, Progress
@@ -138,5 +137,5 @@ def identify(computation: Computation, progress: Progress) -> Document:
 
 
 def load() -> None:
-    """Load the solver and the compiled kernels; compiles them where no earlier run has left them on the disk."""
+    """Load the solver and the kernels; compiles them where the disk does not hold them yet."""
     import core.study  # noqa: F401  (the import is the work)

@@ -1,13 +1,15 @@
 """Compute one job in a process of its own, and tell the service how it goes over a pipe.
 
-A message is one letter and its content: ``p`` progress, ``r`` the result document, ``f`` the problem document, ``t`` the trace
-of a mistake of ours (for the service's own log, never for clients). A computation does not outlive the service.
+A message is one letter and its content: ``p`` progress, ``r`` the result document, ``f`` the problem
+document, ``t`` the trace of a mistake of ours (for the service's own log, never for clients). A computation
+does not outlive the service.
 """
 
 import os
 import signal
 import threading
 import traceback
+from contextlib import suppress
 from multiprocessing.connection import Connection
 
 from app.documents import canonical_json
@@ -67,8 +69,6 @@ def mistake() -> Problem:
 
 
 def _end_with_the_service(pipe: Connection) -> None:
-    try:
+    with suppress(OSError):
         pipe.poll(None)  # nothing is ever sent this way: it returns when the other end is gone
-    except OSError:
-        pass
     os._exit(1)

@@ -1,1 +1,1 @@
-"""Answer requests: in comes HTTP, out goes HTTP; each file serves one resource and knows nothing of the others."""
+"""Answer requests: in comes HTTP, out goes HTTP; one file per resource, none knows another."""

@@ -1,4 +1,4 @@
-"""Serve the whole story in one request, for people and for continuous integration: robot and log in, result out."""
+"""Serve the whole story in one request: robot and log in, result out."""
 
 from typing import Annotated
 
@@ -69,7 +69,7 @@ async def identify(
         str | None, Header(max_length=200, description="wait=N: wait up to N seconds; default 60")
     ] = None,
 ) -> Response:
-    """Create the robot, upload the logs, run the job and answer its result document; a failed job's problem is the answer's."""
+    """Create the robot, upload the logs, run the job, and answer its result or its problem."""
     require_media_type(request, (MULTIPART,))
     async with open_form(request, longest_text=LONGEST_ROBOT) as form:
         refuse_unknown_parts(form, PARTS)

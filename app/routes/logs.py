@@ -1,4 +1,4 @@
-"""Serve logs: uploaded as they were recorded, read once to say what is in them, kept as the bytes they came in."""
+"""Serve logs: uploaded as recorded, read once to say what is in them, kept as the bytes they came in."""
 
 from typing import Annotated
 
@@ -65,7 +65,10 @@ async def create_log(
     name: Annotated[str | None, Query(max_length=200)] = None,
     mapping: Annotated[str | None, Query(max_length=60_000, description=f"JSON, e.g. {MAPPING}")] = None,
 ) -> Response:
-    """Upload a log, as the body itself or as a form. Unusable data is refused; usable data comes with its defects listed."""
+    """Upload a log, as the body itself or as a form.
+
+    Unusable data is refused; usable data comes with its defects listed.
+    """
     media_type = require_media_type(request, (MULTIPART, *LOG_MEDIA_TYPES))
     with services.store.blobs.receive() as incoming:
         if media_type == MULTIPART:

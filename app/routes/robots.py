@@ -83,7 +83,7 @@ def read_robot(services: ServicesOf, robot_id: str) -> Response:
     responses=problems(404, 422),
 )
 def read_base_parameters(services: ServicesOf, robot_id: str) -> Response:
-    """Read the combinations of parameters that some motion can tell apart, and how the standard parameters group in them."""
+    """Read the combinations of parameters that some motion can tell apart, with their groupings."""
     return JSONResponse(services.catalogue.base_parameters(robot_id))
 
 

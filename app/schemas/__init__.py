@@ -1,1 +1,1 @@
-"""Say what requests and responses look like: in comes JSON, out go strict models and the documentation of the contract."""
+"""Say what requests and responses look like: in comes JSON, out go strict models and documentation."""

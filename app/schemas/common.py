@@ -1,4 +1,4 @@
-"""Share what all models of the contract have in common: strict types, no unknown fields, finite numbers, bounded lengths."""
+"""Share what all models have in common: strict types, no unknown fields, finite numbers, bounded lengths."""
 
 from typing import Annotated
 

@@ -1,6 +1,7 @@
-"""Give the examples that /docs is filled with, so that "Try it out" works at once with the YuMi arm that ships with the project.
+"""Give the examples that fill /docs, so that "Try it out" works at once with the YuMi arm.
 
-The id of the example log follows from its bytes; a test keeps the two together.
+The id of the example log follows from the bytes of the file that ships with the project; a test keeps the
+two together.
 """
 
 from core.robot.builtin import builtin_description

@@ -15,9 +15,9 @@ class JobRequest(Strict):
     kind: Annotated[Literal["identify"], Field(description="what to compute")]
     robot: Identity
     logs: Annotated[list[Identity], Field(min_length=1, max_length=100)]
-    options: Annotated[
-        Options, Field(description="unknown options are refused with the list of known ones")
-    ] = {}
+    options: Options = Field(
+        default={}, description="unknown options are refused with the list of known ones"
+    )
 
 
 class Progress(Open):

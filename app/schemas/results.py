@@ -42,7 +42,7 @@ class JointFit(Open):
 
 
 class ResultDocument(Open):
-    """The identified robot: parameters, how well each is known, whether it can exist, and how well it predicts."""
+    """The identified robot: its parameters, how well each is known, and how well it predicts."""
 
     schema_version: str
     kind: str

@@ -1,6 +1,7 @@
 """Describe robots as they are sent and answered.
 
-`RobotDescription` documents what `core.robot.description` reads and judges; a test keeps the two naming the same fields.
+`RobotDescription` documents what `core.robot.description` reads and judges; a test keeps the two naming the
+same fields.
 """
 
 from typing import Annotated, Literal
@@ -24,8 +25,8 @@ class Limits(Strict):
 class JointDescription(Strict):
     """A joint and the link it moves.
 
-    With `convention` modified-dh, alpha, d, r and theta_offset are needed (Khalil-Kleinfinger letters: d is Craig's a, r is
-    Craig's d). With frames, rotation and translation are needed.
+    With `convention` modified-dh, alpha, d, r and theta_offset are needed (Khalil-Kleinfinger letters: d is
+    Craig's a, r is Craig's d). With frames, rotation and translation are needed.
     """
 
     name: Annotated[str | None, Field(max_length=100)] = None
@@ -35,7 +36,7 @@ class JointDescription(Strict):
         int | None,
         Field(
             ge=0,
-            description="number of the joint that carries this one, 0 for the base; default: the joint before",
+            description="the joint that carries this one, 0 for the base; default: the joint before",
         ),
     ] = None
     alpha: Annotated[
@@ -68,11 +69,9 @@ class JointDescription(Strict):
     ] = None
     limits: Limits | None = None
     rotor_inertia: Annotated[bool, Field(description="identify the rotor's inertia IA of this joint")] = True
-    friction: Annotated[list[Literal["viscous", "coulomb", "offset"]], Field(max_length=3)] = [
-        "viscous",
-        "coulomb",
-        "offset",
-    ]
+    friction: list[Literal["viscous", "coulomb", "offset"]] = Field(
+        default=["viscous", "coulomb", "offset"], max_length=3
+    )
     torque_constant: Annotated[
         float | None, Field(description="N m/A, motor side; turns a logged current into torque")
     ] = None
@@ -106,7 +105,7 @@ class StandardParameters(Strict):
 
 
 class LinkPrior(Strict):
-    """What is believed about a link beforehand: either standard, or mass, center_of_mass and inertia_at_com."""
+    """A belief about a link: either standard, or mass, center_of_mass and inertia_at_com."""
 
     standard: StandardParameters | None = None
     mass: Annotated[float | None, Field(description="kg")] = None
@@ -122,10 +121,10 @@ class RobotDescription(Strict):
     name: Annotated[str, Field(max_length=100)]
     convention: Literal["modified-dh", "frames"] = "modified-dh"
     joints: Annotated[list[JointDescription], Field(min_length=1, max_length=64)]
-    gravity: Annotated[
-        Triple,
-        Field(description="acceleration of gravity in the base frame, m/s2; points down on a level base"),
-    ] = [0.0, 0.0, -9.81]
+    gravity: Triple = Field(
+        default=[0.0, 0.0, -9.81],
+        description="acceleration of gravity in the base frame, m/s2; points down on a level base",
+    )
     couplings: list[CouplingDescription] | None = None
     prior: Annotated[list[LinkPrior] | None, Field(description="one entry per joint")] = None
 

@@ -1,1 +1,1 @@
-"""Keep what outlives a request: in come records and bytes, out go the same records and bytes after a restart."""
+"""Keep what outlives a request: in come records and bytes, out go the same after a restart."""

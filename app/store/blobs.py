@@ -1,6 +1,7 @@
-"""Keep bytes under the hash of their content: written aside, synced, then renamed, so that a file is whole or not there.
+"""Keep bytes under the hash of their content: a file is whole or not there.
 
-Equal bytes are kept once. A name is a SHA-256 computed here, never anything that a client sent.
+Bytes are written aside, synced, then renamed; equal bytes are kept once. A name is a SHA-256 computed
+here, never anything that a client sent.
 """
 
 import hashlib

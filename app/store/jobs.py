@@ -1,7 +1,7 @@
-"""Keep jobs and their states; every change is one statement that only succeeds from the state it belongs to.
+r"""Keep jobs and their states; every change is one statement that only succeeds from the state it belongs to.
 
     accepted -> running -> successful | failed
-        |          |  \\-> accepted (the service stopped meanwhile)
+        |          |  \-> accepted (the service stopped meanwhile)
         `----------`----> dismissed
 
 So two workers never take the same job, and a job that was dismissed does not come back as successful.
@@ -81,7 +81,11 @@ class JobStore:
 
     def fail(self, identity: str, problem: Document) -> bool:
         """Mark a running job failed, and say whether it still ran."""
-        values = {"state": "failed", "problem": json.dumps(problem), "finished_at": now()}
+        values: dict[str, object] = {
+            "state": "failed",
+            "problem": json.dumps(problem),
+            "finished_at": now(),
+        }
         return self._change(identity, ("running",), values)
 
     def dismiss(self, identity: str) -> bool:
@@ -94,7 +98,7 @@ class JobStore:
         return self._change(identity, ("running",), values | {"attempts": JOBS.c.attempts - 1})
 
     def recover(self, problem: Document) -> None:
-        """Queue again what an earlier run of the service left running; what was tried too often fails with the problem."""
+        """Queue again what an earlier run left running; what was tried too often fails."""
         left = JOBS.c.state == "running"
         failed = {"state": "failed", "problem": json.dumps(problem), "finished_at": now()}
         queued = {"state": "accepted", "stage": "", "fraction": 0.0, "started_at": None}

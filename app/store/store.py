@@ -1,6 +1,7 @@
 """Bind records and bytes together: bytes are kept as long as a record needs them, and no longer.
 
-One lock orders the few moments in which both change, so that nobody removes bytes that somebody is about to need.
+One lock orders the few moments in which both change, so that nobody removes bytes that somebody is about to
+need.
 """
 
 import threading
