@@ -44,7 +44,7 @@ SHAPES: Final = (
 The masses are kept as they stand here, 9.5 kg together, which is what one arm of the robot weighs."""
 
 CLOSENESS: Final = 0.03
-"""Weight of Table 3 against the plausible bodies; large enough to matter, small enough to keep bodies thick."""
+"""Weight of Table 3 against the plausible bodies; small enough to keep every body thick."""
 
 
 def pseudo_inertia_of_shape(
@@ -143,8 +143,8 @@ def main() -> None:
     """Write `bodies.json`."""
     matrices, base = choose()
     document = {
-        "how": "closest to Table 3 among bodies that can exist and weigh 9.5 kg together; see choose_bodies.py",
-        "units": {"mass": "kg", "centre": "m, in the link frame", "inertia": "kg m2, about the mass centre"},
+        "how": "closest to Table 3 among bodies that can exist and weigh 9.5 kg together",
+        "units": {"mass": "kg", "centre": "m, in the link frame", "inertia": "kg m2, about the centre"},
         "links": [as_body(matrix) for matrix in matrices],
         "table_3": {
             name: {"study": TABLE_3[name][0], "here": round(value, 5)} for name, value in base.items()

@@ -1,0 +1,120 @@
+"""Identify a YuMi arm from a log through the real HTTP service, and print what was found beside the truth.
+
+Run ``python -m examples.yumi.demo``; ``--log`` and ``--robot`` take one's own files, ``--url`` a service that
+runs already.
+"""
+
+import argparse
+import json
+import signal
+import sys
+import time
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Final, NoReturn
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from examples.yumi.client import Client, Document, ServiceError
+from examples.yumi.service import ROOT, running_service
+from examples.yumi.summary import Truth, print_summary
+
+HERE: Final = Path(__file__).parent
+LOG: Final = HERE / "log.csv"
+BUILT_IN: Final = "yumi-left"
+
+
+def read_truth(arguments: argparse.Namespace) -> Truth | None:
+    """Give the true standard parameters where the log is the one whose truth is known."""
+    if arguments.log != LOG or arguments.robot is not None:
+        return None
+    truth: Truth = json.loads((HERE / "truth.json").read_text(encoding="utf-8"))["standard_parameters"]
+    return truth
+
+
+def identify(client: Client, arguments: argparse.Namespace, console: Console) -> Document:
+    """Upload, ask, follow, fetch."""
+    robot = client.add_robot(arguments.robot) if arguments.robot else BUILT_IN
+    summary = client.add_log(arguments.log)
+    console.print(
+        f"{escape(arguments.log.name)}: {summary['samples']} samples, {summary['duration_s']:.1f} s at "
+        f"{summary['rate_hz']:.0f} Hz, {summary['joints']} joints, {len(summary['defects'])} defects listed"
+    )
+    job = client.start("identify", robot, [summary["id"]])
+    bar = Progress(
+        TextColumn("{task.description:<24}"),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeElapsedColumn(),
+        console=console,
+    )
+    with bar:
+        task = bar.add_task("accepted", total=1.0)
+        return client.wait(
+            job["id"], lambda stage, done: bar.update(task, description=escape(stage), completed=done)
+        )
+
+
+def demonstrate(arguments: argparse.Namespace, console: Console) -> None:
+    """Run the whole story once and print it."""
+    truth = read_truth(arguments)
+    if arguments.url is None:
+        console.print("starting the service on loopback; the very first start compiles for about a minute")
+    service = nullcontext(Client(arguments.url)) if arguments.url else running_service(arguments.data_dir)
+    with service as client:
+        console.print(f"service: {client.url}")
+        begin = time.monotonic()
+        result = identify(client, arguments, console)
+        seconds = time.monotonic() - begin
+    print_summary(console, result, truth)
+    console.print(f"Time from upload to result: {seconds:.1f} s.")
+    if arguments.json is not None:
+        arguments.json.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        console.print(f"result document: {escape(str(arguments.json))}")
+
+
+def print_problem(console: Console, error: ServiceError) -> None:
+    """Say what is wrong, what was seen and what to do about it."""
+    console.print(f"[red]{escape(error.cause)}[/]")
+    for name, value in error.evidence.items():
+        console.print(f"  {escape(name)}: {escape(str(value))}")
+    if error.remedy:
+        console.print(f"what to do: {escape(error.remedy)}")
+
+
+def parse(words: list[str] | None) -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(prog="demo", description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--url", help="use the service that runs at this address")
+    parser.add_argument("--log", type=Path, default=LOG, help="log to identify from")
+    parser.add_argument("--robot", type=Path, help="description (JSON) or URDF of one's own robot")
+    parser.add_argument("--json", type=Path, help="save the result document here")
+    parser.add_argument(
+        "--data-dir", type=Path, default=ROOT / "data" / "demo", help="where the service keeps its data"
+    )
+    return parser.parse_args(words)
+
+
+def _interrupt(*_: object) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run the demonstration; give the exit status."""
+    console = Console()
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        demonstrate(parse(words), console)
+    except ServiceError as error:
+        print_problem(console, error)
+        return 1
+    except KeyboardInterrupt:
+        console.print("stopped")
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
