@@ -105,12 +105,18 @@ def test_a_prior_by_mass_and_centre_is_the_same_body_about_the_frame_origin():
     np.testing.assert_allclose(inertia, [[0.04, 0.001, 0], [0.001, 0.05, 0], [0, 0, 0.06]], atol=1e-15)
 
 
-def test_a_repaired_link_is_not_written_as_the_row_it_was_read_from():
+@pytest.mark.parametrize("turned", [False, True], ids=["shifted", "turned"])
+def test_a_repaired_link_is_not_written_as_the_row_it_was_read_from(turned):
     robot = robot_from_description(_two_joints())
-    moved = Link("moved", "revolute", 1, 2, np.eye(3), np.array([0.0, 0.0, 0.2]), row=robot.links[1].row)
+    old = robot.links[1]
+    place = (
+        (np.diag([1.0, -1.0, -1.0]), old.translation) if turned else (old.rotation, np.array([0.0, 0.0, 0.2]))
+    )
+    moved = Link("moved", "revolute", 1, 2, *place, row=old.row)
     description = to_description(RobotModel("two", (robot.links[0], moved), robot.joints, robot.gravity))
     assert description["convention"] == "frames"
-    assert description["joints"][1]["translation"] == [0.0, 0.0, 0.2]
+    assert description["joints"][1]["rotation"] == place[0].tolist()
+    assert description["joints"][1]["translation"] == place[1].tolist()
 
 
 def test_joints_numbered_against_their_links_are_refused_rather_than_renumbered():

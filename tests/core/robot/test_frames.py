@@ -1,5 +1,7 @@
 """Rotations and modified DH rows, held against another library and products of elementary matrices."""
 
+from dataclasses import replace
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -80,3 +82,15 @@ def _shift(axis: int, length: float) -> np.ndarray:
     step = np.eye(4)
     step[axis, 3] = length
     return step
+
+
+@given(ROWS, st.floats(-3.0, 3.0))
+def test_a_joint_coordinate_adds_to_theta_or_to_r_of_its_row(row, coordinate):
+    turned, slid = replace(row, theta=row.theta + coordinate), replace(row, r=row.r + coordinate)
+    rotation, translation = row.placement()
+    for moved, motion in ((turned, _turn(2, coordinate)), (slid, _shift(2, coordinate))):
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = rotation, translation
+        expected = pose @ motion
+        np.testing.assert_allclose(moved.placement()[0], expected[:3, :3], atol=EXACT)
+        np.testing.assert_allclose(moved.placement()[1], expected[:3, 3], atol=EXACT)

@@ -6,6 +6,7 @@ import pytest
 
 from core.robot.description import robot_from_description
 from core.robot.suspicions import suspicions
+from core.robot.urdf import robot_from_urdf
 from tests.tools import shared
 
 # KUKA-like proportions in Khalil's convention.
@@ -79,3 +80,8 @@ def test_position_limits_in_degrees_are_suspected():
     said = suspicions(robot_from_description({"name": "arm", "joints": [row]}))
     assert len(said) == 1
     assert "were degrees or mm meant" in said[0]
+
+
+@pytest.mark.parametrize("name", ["ur10e_open", "staubli_tx40"])
+def test_the_urdfs_of_real_robots_raise_no_suspicion(name):
+    assert suspicions(robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())) == ()
