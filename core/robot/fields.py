@@ -12,6 +12,8 @@ import numpy as np
 from core.errors import RobotError
 
 LONGEST_NAME = 100
+LARGEST_NUMBER = 1e30
+"""No robot holds such a number; larger ones would overflow in products such as mass times distance squared."""
 
 
 class Fields:
@@ -146,6 +148,8 @@ class Fields:
             number = np.inf
         if not np.isfinite(number):
             self.refuse(name, "is not finite")
+        if abs(number) > LARGEST_NUMBER:
+            self.refuse(name, f"is larger than {LARGEST_NUMBER:g}")
         return number
 
 

@@ -16,7 +16,7 @@ from defusedxml.ElementTree import fromstring
 
 from core.arrays import LinkParameters, Rotation, Vector, Vector3
 from core.errors import RobotError
-from core.robot.fields import LONGEST_NAME, shown
+from core.robot.fields import LARGEST_NUMBER, LONGEST_NAME, shown
 from core.robot.frames import rotation_rpy
 from core.robot.inertia import from_mass_properties
 from core.robot.model import Limits
@@ -270,7 +270,7 @@ def _values(text: str, name: str, where: str, count: int) -> Vector:
         values = np.array([float(word) for word in text.split()])
     except ValueError:
         values = np.empty(0)
-    if len(values) != count or not np.isfinite(values).all():
+    if len(values) != count or not (np.abs(values) <= LARGEST_NUMBER).all():
         raise RobotError(
             f"{where}: {name} does not hold {count} finite number{'s' if count > 1 else ''}",
             evidence={name: shown(text)},

@@ -163,6 +163,7 @@ BAD_ROWS = {
     "null for a number": ({"r": None}, "r", "a distance in m"),
     "not a number": ({"alpha": float("nan")}, "alpha", "an angle"),
     "infinity": ({"r": float("inf")}, "r", "a distance"),
+    "a number beyond all robots": ({"r": 1e200}, "r", "a distance"),
     "an integer beyond all floats": ({"r": 10**400}, "r", "a distance"),
     "a type that does not exist": ({"type": "spherical"}, "type", "revolute or prismatic"),
     "an antecedent that comes later": ({"antecedent": 2}, "antecedent", "0 for the base"),
