@@ -13,7 +13,7 @@ from core.errors import RobotError
 
 LONGEST_NAME = 100
 LARGEST_NUMBER = 1e30
-"""No robot holds such a number; larger ones would overflow in products such as mass times distance squared."""
+"""No robot holds such a number; larger ones would overflow in products like mass times distance squared."""
 
 
 class Fields:
