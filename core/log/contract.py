@@ -6,7 +6,7 @@ starts.
 
 import numpy as np
 
-from core.arrays import JointVector, Samples, Series
+from core.arrays import JointVector, SampleMask, Series
 from core.errors import LogError
 from core.log.defects.stretch import Stretch
 from core.log.layout import Layout
@@ -90,7 +90,7 @@ class Contract:
     def _time_name(self) -> str:
         return self._layout.time.columns[0] if self._layout.time else "time"
 
-    def _count(self, column: str, bad: Samples, first: int) -> None:
+    def _count(self, column: str, bad: SampleMask, first: int) -> None:
         count, rows = self._bad.get(column, (0, []))
         rows = [*rows, *(int(row) + first + 1 for row in np.flatnonzero(bad)[:FIRST_ROWS])][:FIRST_ROWS]
         self._bad[column] = count + int(np.count_nonzero(bad)), rows

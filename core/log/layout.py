@@ -33,7 +33,9 @@ class Channel:
 
     def convert(self, block: Series) -> JointSeries:
         """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
-        values = np.ascontiguousarray(block.T)
+        values = np.array(
+            block.T, order="C"
+        )  # a copy: the block belongs to its source, which may give it again
         if any(gain != 1.0 for gain in self.gain):
             values *= np.array(self.gain)
         if any(self.bias):

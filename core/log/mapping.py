@@ -42,7 +42,7 @@ class LogMapping:
     rate_hz: float | None = None
 
 
-def parse_mapping(document: Mapping[str, object] | None) -> LogMapping:
+def parse_mapping(document: object) -> LogMapping:
     """Check a mapping and give it a type.
 
     Parameters

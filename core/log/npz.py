@@ -7,7 +7,6 @@ a few bytes.
 import zipfile
 from math import prod
 from pathlib import Path
-from typing import IO
 
 import numpy as np
 
@@ -43,8 +42,7 @@ def open_npz(path: Path) -> MemoryTable:
 
 def _array(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> np.ndarray | None:
     """Read one member; None where it is not made of real numbers."""
-    with archive.open(item) as stream:
-        shape, dtype = _header(stream)
+    shape, dtype = _header(archive, item)
     if dtype.hasobject:
         raise LogError(
             "the archive holds a pickled Python object, which is never read because it could run code",
@@ -68,8 +66,10 @@ def _array(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> np.ndarray | None
     return values
 
 
-def _header(stream: IO[bytes]) -> tuple[tuple[int, ...], np.dtype]:
-    version = np.lib.format.read_magic(stream)
-    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    shape, _, dtype = read(stream, max_header_size=MAX_HEADER_BYTES)
+def _header(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> tuple[tuple[int, ...], np.dtype]:
+    with archive.open(item) as stream:
+        form = np.lib.format
+        version = form.read_magic(stream)
+        read = form.read_array_header_1_0 if version == (1, 0) else form.read_array_header_2_0
+        shape, _, dtype = read(stream, max_header_size=MAX_HEADER_BYTES)
     return shape, dtype

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
 from core.errors import LogError
 from core.log.content import DELIMITED, MATLAB5, MATLAB7, NPZ, PARQUET, Form, recognise
 from core.log.defects.examine import examine
@@ -75,7 +74,7 @@ def read_log(
 
 
 def log_from_arrays(
-    name: str, time: Samples, position: JointSeries, torque: JointSeries | None, **channels: JointSeries
+    name: str, time: np.ndarray, position: np.ndarray, torque: np.ndarray | None, **channels: np.ndarray
 ) -> JointLog:
     """Make a log of arrays in SI, under the same checks as a file.
 

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -23,6 +23,8 @@ MAX_VALUES_IN_MEMORY = 40_000_000
 BATCH_ROWS = 32_768
 
 
+@runtime_checkable
+@runtime_checkable
 class Table(Protocol):
     """Give named columns of one length, batch by batch."""
 

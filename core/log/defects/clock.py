@@ -85,7 +85,8 @@ class Clock:
         longest = sorted(gaps, key=lambda gap: gap[1] - gap[2])[:KEPT]
         statement = (
             f"{counted(len(gaps), 'gap')}: steps of more than {GAP_STEPS:g} times the median of "
-            f"{step * 1e3:.4g} ms, the longest {max(lengths):.4g} s, together {sum(lengths):.4g} s; the log is split there."
+            f"{step * 1e3:.4g} ms, the longest {max(lengths):.4g} s, together {sum(lengths):.4g} s; "
+            "the log is split there."
         )
         return [
             Defect(
@@ -101,6 +102,7 @@ class Clock:
             return []
         statement = (
             f"Steps vary by {deviation * 1e3:.3g} ms (standard deviation) about the median of "
-            f"{step * 1e3:.4g} ms, the longest is {self._largest * 1e3:.4g} ms; the stamps are used as they are."
+            f"{step * 1e3:.4g} ms, the longest is {self._largest * 1e3:.4g} ms; "
+            "the stamps are used as they are."
         )
         return [Defect("jitter", "time", None, self._uneven.rows, self._uneven.intervals, statement)]

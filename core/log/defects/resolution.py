@@ -73,10 +73,11 @@ def _statement(channel: str, joint: int, step: float, context: tuple[float, floa
     typical, deviation, seconds = context
     if channel == "torque":
         return (
-            f"Joint {joint}'s torque comes in steps of {step:.3g} N m (lsb), {100.0 * step / deviation:.2g} % "
-            "of its standard deviation."
+            f"Joint {joint}'s torque comes in steps of {step:.3g} N m (lsb), "
+            f"{100.0 * step / deviation:.2g} % of its standard deviation."
         )
     return (
         f"Joint {joint}'s position comes in steps of {step:.3g} rad (lsb) and typically moves "
-        f"{typical / step:.2g} of them per sample; one step is {step / (2.0 * seconds):.3g} rad/s of centred velocity."
+        f"{typical / step:.2g} of them per sample; one step is "
+        f"{step / (2.0 * seconds):.3g} rad/s of centred velocity."
     )

@@ -52,7 +52,8 @@ class _Limit:
 
     def holds(self) -> bool:
         self.runs.close()
-        crowded = self.top_rows > CROWDING * max(self.second_rows, 1)
+        varied = self.second > -np.inf
+        crowded = varied and self.top_rows > CROWDING * max(self.second_rows, 1)
         return crowded and self.runs.rows >= FEWEST_ROWS and self.moving_rows > 0.1 * self.top_rows
 
 
@@ -85,7 +86,7 @@ class Saturation:
                     continue
                 statement = (
                     f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} N m for "
-                    f"{limit.runs.rows} of {facts.samples} samples, as a limited drive or a clipped signal does."
+                    f"{limit.runs.rows} of {facts.samples} samples, as a limited or clipped signal does."
                 )
                 defect = Defect(
                     "saturation", "torque", joint + 1, limit.runs.rows, limit.runs.intervals, statement

@@ -6,7 +6,7 @@ where there is none. The scale is local, because a resting arm is quieter than a
 
 import numpy as np
 
-from core.arrays import Samples, Series, Vector
+from core.arrays import Matrix, Samples, Series, Vector
 from core.log.defects.runs import Runs
 from core.log.defects.stretch import Facts, Stretch, counted
 from core.log.model import Defect
@@ -59,7 +59,7 @@ class Spikes:
         return found
 
 
-def median_of_five(values: Series) -> Series:
+def median_of_five(values: Series) -> Matrix:
     """Take the median of every sample and its two neighbours on either side, row by row.
 
     Ten minima and maxima do it without sorting: the second smallest and second largest of four, then the
@@ -73,11 +73,11 @@ def median_of_five(values: Series) -> Series:
     a, b, c, d, e = (values[:, k : values.shape[1] - 4 + k] for k in range(5))
     low = np.maximum(np.minimum(a, b), np.minimum(c, d))
     high = np.minimum(np.maximum(a, b), np.maximum(c, d))
-    median: Series = np.maximum(np.minimum(low, high), np.minimum(np.maximum(low, high), e))
+    median: Matrix = np.maximum(np.minimum(low, high), np.minimum(np.maximum(low, high), e))
     return median
 
 
-def _limits(values: Series, distance: Series, smallest_share: float) -> Vector:
+def _limits(values: Series, distance: Matrix, smallest_share: float) -> Vector:
     """Decide how far is apart.
 
     Many times the noise, several increments and resolution steps, and enough to matter.

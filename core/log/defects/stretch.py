@@ -6,12 +6,15 @@ they find does not depend on whether the log lies in memory or on disk.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
+from jaxtyping import Bool
 
-from core.arrays import JointSeries, JointVector, SampleMask, Samples, Series
+from core.arrays import JointSeries, JointVector, Samples, Series
 from core.log.model import Defect, LogSource
+
+Mask = Bool[np.ndarray, " increments"]
 
 STRETCH_ROWS = 32_768
 CONTEXT_ROWS = 4
@@ -19,7 +22,7 @@ CONTEXT_ROWS = 4
 
 LEAST_TRAVEL_STEPS = 50.0
 LEAST_TRAVEL = 0.01
-"""A joint that stays within this many steps of its resolution, or this many rad or m, is held and not moved."""
+"""A joint within this many steps of its resolution, or this many rad or m, is held and not moved."""
 
 SAMPLED_ROWS = 200_000
 """Rows that a statistic may keep which needs all samples at once."""
@@ -88,6 +91,8 @@ class Facts:
         return span
 
 
+@runtime_checkable
+@runtime_checkable
 class Finder(Protocol):
     """Find one kind of defect."""
 
@@ -136,9 +141,9 @@ def sampled_share(samples: int, at_most: int = SAMPLED_ROWS) -> float:
     return min(1.0, at_most / max(samples, 1))
 
 
-def repeats_previous(values: Series) -> SampleMask:
+def repeats_previous(values: Series) -> Mask:
     """Mark the samples, from the second on, in which every row equals the sample before exactly."""
-    same: SampleMask = values[0, 1:] == values[0, :-1]
+    same: Mask = values[0, 1:] == values[0, :-1]
     for row in values[1:]:
         if not same.any():
             break

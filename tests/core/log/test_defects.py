@@ -1,0 +1,212 @@
+"""Every defect is planted in a healthy log and must be found where it is; the healthy log itself has none."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.log.defects.runs import Runs
+from core.log.defects.spikes import median_of_five
+from core.log.reader import log_from_arrays
+from tests.core.log.writers import swing
+
+
+def healthy(seconds=20.0, rate_hz=250.0, joints=2, seed=0):
+    columns = swing(seconds, rate_hz, joints, seed)
+    gather = lambda prefix: np.column_stack([columns[f"{prefix}_{j + 1}"] for j in range(joints)])  # noqa: E731
+    return columns["time"], gather("q"), gather("tau")
+
+
+def log_of(time, position, torque):
+    return log_from_arrays("planted", time, position, torque)
+
+
+def only(log, kind):
+    """Give the defects of the kind, and demand that there is no other kind."""
+    assert {defect.kind for defect in log.defects} == {kind}
+    return log.defects
+
+
+@given(seed=st.integers(0, 10_000), rate_hz=st.sampled_from([100.0, 250.0, 1000.0]), joints=st.integers(1, 7))
+def test_a_healthy_log_has_no_defect_whatever_its_noise(seed, rate_hz, joints):
+    assert log_of(*healthy(12.0, rate_hz, joints, seed)).defects == ()
+
+
+@given(row=st.integers(200, 4800), missing=st.floats(0.02, 2.0))
+def test_missing_samples_are_a_gap_that_splits_the_log(row, missing):
+    time, position, torque = healthy()
+    time[row:] += missing
+    log = log_of(time, position, torque)
+    (gap,) = only(log, "gap")
+    assert log.segments == ((0, row), (row, 5000))
+    assert gap.count == 1
+    assert gap.intervals == ((pytest.approx(time[row - 1]), pytest.approx(time[row])),)
+
+
+def test_jitter_is_stated_with_its_size_and_without_alarm():
+    time, position, torque = healthy()
+    random = np.random.default_rng(3)
+    shaken = time + 0.0004 * random.standard_normal(len(time)).clip(-3, 3)
+    (jitter,) = only(log_of(shaken, position, torque), "jitter")
+    steps = np.diff(shaken)
+    assert f"{1e3 * steps.std():.3g} ms (standard deviation)" in jitter.statement
+    assert jitter.statement.endswith("the stamps are used as they are.")
+    assert jitter.count == pytest.approx(np.sum(abs(steps - 0.004) > 0.0004), rel=0.05)
+
+
+@given(seed=st.integers(0, 1000), share=st.floats(0.01, 0.2))
+def test_repeated_rows_are_counted_exactly(seed, share):
+    time, position, torque = healthy()
+    copies = np.flatnonzero(np.random.default_rng(seed).random(len(time)) < share)
+    copies = copies[copies > 0]
+    for row in copies:
+        position[row], torque[row] = position[row - 1], torque[row - 1]
+    (found,) = [d for d in log_of(time, position, torque).defects if d.kind == "repeated_rows"]
+    assert found.count == len(copies)
+    assert found.joint is None
+
+
+@given(row=st.integers(2, 4997), joint=st.integers(0, 1), sign=st.sampled_from([-1.0, 1.0]))
+def test_a_torque_spike_is_found_at_its_sample(row, joint, sign):
+    time, position, torque = healthy()
+    torque[row, joint] += sign * 8.0
+    (spike,) = only(log_of(time, position, torque), "outliers")
+    assert (spike.channel, spike.joint, spike.count) == ("torque", joint + 1, 1)
+    assert spike.intervals == ((time[row], time[row]),)
+
+
+@given(row=st.integers(2, 4997), joint=st.integers(0, 1))
+def test_a_position_spike_is_found_at_its_sample(row, joint):
+    time, position, torque = healthy()
+    position[row, joint] += 0.2
+    (spike,) = only(log_of(time, position, torque), "outliers")
+    assert (spike.channel, spike.joint, spike.intervals) == ("position", joint + 1, ((time[row], time[row]),))
+
+
+def test_steps_of_torque_as_friction_makes_them_are_no_spikes():
+    time, position, torque = healthy()
+    torque += 5.0 * np.sign(np.gradient(position, axis=0))
+    assert log_of(time, position, torque).defects == ()
+
+
+@given(limit=st.floats(0.4, 0.9), sign=st.sampled_from([-1.0, 1.0]))
+def test_a_torque_that_stops_at_a_limit_is_saturated(limit, sign):
+    time, position, torque = healthy()
+    level = limit * abs(torque[:, 1]).max()
+    torque[:, 1] = sign * np.minimum(sign * torque[:, 1], level).clip(-level, None)
+    saturated = only(log_of(time, position, torque), "saturation")
+    assert {defect.joint for defect in saturated} == {2}
+    assert f"exactly {sign * level:.4g} N m" in " ".join(defect.statement for defect in saturated)
+    start, stop = saturated[0].intervals[0]
+    held = (time >= start) & (time <= stop)
+    assert np.ptp(torque[held, 1]) == 0.0
+
+
+@given(lsb=st.floats(0.01, 0.3))
+def test_the_flat_top_of_a_quantised_torque_is_no_saturation(lsb):
+    time, position, _ = healthy()
+    smooth = lsb * np.round(10.0 * position / lsb)
+    assert not [d for d in log_of(time, position, smooth).defects if d.kind == "saturation"]
+
+
+@given(lsb=st.floats(2e-3, 1e-2))
+def test_a_coarse_encoder_is_stated_with_its_resolution(lsb):
+    time, position, torque = healthy(rate_hz=1000.0)
+    coarse = lsb * np.round(position / lsb)
+    found = [d for d in log_of(time, coarse, torque).defects if d.kind == "quantisation"]
+    assert [defect.joint for defect in found] == [1, 2]
+    assert f"steps of {lsb:.3g} rad" in found[0].statement
+
+
+def test_a_coarse_torque_is_stated_with_its_resolution():
+    time, position, torque = healthy()
+    (found, *_) = only(log_of(time, position, 0.5 * np.round(torque / 0.5)), "quantisation")
+    assert found.channel == "torque"
+    assert "steps of 0.5 N m" in found.statement
+
+
+def test_a_fine_encoder_is_not_worth_a_word():
+    time, position, torque = healthy()
+    assert log_of(time, 1e-6 * np.round(position / 1e-6), torque).defects == ()
+
+
+@given(start=st.integers(500, 2500), seconds=st.floats(1.0, 8.0))
+def test_a_rest_of_one_joint_is_found_with_its_length(start, seconds):
+    time, position, torque = healthy()
+    stop = start + round(250 * seconds)
+    position[start:stop, 1] = position[start, 1] + 1e-6 * np.random.default_rng(0).standard_normal(
+        stop - start
+    )
+    position[stop:, 1] += position[stop - 1, 1] - position[stop, 1]
+    (rest,) = only(log_of(time, position, torque), "standstill")
+    assert rest.joint == 2
+    assert rest.intervals[0][0] == pytest.approx(time[start], abs=0.2)
+    assert rest.intervals[0][1] == pytest.approx(time[stop], abs=0.2)
+    assert rest.count == pytest.approx(stop - start, abs=60)
+
+
+@pytest.mark.parametrize("chatter", [0.0, 1e-4])
+def test_a_frozen_joint_is_a_defect_that_says_what_cannot_be_told(chatter):
+    time, position, torque = healthy()
+    position[:, 0] = 0.3 + chatter * (np.random.default_rng(0).random(len(time)) < 0.05)
+    (rest,) = only(log_of(time, position, torque), "standstill")
+    assert rest.joint == 1
+    assert rest.count == len(time)
+    assert "never moves: this log cannot tell" in rest.statement
+
+
+def test_a_log_of_a_few_seconds_is_short():
+    (short,) = only(log_of(*healthy(seconds=6.0)), "short")
+    assert "5.996 s" in short.statement or "6 s" in short.statement
+
+
+def test_a_motion_quicker_than_its_sampling_is_slow_rate():
+    time = np.arange(600) / 20.0
+    position = np.sin(2 * np.pi * np.outer(time, [0.3, 4.0]))
+    (slow,) = only(log_of(time, position, 5.0 * position), "slow_rate")
+    assert slow.joint == 2
+    assert "rate of 20 Hz" in slow.statement
+
+
+def test_positions_in_degrees_are_called_implausible_and_left_alone():
+    time, position, torque = healthy()
+    degrees = 170.0 / np.ptp(position) * position * 2
+    log = log_of(time, degrees, torque)
+    found = only(log, "implausible_unit")
+    assert [defect.joint for defect in found] == [1, 2]
+    assert "read as degrees it would be" in found[0].statement
+    np.testing.assert_array_equal(log.source.rows(0, 5000).position, degrees)
+
+
+def test_stamps_in_milliseconds_are_called_implausible():
+    time, position, torque = healthy()
+    found = [d for d in log_of(time * 1e3, position, torque).defects if d.kind == "implausible_unit"]
+    assert [defect.channel for defect in found] == ["time"]
+
+
+def test_a_joint_without_torque_is_named():
+    time, position, torque = healthy()
+    torque[:, 1] = 0.0
+    (missing,) = only(log_of(time, position, torque), "missing_torque")
+    assert missing.joint == 2
+
+
+@given(st.lists(st.booleans(), min_size=1, max_size=60), st.integers(1, 4), st.integers(1, 20))
+def test_runs_are_the_same_however_the_samples_are_cut_into_stretches(marks, shortest, cut):
+    mask, time = np.array(marks), np.arange(float(len(marks)))
+    whole, pieces = Runs(shortest), Runs(shortest)
+    whole.feed(mask, time)
+    whole.close()
+    for start in range(0, len(mask), cut):
+        pieces.feed(mask[start : start + cut], time[start : start + cut])
+    pieces.close()
+    assert (whole.rows, whole.seconds, whole.intervals) == (pieces.rows, pieces.seconds, pieces.intervals)
+    padded = "".join("x" if mark else " " for mark in marks).split()
+    assert whole.rows == sum(len(run) for run in padded if len(run) >= shortest)
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=5, max_size=40))
+def test_the_median_of_five_is_the_median_of_five(values):
+    series = np.array([values])
+    windows = np.lib.stride_tricks.sliding_window_view(series[0], 5)
+    np.testing.assert_array_equal(median_of_five(series)[0], np.median(windows, axis=1))

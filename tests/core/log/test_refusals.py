@@ -1,0 +1,188 @@
+import numpy as np
+import pytest
+
+from core.errors import LogError
+from core.log.reader import log_from_arrays, read_log
+from tests.core.log.writers import WRITERS, swing, write_csv, write_parquet
+
+
+def spoiled(change):
+    columns = swing()
+    change(columns)
+    return columns
+
+
+def refusal(columns, tmp_path, form="Parquet", **options):
+    name, write = WRITERS[form]
+    with pytest.raises(LogError) as caught:
+        read_log(write(tmp_path / name, columns), **options)
+    assert caught.value.cause
+    assert caught.value.evidence
+    assert caught.value.remedy
+    return caught.value
+
+
+@pytest.mark.parametrize("form", ["CSV", "Parquet", "NPZ"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e300])
+def test_a_value_that_is_no_usable_number_is_refused_with_its_column_and_row(form, value, tmp_path):
+    def change(columns):
+        columns["tau_2"][[1000, 2000]] = value
+
+    error = refusal(spoiled(change), tmp_path, form)
+    assert error.evidence == {"columns": {"tau_2": {"rows": 2, "first_rows": [1001, 2001]}}}
+
+
+def test_values_that_are_not_finite_are_counted_over_the_whole_of_a_long_log(tmp_path):
+    columns = swing(seconds=400.0)
+    columns["q_1"][::1000] = np.nan
+    error = refusal(columns, tmp_path)
+    assert error.evidence["columns"]["q_1"] == {"rows": 100, "first_rows": [1, 1001, 2001, 3001, 4001]}
+
+
+def test_an_empty_cell_is_a_missing_value(tmp_path):
+    path = write_csv(tmp_path / "log.csv", swing())
+    lines = path.read_text(encoding="utf-8").splitlines()
+    lines[500] = lines[500].rsplit(",", 1)[0] + ","
+    path.write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(LogError) as caught:
+        read_log(path)
+    assert caught.value.evidence["columns"] == {"tau_3": {"rows": 1, "first_rows": [500]}}
+
+
+def test_a_stamp_that_is_not_finite_is_refused(tmp_path):
+    error = refusal(spoiled(lambda columns: columns["time"].__setitem__(7, np.nan)), tmp_path)
+    assert error.evidence["columns"]["time"]["first_rows"] == [8]
+
+
+def test_stamps_that_occur_twice_are_counted(tmp_path):
+    def change(columns):
+        columns["time"][[100, 200]] = columns["time"][[99, 199]]
+
+    error = refusal(spoiled(change), tmp_path)
+    assert error.cause == "time stands still: stamps occur twice"
+    assert (error.evidence["duplicate_stamps"], error.evidence["backward_steps"]) == (2, 0)
+    assert error.evidence["first_row"] == 101
+
+
+def test_time_that_goes_backwards_is_refused_even_across_stretches(tmp_path):
+    columns = swing(seconds=400.0)
+    columns["time"][32_768:] -= 50.0
+    error = refusal(columns, tmp_path)
+    assert error.cause == "time goes backwards"
+    assert error.evidence["backward_steps"] == 1
+    assert error.evidence["first_row"] == 32_769
+
+
+@pytest.mark.parametrize("form", WRITERS)
+@pytest.mark.parametrize("rows", [2, 99])
+def test_a_log_of_a_few_rows_is_refused(form, rows, tmp_path):
+    few = {name: values[:rows] for name, values in swing(joints=1).items()}
+    error = refusal(few, tmp_path, form)
+    assert error.evidence["rows"] == rows
+
+
+def test_a_log_of_one_row_or_of_a_header_alone_is_refused(tmp_path):
+    columns = swing()
+    one = {name: values[:1] for name, values in columns.items()}
+    assert refusal(one, tmp_path, "CSV").cause == "the log holds one row only"
+    none = {name: values[:0] for name, values in columns.items()}
+    assert refusal(none, tmp_path, "CSV").cause == "the log holds no rows"
+    assert refusal(none, tmp_path, "Parquet").cause == "the log holds no rows"
+
+
+def test_an_empty_file_is_refused(tmp_path):
+    (tmp_path / "log.csv").touch()
+    with pytest.raises(LogError, match="the log is empty"):
+        read_log(tmp_path / "log.csv")
+
+
+def test_less_than_a_second_is_refused(tmp_path):
+    error = refusal(swing(seconds=0.9, rate_hz=1000.0), tmp_path)
+    assert error.evidence["duration_s"] == pytest.approx(0.899)
+
+
+def test_an_arm_that_never_moves_is_refused(tmp_path):
+    def change(columns):
+        for joint in (1, 2, 3):
+            columns[f"q_{joint}"][:] = 0.25 * joint
+
+    assert refusal(spoiled(change), tmp_path).evidence["positions"] == [0.25, 0.5, 0.75]
+
+
+@pytest.mark.parametrize("channel", ["tau", "current"])
+def test_efforts_that_are_zero_throughout_are_refused(channel, tmp_path):
+    columns = {name.replace("tau", channel): values for name, values in swing().items()}
+    for joint in (1, 2, 3):
+        columns[f"{channel}_{joint}"][:] = 0.0
+    assert "zero throughout" in refusal(columns, tmp_path).cause
+
+
+def test_text_in_a_needed_column_is_refused_with_what_was_found(tmp_path):
+    path = write_csv(tmp_path / "log.csv", swing())
+    lines = path.read_text(encoding="utf-8").splitlines()
+    lines[500] = lines[500].rsplit(",", 1)[0] + ",fault"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(LogError) as caught:
+        read_log(path)
+    assert caught.value.evidence == {"column": "tau_3", "found": "fault"}
+
+
+def test_a_needed_parquet_column_of_text_is_refused(tmp_path):
+    error = refusal(spoiled(lambda columns: columns.update(q_2=columns["q_2"].astype(str))), tmp_path)
+    assert error.evidence["column"] == "q_2"
+
+
+def test_two_columns_of_one_name_are_refused(tmp_path):
+    path = write_csv(tmp_path / "log.csv", swing())
+    path.write_text(path.read_text(encoding="utf-8").replace("q_2", "q_1", 1), encoding="utf-8")
+    with pytest.raises(LogError) as caught:
+        read_log(path)
+    assert caught.value.evidence["duplicates"] == ["q_1"]
+
+
+def test_numbers_without_a_header_are_refused(tmp_path):
+    path = write_csv(tmp_path / "log.csv", swing())
+    path.write_text(path.read_text(encoding="utf-8").split("\n", 1)[1], encoding="utf-8")
+    with pytest.raises(LogError, match="instead of a header line"):
+        read_log(path)
+
+
+def test_more_rows_than_can_be_studied_are_refused_from_the_footer(tmp_path, monkeypatch):
+    monkeypatch.setattr("core.log.table.MAX_ROWS", 2999)
+    assert refusal(swing(), tmp_path).evidence == {"rows": 3000, "at_most": 2999}
+
+
+def test_arrays_of_different_lengths_are_refused(tmp_path):
+    columns = swing(joints=1)
+    np.savez(tmp_path / "log.npz", time=columns["time"], q=columns["q_1"][:-1], tau=columns["tau_1"])
+    with pytest.raises(LogError, match="different lengths"):
+        read_log(tmp_path / "log.npz")
+
+
+def test_arrays_given_directly_pass_the_same_checks():
+    time = np.arange(500) / 250.0
+    position = np.sin(np.outer(time, [3.0, 4.0]))
+    with pytest.raises(LogError, match="disagree in shape"):
+        log_from_arrays("short", time, position, position[:-1])
+    with pytest.raises(LogError, match="neither torque nor current"):
+        log_from_arrays("none", time, position, None)
+    with pytest.raises(LogError, match="no channel 'voltage'"):
+        log_from_arrays("volts", time, position, position, voltage=position)
+    with pytest.raises(LogError, match="time goes backwards"):
+        log_from_arrays("back", time[::-1], position, position)
+    assert log_from_arrays("fine", time, position, None, current=position).channels == ("position", "current")
+
+
+def test_the_order_of_refusals_does_not_depend_on_the_format(tmp_path):
+    columns = spoiled(lambda columns: columns["q_1"].__setitem__(3, np.nan))
+    kinds = {str(refusal(columns, tmp_path, form)) for form in WRITERS}
+    assert len(kinds) == 1
+
+
+def test_parquet_that_is_damaged_behind_a_sound_footer_is_refused(tmp_path):
+    path = write_parquet(tmp_path / "log.parquet", swing())
+    damaged = bytearray(path.read_bytes())
+    damaged[4:2000] = bytes(1996)
+    path.write_bytes(bytes(damaged))
+    with pytest.raises(LogError, match="Parquet file cannot be read"):
+        read_log(path)
