@@ -83,7 +83,7 @@ class Client:
         return self._request("POST", "/v1/jobs", json.dumps(request).encode(), "application/json")
 
     def wait(self, job: str, tell: Callable[[str, float], None], *, pause: float = 0.1) -> Document:
-        """Follow a job to its end, telling stage and fraction (0 to 1) on the way; give the result document."""
+        """Follow a job to its end, telling stage and fraction (0 to 1); give the result document."""
         while True:
             state = self._request("GET", f"/v1/jobs/{job}")
             progress = state.get("progress") or {}

@@ -1,4 +1,4 @@
-"""Print a result document for a reader: what was found, how well each number is known, and how far it is from the truth.
+"""Print a result document for a reader: what was found, how well it is known, how far it is from the truth.
 
 The tables follow the study's Tables 2 (friction and offsets) and 3 (inertial parameters), with the true
 values beside them.
@@ -7,6 +7,7 @@ values beside them.
 from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
@@ -15,6 +16,7 @@ Document = Mapping[str, Any]
 Truth = Mapping[str, float]
 
 FRICTION: Final = ("OFF", "FC", "FV")
+LEFT: Final[dict[str, Any]] = {"title_justify": "left", "caption_justify": "left", "title_style": "bold"}
 FAR: Final = 3.0
 """Standard deviations from the truth beyond which a number is shown in red."""
 
@@ -54,9 +56,9 @@ def deviations(row: Document, truth: Truth | None) -> float | None:
 
 def parameter_table(title: str, rows: Iterable[Document], truth: Truth | None) -> Table:
     """Set parameters in a table; a star marks the essential ones."""
-    table = Table(title=title, title_justify="left", caption="* essential", caption_justify="left")
-    table.add_column("parameter")
-    for heading in ("value", "%P", "95 % interval", "OLS"):
+    table = Table(title=title, caption="* essential", box=SIMPLE_HEAD, padding=(0, 1, 0, 0), **LEFT)
+    table.add_column("")
+    for heading in ("value", "± 95 %", "%P", "OLS"):
         table.add_column(heading, justify="right")
     if truth is not None:
         table.add_column("true", justify="right", style="cyan")
@@ -66,8 +68,8 @@ def parameter_table(title: str, rows: Iterable[Document], truth: Truth | None) -
         cells: list[RenderableType] = [
             f"{row['name']}{'*' if row.get('essential') else ''}",
             number(row["value"]),
+            half_width(row.get("interval_95")),
             percent(row.get("relative_deviation_percent")),
-            interval(row.get("interval_95")),
             number(row.get("value_ols")),
         ]
         if truth is not None:
@@ -78,16 +80,10 @@ def parameter_table(title: str, rows: Iterable[Document], truth: Truth | None) -
 
 def score_table(result: Document) -> Table:
     """Set the error of the predicted torque per joint in a table, fitted and held out."""
-    table = Table(title="Error of the predicted torque", title_justify="left")
-    headings = (
-        "joint",
-        "torque rms, N m",
-        "fitted, % of range",
-        "% of rms",
-        "held out, % of range",
-        "% of rms",
+    table = Table(
+        title="Error of the predicted torque, % of its range and of its rms", box=SIMPLE_HEAD, **LEFT
     )
-    for heading in headings:
+    for heading in ("joint", "rms, N m", "fitted: range", "rms", "held out: range", "rms"):
         table.add_column(heading, justify="right")
     unseen = {row["joint"]: row for row in result.get("validation") or []}
     for row in result["fit"]:
@@ -105,22 +101,24 @@ def score_table(result: Document) -> Table:
 
 
 def verdict(result: Document, truth: Truth | None) -> list[str]:
-    """Sum up in a few sentences: how many parameters, whether the robot can exist, and how near the truth it is."""
-    counts = result["counts"]
-    feasibility, solver = result["feasibility"], result["solver"]
+    """Sum up in a few sentences: how many parameters, whether the robot can exist, how near the truth."""
+    counts, feasibility, solver = result["counts"], result["feasibility"], result["solver"]
     smallest = min(feasibility["pseudo_inertia_min_eigenvalue"])
+    objective, least = number(solver["objective"]), number(solver["objective_ols"])
+    steps = " -> ".join(f"{counts[kind]} {kind}" for kind in ("standard", "base", "essential"))
     lines = [
-        f"Parameters: {counts['standard']} standard -> {counts['base']} base -> {counts['essential']} essential.",
-        f"Ordinary least squares: {existence(feasibility.get('ols_feasible'))}.",
-        f"Semidefinite programme: {existence(smallest > 0.0)}; smallest pseudo-inertia eigenvalue {smallest:.2g}.",
-        f"Solver: {solver['status']}, {solver['iterations']} iterations; "
-        f"objective {number(solver['objective'])} beside {number(solver['objective_ols'])} of least squares.",
+        f"Parameters: {steps}.",
+        f"Least squares: {existence(feasibility.get('ols_feasible'))}.",
+        f"Semidefinite programme: {existence(smallest > 0.0)}.",
+        f"Smallest eigenvalue of a link's pseudo-inertia: {smallest:.2g}.",
+        f"Solver: {solver['status']}, {solver['iterations']} iterations.",
+        f"Price of existence: objective {objective} beside {least} of least squares.",
     ]
     workspace = feasibility.get("mass_matrix_min_eigenvalue") or {}
     if "workspace" in workspace:
         lines.append(
-            f"Smallest eigenvalue of the mass matrix: {number(workspace['workspace'])} kg m2 over "
-            f"{workspace.get('configurations', 'all')} configurations."
+            f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
+            f"configurations: {number(workspace['workspace'])}."
         )
     scores = [abs(z) for row in result["base_parameters"] if (z := deviations(row, truth)) is not None]
     if scores:
@@ -148,9 +146,9 @@ def percent(value: float | None) -> str:
     return "> 999" if value > 999.0 else f"{value:.2f}" if value < 100.0 else f"{value:.0f}"
 
 
-def interval(bounds: Iterable[float] | None) -> str:
-    """Write lower and upper bound."""
-    return "" if bounds is None else " .. ".join(f"{bound:.3g}" for bound in bounds)
+def half_width(interval: tuple[float, float] | None) -> str:
+    """Write half the width of an interval."""
+    return "" if interval is None else f"{(interval[1] - interval[0]) / 2.0:.2g}"
 
 
 def score(z: float | None) -> Text:
