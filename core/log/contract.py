@@ -149,10 +149,10 @@ class Contract:
                 evidence={"positions": [float(value) for value in self.low["position"]]},
                 remedy="log a motion that moves every joint",
             )
-        for channel in ("torque", "current"):
-            if channel in self.low and not np.any(self.low[channel]) and not np.any(self.high[channel]):
-                raise LogError(
-                    f"the {channel} is zero throughout on every joint",
-                    evidence={"columns": list(self._columns[channel])},
-                    remedy=f'log the measured {channel}, or leave it out by "{channel}": null in the mapping',
-                )
+        effort = "torque" if "torque" in self.low else "current"
+        if not np.any(self.low[effort]) and not np.any(self.high[effort]):
+            raise LogError(
+                f"the {effort} is zero throughout on every joint",
+                evidence={"columns": list(self._columns[effort])},
+                remedy=f'log the measured {effort}, or leave it out by "{effort}": null in the mapping',
+            )

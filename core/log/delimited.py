@@ -87,7 +87,7 @@ def open_delimited(path: Path) -> DelimitedTable:
     """
     with path.open("rb") as stream:
         head = stream.read(HEAD_BYTES)
-    lines = _decoded(head).splitlines()
+    lines = re.split("\r\n|\r|\n", _decoded(head))
     header_index, header, first_row = _header(lines)
     delimiter = max(DELIMITERS, key=header.count)
     names = _names(header, delimiter)
@@ -104,7 +104,11 @@ def _decoded(head: bytes) -> str:
             remedy="save the table again as plain UTF-8 text",
         )
     if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
-        raise _no_header("one line longer than 1 MB")
+        raise LogError(
+            "the first line is longer than 1 MB, which no header of a log is",
+            evidence={"delimiters": max(head.count(mark.encode()) for mark in DELIMITERS)},
+            remedy="put the column names on the first line and keep the columns of the log only",
+        )
     try:
         return head[: head.rfind(b"\n") + 1 or None].decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -6,6 +6,7 @@ messages.
 """
 
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,6 @@ from core.log.boundary import reading
 from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, expand
 
 FORM = "MATLAB v7.3"
-MAX_DEPTH = 4
 
 
 def open_matlab7(path: Path) -> MemoryTable:
@@ -30,15 +30,15 @@ def open_matlab7(path: Path) -> MemoryTable:
     import h5py
 
     with reading(FORM, path), h5py.File(path, "r") as file:
-        datasets = dict(_datasets(file, "", 0))
-        check_columns(list(datasets)[: MAX_COLUMNS + 1])
+        datasets = dict(islice(_datasets(file, "", set()), MAX_COLUMNS + 1))
+        check_columns(list(datasets))
         readable = {name: dataset for name, dataset in datasets.items() if dataset is not None}
         check_shapes([dataset.shape for dataset in readable.values()])
         variables = {name: np.asarray(readable[name][()]) if name in readable else None for name in datasets}
     return expand(variables)
 
 
-def _datasets(group: Any, prefix: str, depth: int) -> Iterator[tuple[str, Any]]:  # noqa: ANN401  # untyped
+def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, Any]]:  # noqa: ANN401  # untyped
     """Walk the datasets by hard links only; None stands for what is no array of numbers."""
     import h5py
 
@@ -53,8 +53,9 @@ def _datasets(group: Any, prefix: str, depth: int) -> Iterator[tuple[str, Any]]:
             _check_storage(name, item)
             numeric = item.dtype.kind in "iuf" and item.ndim in (1, 2) and "MATLAB_empty" not in item.attrs
             yield name, item if numeric and not _is_text(item) else None
-        elif isinstance(item, h5py.Group) and depth < MAX_DEPTH:
-            yield from _datasets(item, f"{name}.", depth + 1)
+        elif isinstance(item, h5py.Group) and (place := h5py.h5o.get_info(item.id).addr) not in seen:
+            seen.add(place)  # groups may hold each other: each is entered once
+            yield from _datasets(item, f"{name}.", seen)
 
 
 def _is_text(dataset: Any) -> bool:  # noqa: ANN401

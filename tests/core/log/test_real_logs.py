@@ -95,7 +95,7 @@ def test_the_rokae_log_is_even_and_its_encoder_coarse():
 
 
 def test_half_a_minute_of_seven_joints_is_read_at_once():
-    """20,000 rows of 22 columns in 0.05 s of CPU; the bound leaves a factor of four for checks and a busy machine."""
+    """It takes 0.05 s of CPU; the bound leaves a factor of four for type checks and a busy machine."""
     path = DATA / "rokae_xmate3" / "runs" / "excit.parquet"
     read_log(path)
     start = time.process_time()

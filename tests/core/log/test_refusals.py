@@ -117,6 +117,16 @@ def test_efforts_that_are_zero_throughout_are_refused(channel, tmp_path):
     assert "zero throughout" in refusal(columns, tmp_path).cause
 
 
+def test_currents_of_zero_beside_measured_torques_are_no_reason_to_refuse(tmp_path):
+    columns = swing(joints=1)
+    columns["current_1"] = np.zeros(len(columns["time"]))
+    assert read_log(write_parquet(tmp_path / "log.parquet", columns)).channels == (
+        "position",
+        "torque",
+        "current",
+    )
+
+
 def test_text_in_a_needed_column_is_refused_with_what_was_found(tmp_path):
     path = write_csv(tmp_path / "log.csv", swing())
     lines = path.read_text(encoding="utf-8").splitlines()
