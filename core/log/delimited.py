@@ -91,7 +91,9 @@ def open_delimited(path: Path) -> DelimitedTable:
     header_index, header, first_row = _header(lines)
     delimiter = max(DELIMITERS, key=header.count)
     names = _names(header, delimiter)
-    skip = next((i for i in range(header_index + 1, len(lines)) if not _is_comment(lines[i])), len(lines))
+    skip = next(
+        (i for i in range(header_index + 1, len(lines)) if not _is_comment(lines[i])), header_index + 1
+    )
     decimal = "," if delimiter == ";" and "," in first_row and "." not in first_row else "."
     return DelimitedTable(path, names, delimiter, decimal, skip)
 

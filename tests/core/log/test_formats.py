@@ -53,9 +53,7 @@ def test_a_file_cut_short_or_overwritten_is_a_log_error_or_still_a_log(form, tmp
             refusals.append(error)
     assert len(refusals) >= 6
     assert all(error.remedy for error in refusals)
-    assert not any(
-        "TypeCheckError" in str(error.evidence) for error in refusals
-    )  # that would be a fault of ours
+    assert not any("TypeCheckError" in str(error.evidence) for error in refusals)  # a fault of ours
 
 
 @FORMS
