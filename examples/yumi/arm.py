@@ -22,8 +22,13 @@ D: Final = np.array([0.0, 0.03, 0.03, 0.0405, 0.0405, 0.027, 0.027])
 R: Final = np.array([0.166, 0.0, 0.2515, 0.0, 0.265, 0.0, 0.036])
 THETA_OFFSET: Final = np.array([-1.0, -1.0, 0.0, -0.5, 1.0, -1.0, 1.0]) * np.pi
 
-GRAVITY: Final = np.array([-5.307, -6.843, -4.609])
-"""Gravitational acceleration in the arm's base frame, m/s2: the arm hangs tilted on the body."""
+ROLL: Final = 0.9781
+PITCH: Final = -0.5716
+"""Roll and pitch of the arm's base on the upright body, rad; its yaw does not turn gravity."""
+GRAVITY: Final = 9.81 * np.array(
+    [np.sin(PITCH), -np.sin(ROLL) * np.cos(PITCH), -np.cos(ROLL) * np.cos(PITCH)]
+)
+"""Gravitational acceleration in the arm's base frame, m/s2."""
 
 LOWER: Final = np.radians([-168.5, -143.5, -168.5, -123.5, -290.0, -88.0, -229.0])
 UPPER: Final = np.radians([168.5, 43.5, 168.5, 80.0, 290.0, 138.0, 229.0])

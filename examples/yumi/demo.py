@@ -104,7 +104,6 @@ def _interrupt(*_: object) -> NoReturn:
 def main(words: list[str] | None = None) -> int:
     """Run the demonstration; give the exit status."""
     console = Console()
-    signal.signal(signal.SIGTERM, _interrupt)
     try:
         demonstrate(parse(words), console)
     except ServiceError as error:
@@ -117,4 +116,5 @@ def main(words: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, _interrupt)
     sys.exit(main())

@@ -27,7 +27,7 @@ STEPS_PER_SAMPLE: Final = 16
 SEED: Final = 2024
 NOISE_SEED: Final = 0
 
-WHITE_NOISE: Final = np.array([0.35, 0.35, 0.12, 0.12, 0.025, 0.012, 0.012])
+WHITE_NOISE: Final = np.array([0.35, 0.35, 0.12, 0.12, 0.025, 0.011, 0.012])
 """Standard deviation of the torque's white noise, N m."""
 COLOURED_NOISE: Final = 0.3 * WHITE_NOISE
 """Standard deviation of the torque's first-order autoregressive noise, N m."""

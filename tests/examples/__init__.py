@@ -1,0 +1,1 @@
+"""Hold the shipped log and the demonstration to what they promise."""

@@ -1,0 +1,160 @@
+"""The demonstration: what it prints from a document, what it says when something fails, and the real thing."""
+
+import json
+import threading
+from http.server import BaseHTTPRequestHandler, HTTPServer
+from typing import ClassVar
+
+import pytest
+from rich.console import Console
+
+from examples.yumi import demo, service, summary
+from examples.yumi.client import Client, ServiceError
+
+RESULT = {
+    "counts": {"standard": 98, "base": 71, "essential": 57},
+    "base_parameters": [
+        {
+            "name": "ZZR1", "unit": "kg m2", "joint": 1, "value": 0.0665, "value_ols": -0.061,
+            "standard_deviation": 0.002, "relative_deviation_percent": 3.01, "essential": True,
+            "relation": {"ZZ1": 1.0, "IA1": 1.0, "M2": 0.0009}, "interval_95": [0.0625, 0.0705], "surprise": [1],
+        },
+        {"name": "FC1", "unit": "N m", "joint": 1, "value": 2.2, "value_ols": 2.2, "standard_deviation": 0.01},
+    ],
+    "feasibility": {"pseudo_inertia_min_eigenvalue": [0.002, 0.001], "ols_feasible": False},
+    "solver": {"status": "optimal", "iterations": 11, "objective": 2.5, "objective_ols": 2.4},
+    "fit": [{"joint": 1, "rms_torque": 4.0, "nrmse_of_range_percent": 1.25, "nrmse_of_rms_percent": 3.5}],
+    "validation": [],
+}  # fmt: skip
+TRUTH = {"ZZ1": 0.03, "IA1": 0.025, "M2": 5.0, "FC1": 2.175}
+
+
+@pytest.fixture
+def page(capsys):
+    summary.print_summary(Console(width=100), RESULT, TRUTH)
+    return capsys.readouterr().out
+
+
+def test_a_base_parameter_is_printed_beside_what_its_grouping_makes_of_the_truth(page):
+    # 0.03 + 0.025 + 0.0009 * 5 = 0.0595; (0.0665 - 0.0595) / 0.002 = 3.5
+    line = next(line for line in page.splitlines() if "ZZR1" in line)
+    assert line.split() == ["ZZR1*", "0.0665", "0.004", "3.01", "-0.061", "0.0595", "+3.5", "kg", "m2"]
+
+
+def test_a_parameter_without_a_grouping_has_no_true_value(page):
+    line = next(line for line in page.splitlines() if "FC1" in line)
+    assert line.split() == ["FC1", "2.2", "2.2", "N", "m"]
+
+
+def test_the_page_tells_counts_feasibility_solver_and_truth(page):
+    assert "98 standard -> 71 base -> 57 essential" in page
+    assert "Least squares: a robot that cannot exist" in page
+    assert "Semidefinite programme: a robot that can exist" in page
+    assert "optimal, 11 iterations" in page
+    assert "0 of 1 base parameters within" in page
+
+
+def test_without_a_truth_nothing_is_said_about_it(capsys):
+    summary.print_summary(Console(width=100), RESULT, None)
+    page = capsys.readouterr().out
+    assert "Truth" not in page
+    assert "true" not in page
+
+
+class Answers(BaseHTTPRequestHandler):
+    """Answer from a table of (method, path) to (status, document)."""
+
+    table: ClassVar[dict] = {}
+
+    def answer(self):
+        self.rfile.read(int(self.headers.get("Content-Length", 0)))
+        found = self.table.get((self.command, self.path.partition("?")[0]), (404, {"detail": "nothing here"}))
+        status, document = found.pop(0) if isinstance(found, list) else found
+        body = json.dumps(document).encode()
+        self.send_response(status)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    do_GET = do_POST = answer  # noqa: N815
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def served():
+    server = HTTPServer(("127.0.0.1", 0), Answers)
+    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
+    thread.start()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    thread.join()
+    server.server_close()
+
+
+def test_waiting_tells_stage_and_fraction_and_ends_with_the_result(served, monkeypatch):
+    states = [
+        (200, {"state": "running", "progress": {"stage": "estimate", "fraction": 0.5}}),
+        (200, {"state": "successful", "progress": {"stage": "done", "fraction": 1.0}}),
+    ]
+    table = {("GET", "/v1/jobs/7"): states, ("GET", "/v1/jobs/7/results"): (200, RESULT)}
+    monkeypatch.setattr(Answers, "table", table)
+    told = []
+    result = Client(served).wait("7", lambda *progress: told.append(progress), pause=0.0)
+    assert told == [("estimate", 0.5), ("done", 1.0)]
+    assert result == RESULT
+
+
+def test_a_failed_job_says_cause_evidence_and_remedy(served, monkeypatch):
+    problem = {"cause": "the log is empty", "evidence": {"rows": 0}, "remedy": "move the robot"}
+    monkeypatch.setattr(
+        Answers, "table", {("GET", "/v1/jobs/7"): (200, {"state": "failed", "problem": problem})}
+    )
+    with pytest.raises(ServiceError) as caught:
+        Client(served).wait("7", lambda *_: None)
+    error = caught.value
+    assert (error.cause, error.evidence, error.remedy) == ("the log is empty", {"rows": 0}, "move the robot")
+
+
+def test_the_demonstration_prints_a_problem_documents_remedy_and_fails(served, monkeypatch, capsys):
+    problem = {"title": "no", "cause": "two columns [are] missing", "remedy": "name tau_1 and tau_2"}
+    monkeypatch.setattr(Answers, "table", {("POST", "/v1/logs"): (422, problem)})
+    assert demo.main(["--url", served]) == 1
+    page = capsys.readouterr().out
+    assert "two columns [are] missing" in page
+    assert "name tau_1 and tau_2" in page
+
+
+@pytest.mark.parametrize("url", ["http://127.0.0.1:9", "nowhere", "file:///etc"])
+def test_a_service_that_is_not_there_is_a_problem_with_a_remedy(url, capsys):
+    assert demo.main(["--url", url]) == 1
+    assert "what to do:" in capsys.readouterr().out
+
+
+def test_a_log_that_is_not_there_is_named(served, capsys):
+    assert demo.main(["--url", served, "--log", "absent.csv"]) == 1
+    assert "absent.csv cannot be read" in capsys.readouterr().out
+
+
+def test_a_service_that_does_not_start_says_its_last_words(tmp_path, monkeypatch):
+    monkeypatch.setattr(service, "ROOT", tmp_path)  # where there is no app to start
+    with pytest.raises(ServiceError) as caught, service.running_service(tmp_path / "data"):
+        pass
+    assert caught.value.cause == "the service did not start"
+    assert "app" in caught.value.evidence["last_words"]
+
+
+@pytest.mark.slow
+def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path, capsys):
+    saved = tmp_path / "result.json"
+    assert demo.main(["--data-dir", str(tmp_path / "data"), "--json", str(saved)]) == 0
+    result = json.loads(saved.read_text(encoding="utf-8"))
+    assert (result["counts"]["standard"], result["counts"]["base"]) == (98, 71)
+    assert result["feasibility"]["ols_feasible"] is False
+    assert min(result["feasibility"]["pseudo_inertia_min_eigenvalue"]) > 0.0
+    truth = json.loads((demo.HERE / "truth.json").read_text(encoding="utf-8"))["standard_parameters"]
+    distances = [abs(summary.deviations(row, truth)) for row in result["base_parameters"]]
+    assert sum(distance <= 1.96 for distance in distances) >= 60  # of 71: 95 % expected, correlated
+    assert max(distances) < 5.0
+    assert "Time from upload to result" in capsys.readouterr().out
