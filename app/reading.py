@@ -74,7 +74,7 @@ def parse_json(text: bytes | str, *, what: str = "the body") -> object:
 
 
 def parse_object(text: bytes | str | None, *, what: str) -> dict[str, object] | None:
-    """Read a JSON object; nothing, or text that is empty, is None.
+    """Read a JSON object; an absent or empty one is None.
 
     Raises
     ------
@@ -91,7 +91,7 @@ def parse_object(text: bytes | str | None, *, what: str) -> dict[str, object] | 
             evidence={"given": type(document).__name__},
             remedy="send an object such as {}",
         )
-    return document
+    return document or None
 
 
 def check(model: type[Model], document: object) -> Model:

@@ -41,5 +41,9 @@ def _table(rows: object, columns: tuple[str, ...]) -> str:
     writer = csv.DictWriter(text, columns, extrasaction="ignore", restval="")
     writer.writeheader()
     if isinstance(rows, list):
-        writer.writerows(row for row in rows if isinstance(row, dict))
+        writer.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
     return text.getvalue()
+
+
+def _cell(value: object) -> object:
+    return str(value).lower() if isinstance(value, bool) else value

@@ -1,0 +1,46 @@
+"""An executor that computes nothing: it waits until it is told to end, and then gives the outcome it was made with."""
+
+import threading
+
+from app.documents import canonical_json
+from app.jobs.computation import Failed, Finished, Stopped
+from app.problems import Problem
+
+RESULT = {
+    "schema_version": "1.0",
+    "kind": "identify",
+    "base_parameters": [
+        {"name": "ZZR1", "joint": 1, "unit": "kg m2", "value": 0.5, "value_ols": 0.6, "essential": True,
+         "standard_deviation": 0.01, "relative_deviation_percent": 2.0, "grouping": "ZZ1 + YY2"},
+    ],
+    "standard_parameters": [
+        {"name": "ZZ1", "joint": 1, "unit": "kg m2", "value": 0.4, "identifiable": "in_combination"}
+    ],
+}  # fmt: skip
+
+
+class StubExecutor:
+    def __init__(self, outcome=None):
+        self.outcome = outcome or Finished(canonical_json(RESULT))
+        self.release = threading.Event()
+        self.started = threading.Event()
+        self.stopped = threading.Event()
+        self.computations = []
+
+    def prepare(self):
+        pass
+
+    def run(self, computation, *, progress, stop, timeout_s):
+        self.computations.append(computation)
+        progress("estimate", 0.5)
+        self.started.set()
+        while not self.release.wait(0.005):
+            if stop.is_set():
+                self.stopped.set()
+                return Stopped()
+        return self.outcome
+
+
+def failing(kind="excitation"):
+    problem = Problem(kind, "the motion is too slow", evidence={"speed": 0.01}, remedy="move faster")
+    return StubExecutor(Failed(problem.document()))
