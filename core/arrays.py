@@ -6,10 +6,14 @@ The aliases are checked at run time in the tests (jaxtyping with beartype) and c
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+# "samples" are instants as measured, "instants" those a computation asks for or leaves.
 Samples = Float[np.ndarray, " samples"]
+Instants = Float[np.ndarray, " instants"]
+InstantSeries = Float[np.ndarray, "instants joints"]
 SampleMask = Bool[np.ndarray, " samples"]
 JointSeries = Float[np.ndarray, "samples joints"]
 JointMask = Bool[np.ndarray, "samples joints"]
+InstantMask = Bool[np.ndarray, "instants joints"]
 JointVector = Float[np.ndarray, " joints"]
 Vector3 = Float[np.ndarray, "3"]
 Vector = Float[np.ndarray, " values"]
@@ -21,6 +25,12 @@ LinkTable = Float[np.ndarray, "links 10"]
 Parameters = Float[np.ndarray, " parameters"]
 BaseParameters = Float[np.ndarray, " base"]
 Matrix = Float[np.ndarray, "rows columns"]
+Rows = Float[np.ndarray, "_ columns"]
+Weights = Float[np.ndarray, " _"]
+EquationRows = Float[np.ndarray, "_ _"]
+UsableRows = Bool[np.ndarray, " _"]
+Intervals = Float[np.ndarray, "columns 2"]
 SquareMatrix = Float[np.ndarray, "size size"]
 Series = Float[np.ndarray, "entries samples"]
-Indices = Int[np.ndarray, " indices"]
+KeptSeries = Float[np.ndarray, "entries instants"]
+Indices = Int[np.ndarray, " _"]

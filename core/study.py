@@ -83,19 +83,19 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     look = _Look(plan, motions, held_out)
     observation = look.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
-    observation, system = _system(look, observation, options)
-    prior = default_prior(model, torque_scales(observation))
+    used, system = _system(look, observation, options)
+    fitted, held = look.parts(observation)
+    prior = default_prior(model, torque_scales(observation, fitted))
     answer = estimate(base, system, prior, options.estimate)
     tell("assess", 0.7)
-    precision = assess(system, observation.memory, observation.columns_of, answer.base)
+    precision = assess(system, used.memory, used.columns_of, answer.base)
     essential = essential_parameters(system, precision)
     if options.essential:
         answer = estimate(base, system, prior, options.estimate, essential=essential.kept)
-    fitted, held = look.parts(observation)
     draws = bootstrap(
         system,
-        tuple(observation.blocks[index] for index in fitted),
-        observation.columns_of,
+        tuple(used.blocks[index] for index in fitted),
+        used.columns_of,
         lambda drawn: (
             estimate(
                 base, drawn, prior, options.estimate, essential=essential.kept if options.essential else None
@@ -157,9 +157,8 @@ class _Look:
         """Give the places of the fitted and of the held-out blocks."""
         held = [(block.log, block.number) in self.held_out for block in observation.blocks]
         places = range(len(held))
-        return tuple(place for place in places if not held[place]), tuple(
-            place for place in places if held[place]
-        )
+        fitted = tuple(place for place in places if not held[place])
+        return fitted, tuple(place for place in places if held[place])
 
 
 def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Motion, ...]:
@@ -179,7 +178,8 @@ def _smoothed(
     held_out: frozenset[BlockKey],
     progress: Callable[[float], None],
 ) -> DynamicModel:
-    speed = 100.0 * np.max([motion.recipe.still_speed for motion in motions], axis=0)
+    fitted = {(log, block) for log, motion in enumerate(motions) for block in range(motion.blocks)} - held_out
+    speed = np.max([motions[log].recipe.rms_speed for log in sorted({log for log, _ in fitted})], axis=0)
     wide = with_candidates(model, speed)
     look = _Look(scan_plan(wide, base_model(model).kept), motions, held_out)
     observation = look.observed(progress)
@@ -187,6 +187,7 @@ def _smoothed(
 
 
 def _system(look: _Look, observation: Observation, options: IdentifyOptions) -> tuple[Observation, System]:
+    """Weight the equations as asked, and give the observation they come from: robust fits weigh its rows."""
     size = len(look.plan.columns)
     factors = observation.joint_factors(look.parts(observation)[0])
     if options.estimate.estimator == "ols":

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from core.arrays import JointSeries, Parameters
-from core.dynamics.term import Entry, MotionState, Term
+from core.dynamics.term import Entry, Term
 from core.dynamics.terms.coulomb import Coulomb
 from core.dynamics.terms.coupling import GearCoupling
 from core.dynamics.terms.offset import Offset
@@ -21,6 +21,7 @@ from core.dynamics.terms.viscous import Viscous
 from core.errors import OptionError
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
+from core.signals.state import MotionState
 
 STANDARD_TERMS: Mapping[str, type[RigidBody | RotorInertia | Viscous | Coulomb | Offset | GearCoupling]] = {
     "rigid_body": RigidBody,

@@ -4,27 +4,15 @@ A term is linear in its parameters. It says which (joint, parameter) pairs can d
 time series for each of them; everything that is structurally zero is never computed, filtered or stored.
 """
 
-from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from core.arrays import JointSeries, Series
+from core.arrays import Series
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
+from core.signals.state import MotionState
 
 Entry = tuple[int, int]
 """Joint row and parameter column, both counted from 0 within the term."""
-
-
-@dataclass(frozen=True, eq=False)
-class MotionState:
-    """Carry position (rad or m).
-
-    Velocity (per s) and acceleration (per s2) of all joints at the same instants.
-    """
-
-    position: JointSeries
-    velocity: JointSeries
-    acceleration: JointSeries
 
 
 @runtime_checkable

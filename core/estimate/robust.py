@@ -7,7 +7,7 @@ Holland & Welsch 1977.
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointVector, Samples
+from core.arrays import BaseParameters, Indices, JointVector, Samples, Weights
 from core.regressor.observe import Rows, Weigh
 
 HUBER = 1.345
@@ -17,7 +17,7 @@ ROUNDS = 3
 def huber_weights(base: BaseParameters, columns_of: tuple[Indices, ...], noise: JointVector) -> Weigh:
     """Give the row weights (to be applied to rows, so the roots of Huber's) that these parameters suggest."""
 
-    def weigh(pairs: list[Rows]) -> list[Samples]:
+    def weigh(pairs: list[Rows]) -> list[Weights]:
         return [
             _root_weight(rows[:, -1] - rows[:, :-1] @ base[columns], sigma)
             for (rows, _), columns, sigma in zip(pairs, columns_of, noise, strict=True)

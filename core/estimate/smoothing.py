@@ -11,7 +11,7 @@ import numpy as np
 
 from core.arrays import Indices, JointVector, Series
 from core.dynamics.model import DynamicModel
-from core.dynamics.term import Entry, MotionState, Term
+from core.dynamics.term import Entry, Term
 from core.dynamics.terms.coulomb import Coulomb
 from core.dynamics.terms.coupling import GearCoupling
 from core.regressor.columns import ColumnPlan
@@ -19,6 +19,7 @@ from core.regressor.factor import Factor
 from core.regressor.observe import Observation
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
+from core.signals.state import MotionState
 
 SHARES = (0.01, 0.02, 0.05, 0.1, 0.2)
 """Candidate widths as shares of a joint's RMS speed, besides the plain sign."""

@@ -84,14 +84,16 @@ def _pseudo_inertia(programme: Programme, phi: cvxpy.Variable, columns: tuple[in
 
 
 def _entropy(programme: Programme, phi: cvxpy.Variable) -> cvxpy.Expression:
-    """Give the log-det divergence of the links from the prior's.
+    """Sum the links' log-det divergence from the prior: trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent.
 
-    Trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent.
+    Links whose believed body could not exist (a frame without mass in a URDF) have none.
     """
-    total = 0.0
+    total = cvxpy.Constant(0.0)
     for columns in link_columns(programme.base.model):
         believed = pseudo_inertia(programme.prior.centre[list(columns)])
         weights = np.diag(congruence(programme.prior, columns))
+        if np.linalg.eigvalsh(weights @ believed @ weights)[0] < 1e-9:
+            continue
         body = weights @ _pseudo_inertia(programme, phi, columns) @ weights
         inverse = np.linalg.solve(weights @ believed @ weights, np.eye(4))
         total = (

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, Matrix
+from core.arrays import BaseParameters, Indices, Intervals, Matrix
 from core.errors import SolverError
 from core.estimate.system import System
 from core.regressor.factor import Factor
@@ -51,7 +51,7 @@ def bootstrap(
     return np.array(answers).reshape(len(answers), system.triangle.shape[1])
 
 
-def intervals(draws: Matrix) -> Matrix:
+def intervals(draws: Matrix) -> Intervals:
     """Give the 2.5 and 97.5 % points per parameter, one row each."""
     return np.asarray(np.quantile(draws, [0.025, 0.975], axis=0).T)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, Matrix, SquareMatrix, Vector
+from core.arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector
 from core.estimate.system import System, column_scale
 from core.regressor.memory import LaggedProducts
 
@@ -38,7 +38,7 @@ class Precision:
     information: SquareMatrix
     spread: SquareMatrix
     open_share: Vector
-    memory_factor: Vector
+    memory_factor: JointVector
 
     @property
     def covariance(self) -> SquareMatrix:

@@ -11,12 +11,12 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import BaseParameters, Matrix, Parameters
+from core.arrays import BaseParameters, Matrix, Parameters, Rows
 from core.dynamics.model import DynamicModel
-from core.dynamics.term import MotionState
 from core.regressor.columns import all_columns, dense
 from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS, Parameter
+from core.signals.state import MotionState
 
 RANK_TOLERANCE = 1e-9
 """A column is dependent when less than this share of it lies outside the columns before it.
@@ -145,7 +145,7 @@ def _random_states(robot: RobotModel, parameters: int) -> MotionState:
     return MotionState(*(rng.uniform(-np.pi, np.pi, shape) for _ in range(3)))
 
 
-def _first_independent(matrix: Matrix) -> tuple[list[int], Matrix]:
+def _first_independent(matrix: Matrix) -> tuple[list[int], Rows]:
     """Pick the columns that the ones before them do not span.
 
     Give their places and all columns as combinations of them.

@@ -1,4 +1,4 @@
-"""Compute the model's non-zero columns for a stretch of motion: the rigid body compiled, every other term by its own series.
+"""Compute the model's non-zero columns for a stretch of motion: rigid body compiled, other terms as they are.
 
 A `ColumnPlan` decides once which series are wanted and where each one goes; it is then applied stretch after
 stretch.
@@ -11,10 +11,10 @@ import numpy as np
 
 from core.arrays import Indices, Matrix, Series
 from core.dynamics.model import DynamicModel
-from core.dynamics.term import MotionState
 from core.dynamics.terms.rigid_body import RigidBody
 from core.regressor.kernel import rigid_body_series
 from core.robot.model import RobotModel
+from core.signals.state import MotionState
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +71,9 @@ class ColumnPlan:
             if (targets >= 0).any():
                 if isinstance(term, RigidBody):
                     fills.append(
-                        _RigidBodyFill.prepare(self.model.robot, dict(zip(entries, targets, strict=True)))
+                        _RigidBodyFill.prepare(
+                            self.model.robot, dict(zip(entries, targets.tolist(), strict=True))
+                        )
                     )
                 else:
                     fills.append(_TermFill(self.model.robot, term, targets))
@@ -113,7 +115,7 @@ class _RigidBodyFill:
         body = np.repeat(np.arange(len(links)), [len(supports) for supports in robot.supports])
         slot = np.array(
             [
-                [target.get((links[carrier].joint - 1, 10 * link + k), -1) for k in range(10)]
+                [target.get((links[carrier].joint - 1, 10 * int(link) + k), -1) for k in range(10)]
                 for link, carrier in zip(body, chain, strict=True)
             ]
         )

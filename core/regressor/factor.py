@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Matrix, Parameters
+from core.arrays import Matrix, Parameters, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ class Factor:
         return float(self.triangle[:, -1] @ self.triangle[:, -1])
 
 
-def _triangle(rows: Matrix) -> Matrix:
+def _triangle(rows: Rows) -> Rows:
     if len(rows) <= rows.shape[1]:
         return rows
     return np.asarray(np.linalg.qr(rows, mode="r"))

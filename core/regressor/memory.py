@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Matrix, Parameters, Vector
+from core.arrays import Matrix, Parameters, Rows, Vector
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +31,7 @@ class LaggedProducts:
         """Start with no rows."""
         return cls(np.zeros((cls.LAGS + 1, columns, columns)), 0)
 
-    def extended(self, before: Matrix, rows: Matrix, used: int) -> "LaggedProducts":
+    def extended(self, before: Rows, rows: Rows, used: int) -> "LaggedProducts":
         """Take rows in, of which `used` are not zero, that follow the last rows of `before`."""
         joined = np.vstack([before, rows])
         products = self.products.copy()

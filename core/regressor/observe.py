@@ -11,7 +11,16 @@ from functools import reduce
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointSeries, JointVector, Matrix, SampleMask, Samples
+from core.arrays import (
+    BaseParameters,
+    EquationRows,
+    Indices,
+    JointSeries,
+    JointVector,
+    Samples,
+    UsableRows,
+    Weights,
+)
 from core.regressor.columns import ColumnPlan
 from core.regressor.factor import Factor
 from core.regressor.memory import LaggedProducts
@@ -22,9 +31,9 @@ _POSITIONS_PER_TILE = 32
 Progress = Callable[[float], None]
 BlockKey = tuple[int, int]
 """Log and block number, both from 0."""
-Rows = tuple[Matrix, SampleMask]
+Rows = tuple[EquationRows, UsableRows]
 """One joint's filtered rows [w y] of a tile, and which of them may be used."""
-Weigh = Callable[[list[Rows]], list[Samples]]
+Weigh = Callable[[list[Rows]], list[Weights]]
 """Gives, per joint, the weights of a tile's rows."""
 
 
@@ -214,7 +223,7 @@ def residuals(plan: ColumnPlan, motion: Motion, parameters: BaseParameters) -> I
         yield ResidualTile(tile.time, torque, joint_residuals(plan, pairs, parameters), tile.usable)
 
 
-def torque_scales(observation: Observation) -> JointVector:
-    """Give the RMS of the filtered torque per joint, N m."""
-    factors = observation.joint_factors()
+def torque_scales(observation: Observation, chosen: tuple[int, ...] | None = None) -> JointVector:
+    """Give the RMS of the filtered torque per joint over the chosen blocks (all by default), N m."""
+    factors = observation.joint_factors(chosen)
     return np.array([np.sqrt(one.torque_square / max(one.rows, 1)) for one in factors])

@@ -14,8 +14,17 @@ from itertools import pairwise
 import numpy as np
 from scipy.signal import oaconvolve
 
-from core.arrays import JointMask, JointSeries, SampleMask, Samples, Series
-from core.dynamics.term import MotionState
+from core.arrays import (
+    InstantMask,
+    Instants,
+    InstantSeries,
+    JointMask,
+    JointSeries,
+    KeptSeries,
+    SampleMask,
+    Samples,
+    Series,
+)
 from core.errors import LogError
 from core.log.model import JointLog, LogRows
 from core.robot.model import RobotModel
@@ -23,6 +32,7 @@ from core.signals.derivative import centred_difference, median
 from core.signals.parallel import ParallelFilter
 from core.signals.recipe import FilterOptions, Recipe, choose_recipe
 from core.signals.resample import is_uniform, on_grid
+from core.signals.state import MotionState
 from core.signals.zero_phase import kernel, reach_of
 
 TILE_KEPT = 512
@@ -54,11 +64,11 @@ class Tile:
     torque: JointSeries
     parallel: ParallelFilter
     first: int
-    time: Samples
-    usable: JointMask
+    time: Instants
+    usable: InstantMask
     block: int
 
-    def filtered(self, series: Series) -> Series:
+    def filtered(self, series: Series) -> KeptSeries:
         """Apply the parallel filter to rows of samples and keep the tile's instants."""
         return self.parallel.apply(series, self.first, len(self.time))
 
@@ -252,7 +262,7 @@ def _effort_scale(log: JointLog, robot: RobotModel) -> np.ndarray:
     )
 
 
-def _extend(position: JointSeries, before: int, after: int) -> JointSeries:
+def _extend(position: JointSeries, before: int, after: int) -> InstantSeries:
     """Continue a series beyond its ends by turning it about its end points, as far as it is long enough."""
     pads = ((min(before, len(position) - 1), min(after, len(position) - 1)), (0, 0))
     turned = np.pad(position, pads, mode="reflect", reflect_type="odd")

@@ -6,10 +6,10 @@ log can be processed stretch after stretch without seams. Source: the seed paper
 
 import numpy as np
 
-from core.arrays import JointSeries
+from core.arrays import InstantSeries, JointSeries
 
 
-def centred_difference(values: JointSeries, rate_hz: float) -> JointSeries:
+def centred_difference(values: JointSeries, rate_hz: float) -> InstantSeries:
     """Differentiate along time; the first and last sample are consumed.
 
     (x[k+1] - x[k-1]) rate / 2 belongs to instant k exactly, and is exact for a quadratic.
@@ -22,7 +22,7 @@ def centred_difference(values: JointSeries, rate_hz: float) -> JointSeries:
     return np.asarray((values[2:] - values[:-2]) * (0.5 * rate_hz))
 
 
-def median(values: JointSeries, order: int) -> JointSeries:
+def median(values: JointSeries, order: int) -> InstantSeries:
     """Take the running median of odd order; (order - 1) / 2 samples are consumed on either side.
 
     Examples
@@ -37,7 +37,7 @@ def median(values: JointSeries, order: int) -> JointSeries:
     return np.asarray(np.median(np.lib.stride_tricks.sliding_window_view(values, order, axis=0), axis=-1))
 
 
-def _median_of_five(values: JointSeries) -> JointSeries:
+def _median_of_five(values: JointSeries) -> InstantSeries:
     a, b, c, d, e = (values[shift : len(values) - 4 + shift] for shift in range(5))
     low, high = np.minimum(a, b), np.maximum(a, b)
     other_low, other_high = np.minimum(c, d), np.maximum(c, d)

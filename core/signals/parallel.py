@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import Matrix, Samples, Series
+from core.arrays import KeptSeries, Matrix, Samples, Series
 
 _ROWS = 64
 
@@ -48,18 +48,18 @@ class ParallelFilter:
     def _magnitude_band(self) -> Matrix:
         return np.asarray(np.abs(self._band) / np.abs(self.response).sum())
 
-    def apply(self, series: Series, first: int, kept: int) -> Series:
+    def apply(self, series: Series, first: int, kept: int) -> KeptSeries:
         """Give `kept` filtered instants.
 
         The first lies at sample `first` of the series, beyond whose ends zeros are assumed.
         """
         return self._run(self._band, series, first, kept)
 
-    def influence(self, marks: Series, first: int, kept: int) -> Series:
+    def influence(self, marks: Series, first: int, kept: int) -> KeptSeries:
         """Give the share of the kernel's absolute mass that falls on marked samples (marks are 0 or 1)."""
         return self._run(self._magnitude_band, marks, first, kept)
 
-    def _run(self, band: Matrix, series: Series, first: int, kept: int) -> Series:
+    def _run(self, band: Matrix, series: Series, first: int, kept: int) -> KeptSeries:
         out = np.empty((len(series), kept))
         for begin in range(0, kept, _ROWS):
             rows = min(_ROWS, kept - begin)

@@ -26,6 +26,8 @@ POSITION_OVER_PARALLEL = 5.0
 
 So that their filter does not bend what the parallel filter passes.
 """
+STILL_SHARE = 0.01
+"""A joint stands when it is slower than this share of its RMS speed."""
 _LOOK_SECONDS = 60.0
 _LOOKS = 8
 
@@ -69,8 +71,8 @@ class Recipe:
     ----------
     motion_band_hz
         Frequency below which the joints' velocities hold 99.5 % of their power, the largest over the joints.
-    still_speed
-        Speed per joint below which it counts as standing (rad/s or m/s).
+    rms_speed, still_speed
+        Speed per joint, and the speed below which it counts as standing (rad/s or m/s).
     reason
         Why these cut-offs, in one sentence.
     """
@@ -81,6 +83,7 @@ class Recipe:
     order: int
     decimation: int
     motion_band_hz: float
+    rms_speed: JointVector
     still_speed: JointVector
     reason: str
 
@@ -118,7 +121,8 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         order=options.order,
         decimation=decimation,
         motion_band_hz=band,
-        still_speed=0.01 * speeds,
+        rms_speed=speeds,
+        still_speed=STILL_SHARE * speeds,
         reason=(
             f"parallel filter at {cutoff:.3g} Hz ({chosen}), positions at {position:.3g} Hz,"
             f" one sample in {decimation} kept"

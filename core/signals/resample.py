@@ -8,7 +8,7 @@ dropped samples and are left out.
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.arrays import JointSeries, Samples
+from core.arrays import Instants, InstantSeries, JointSeries, Samples
 from core.log.model import LogRows, repeated
 
 UNIFORM_TOLERANCE = 1e-3
@@ -43,7 +43,7 @@ def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointS
     return grid, position, effort
 
 
-def on_grid(rows: LogRows, effort: JointSeries, grid: Samples) -> tuple[JointSeries, JointSeries]:
+def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[InstantSeries, InstantSeries]:
     """Interpolate position and effort at the instants of a grid inside the rows' time span."""
     fresh = ~repeated(rows)
     time = rows.time[fresh]

@@ -12,10 +12,10 @@ import numpy as np
 
 from core.arrays import JointSeries, Parameters
 from core.dynamics.model import DynamicModel
-from core.dynamics.term import MotionState
 from core.regressor.columns import all_columns
 from core.robot.inertia import pseudo_inertia
 from core.robot.model import RobotModel
+from core.signals.state import MotionState
 
 CONFIGURATIONS = 10_000
 _INERTIAL_TERMS = ("rigid_body", "rotor_inertia", "coupling")

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Samples, Series
-from core.dynamics.term import Entry, MotionState
+from core.dynamics.term import Entry
 from core.dynamics.terms.own_joint import own_joint_entries, own_joint_parameters, own_joint_series
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
+from core.signals.state import MotionState
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Samples, Series
-from core.dynamics.term import Entry, MotionState
+from core.dynamics.term import Entry
 from core.dynamics.terms.coulomb import direction
 from core.robot.model import Coupling, RobotModel
 from core.robot.parameters import Parameter
+from core.signals.state import MotionState
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,10 @@ import numpy as np
 
 from core.arrays import Series
 from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.term import Entry, MotionState
+from core.dynamics.term import Entry
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter, inertial_parameters
+from core.signals.state import MotionState
 
 
 @dataclass(frozen=True)

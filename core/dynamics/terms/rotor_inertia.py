@@ -7,10 +7,11 @@ Dombre (2002), ch. 9.
 from dataclasses import dataclass
 
 from core.arrays import Series
-from core.dynamics.term import Entry, MotionState
+from core.dynamics.term import Entry
 from core.dynamics.terms.own_joint import own_joint_entries, own_joint_parameters, own_joint_series
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
+from core.signals.state import MotionState
 
 
 @dataclass(frozen=True)

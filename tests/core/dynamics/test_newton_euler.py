@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.term import MotionState
 from core.robot.inertia import pseudo_inertia
 from core.robot.model import Link, RobotModel
+from core.signals.state import MotionState
 from tests.tools import (
     ENGINES,
     Engine,
