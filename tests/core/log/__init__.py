@@ -1,0 +1,1 @@
+"""The claims of core.log, from formats to defects."""
