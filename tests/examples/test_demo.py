@@ -1,4 +1,4 @@
-"""The demonstration: what it prints from a document, what it says when something fails, and the real thing."""
+"""The demonstration: what it prints from a document, what it says when something fails, the real thing."""
 
 import json
 import threading
@@ -17,9 +17,10 @@ RESULT = {
         {
             "name": "ZZR1", "unit": "kg m2", "joint": 1, "value": 0.0665, "value_ols": -0.061,
             "standard_deviation": 0.002, "relative_deviation_percent": 3.01, "essential": True,
-            "relation": {"ZZ1": 1.0, "IA1": 1.0, "M2": 0.0009}, "interval_95": [0.0625, 0.0705], "surprise": [1],
+            "relation": {"ZZ1": 1.0, "IA1": 1.0, "M2": 0.0009},
+            "interval_95": [0.0625, 0.0705], "surprise": [1],
         },
-        {"name": "FC1", "unit": "N m", "joint": 1, "value": 2.2, "value_ols": 2.2, "standard_deviation": 0.01},
+        {"name": "FC1", "unit": "N m", "value": 2.2, "value_ols": 2.2, "standard_deviation": 0.01},
     ],
     "feasibility": {"pseudo_inertia_min_eigenvalue": [0.002, 0.001], "ols_feasible": False},
     "solver": {"status": "optimal", "iterations": 11, "objective": 2.5, "objective_ols": 2.4},
