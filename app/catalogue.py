@@ -27,7 +27,7 @@ class Catalogue:
             for name, description in science.built_in_descriptions().items()
         }
 
-    def add_description(self, description: Document) -> RobotRecord:
+    def add_description(self, description: object) -> RobotRecord:
         """Keep a robot that is described by the service's own document.
 
         Raises

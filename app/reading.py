@@ -105,11 +105,12 @@ def check(model: type[Model], document: object) -> Model:
     try:
         return model.model_validate(document, strict=True)
     except ValidationError as error:
-        raise invalid(error.errors(include_url=False, include_context=False)) from None
+        complaints = error.errors(include_url=False, include_context=False)
+        raise invalid({**one, "loc": ("body", *one["loc"])} for one in complaints) from None
 
 
 def invalid(errors: Iterable[object]) -> Problem:
-    """Turn the complaints of pydantic or FastAPI into one problem."""
+    """Turn complaints into one problem; their first place is body, query, path or header, as FastAPI says."""
     spots = [_spot(error) for error in errors if isinstance(error, dict)]
     first = spots[0] if spots else {"message": "it does not fit"}
     where = first.get("pointer") or first.get("parameter") or "the body"
@@ -125,11 +126,11 @@ def _spot(error: dict[str, object]) -> dict[str, object]:
     place = error.get("loc")
     location = [str(step) for step in place] if isinstance(place, tuple | list) else []
     spot: dict[str, object] = {"message": str(error.get("msg", ""))[:LONGEST_REASON]}
-    if location[:1] and location[0] in {"query", "path", "header"}:
-        spot["parameter"] = "/".join(location[1:])
+    if location[:1] == ["body"]:
+        steps = (step.replace("~", "~0").replace("/", "~1") for step in location[1:])
+        spot["pointer"] = "".join("/" + step for step in steps)
     else:
-        steps = location[1:] if location[:1] == ["body"] else location
-        spot["pointer"] = "".join("/" + step.replace("~", "~0").replace("/", "~1") for step in steps)
+        spot["parameter"] = "/".join(location[1:])
     given = error.get("input")
     spot["given"] = given if _is_scalar(given) else type(given).__name__
     return spot

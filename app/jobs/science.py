@@ -5,6 +5,7 @@ service answers before they are loaded, and a command that prints the contract n
 """
 
 from dataclasses import asdict
+from typing import cast
 
 from app.documents import plain
 from app.jobs.computation import Computation, LogFile, Progress
@@ -26,7 +27,7 @@ def built_in_descriptions() -> dict[str, Document]:
     return {name: builtin_description(name) for name in builtin_robots()}
 
 
-def read_description(description: Document) -> tuple[RobotModel, Document]:
+def read_description(description: object) -> tuple[RobotModel, Document]:
     """Read a robot description, and write it again with every default filled in.
 
     Raises
@@ -34,7 +35,7 @@ def read_description(description: Document) -> tuple[RobotModel, Document]:
     RobotError
         If the description cannot be used.
     """
-    robot = robot_from_description(description)
+    robot = robot_from_description(cast("Document", description))  # core refuses what is no object
     return robot, to_description(robot)
 
 

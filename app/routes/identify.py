@@ -11,7 +11,7 @@ from app.handlers import problem_response
 from app.negotiation import LONGEST_WAIT_S, wait_seconds
 from app.openapi import body, file_part, problems
 from app.problems import KINDS, URN, Problem
-from app.reading import parse_object, require_media_type
+from app.reading import parse_json, parse_object, require_media_type
 from app.schemas.examples import MAPPING
 from app.schemas.jobs import Job
 from app.schemas.results import ResultDocument
@@ -102,7 +102,7 @@ async def _robot(services: Services, form: FormData) -> RobotRecord:
 
 def _find_or_create(services: Services, content: bytes) -> RobotRecord:
     if content.startswith(b"{"):
-        return services.catalogue.add_description(parse_object(content, what="the robot") or {})
+        return services.catalogue.add_description(parse_json(content, what="the robot"))
     if content.startswith((b"<", b"\xef\xbb\xbf")):
         return services.catalogue.add_urdf(content)
     return services.catalogue.robot(content.decode(errors="replace")[:100], named_in_body=True)

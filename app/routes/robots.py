@@ -8,7 +8,7 @@ from fastapi.responses import JSONResponse
 
 from app.openapi import body, problems, reference
 from app.problems import Problem
-from app.reading import parse_object, require_media_type
+from app.reading import parse_json, require_media_type
 from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
 from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
 from app.services import ServicesOf
@@ -54,8 +54,7 @@ async def create_robot(
         )
     else:
         _refuse_urdf_options(base_link=base_link, tip_link=tip_link, gravity=gravity)
-        description = parse_object(content or b"null", what="the body") or {}
-        robot = await anyio.to_thread.run_sync(services.catalogue.add_description, description)
+        robot = await anyio.to_thread.run_sync(services.catalogue.add_description, parse_json(content))
     return JSONResponse(robot_document(robot), 201, headers={"Location": f"/v1/robots/{robot.id}"})
 
 

@@ -15,9 +15,14 @@ def test_a_created_robot_is_found_where_the_answer_says(client):
 def test_the_same_content_is_the_same_robot_whatever_the_order_and_the_defaults(client):
     one = description()
     other = dict(reversed(one.items())) | {"couplings": [], "convention": "modified-dh"}
-    assert client.post("/v1/robots", json=one).json()["id"] == client.post("/v1/robots", json=other).json()["id"]
+    assert (
+        client.post("/v1/robots", json=one).json()["id"] == client.post("/v1/robots", json=other).json()["id"]
+    )
     heavier = one | {"gravity": [0.0, -9.82, 0.0]}
-    assert client.post("/v1/robots", json=one).json()["id"] != client.post("/v1/robots", json=heavier).json()["id"]
+    assert (
+        client.post("/v1/robots", json=one).json()["id"]
+        != client.post("/v1/robots", json=heavier).json()["id"]
+    )
 
 
 def test_a_description_that_was_answered_can_be_sent_again(client):
@@ -49,7 +54,9 @@ def test_built_in_robots_are_listed_first_and_stay(client):
 
 def test_pages_of_robots_join_without_a_gap(client, robot_id):
     everything = client.get("/v1/robots").json()
-    pages = [client.get(f"/v1/robots?limit=1&offset={n}").json()["robots"] for n in range(everything["total"])]
+    pages = [
+        client.get(f"/v1/robots?limit=1&offset={n}").json()["robots"] for n in range(everything["total"])
+    ]
     assert [page[0] for page in pages] == everything["robots"]
 
 

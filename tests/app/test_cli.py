@@ -1,0 +1,80 @@
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from app import cli
+from app.main import create_app
+from app.settings import Settings, reaches_other_machines
+from app.version import VERSION
+
+
+def run(*arguments, **environment):
+    return CliRunner().invoke(cli.COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
+
+
+@pytest.fixture
+def listened(monkeypatch):
+    """Catch the settings with which the service would listen."""
+    caught = []
+    monkeypatch.setattr(cli, "_listen", caught.append)
+    return caught
+
+
+def test_the_contract_is_printed_as_it_is_served():
+    printed = run("openapi").stdout
+    assert json.loads(printed) == create_app().openapi()
+    assert printed == json.dumps(create_app().openapi(), indent=2) + "\n"
+
+
+def test_the_version_is_printed():
+    assert run("version").stdout == VERSION + "\n"
+
+
+def test_settings_come_from_the_environment_and_the_command_line_wins(listened, tmp_path):
+    environment = {"VERITORQUE_PORT": "9001", "VERITORQUE_WORKERS": "2", "VERITORQUE_DATA_DIR": str(tmp_path)}
+    assert run("serve", **environment).exit_code == 0
+    assert run("serve", "--port", "9002", **environment).exit_code == 0
+    assert [(one.port, one.workers, one.data_dir) for one in listened] == [
+        (9001, 2, tmp_path),
+        (9002, 2, tmp_path),
+    ]
+
+
+def test_every_setting_of_the_command_line_is_documented_with_its_variable():
+    shown = run("serve", "--help").stdout
+    for name in set(Settings.model_fields):
+        assert f"VERITORQUE_{name.upper()}" in shown, name
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.5", "robot.example"])  # noqa: S104
+def test_an_address_that_others_can_reach_needs_a_decision(listened, tmp_path, host):
+    refused = run("serve", "--host", host, "--data-dir", str(tmp_path))
+    assert refused.exit_code == 2
+    assert "VERITORQUE_ALLOW_REMOTE" in refused.output
+    assert listened == []
+    allowed = run("serve", "--host", host, "--data-dir", str(tmp_path), VERITORQUE_ALLOW_REMOTE="1")
+    assert (allowed.exit_code, len(listened)) == (0, 1)
+
+
+def test_loopback_is_loopback():
+    assert [reaches_other_machines(host) for host in ("127.0.0.1", "127.9.9.9", "::1", "localhost")] == [
+        False
+    ] * 4
+
+
+def test_a_setting_that_makes_no_sense_is_refused_with_its_name(listened):
+    for arguments, name in ((("--port", "70000"), "port"), (("--workers", "0"), "workers")):
+        refused = run("serve", *arguments)
+        assert refused.exit_code == 2
+        assert name in refused.output
+    refused = run("serve", VERITORQUE_ALLOW_REMOTE="perhaps")
+    assert (refused.exit_code, listened) == (2, [])
+
+
+def test_the_first_compilation_is_announced_once(listened, tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
+    assert "compiling the regressor once" in run("serve").output
+    (tmp_path / "kernels" / "core").mkdir(parents=True)
+    (tmp_path / "kernels" / "core" / "kernel.nbi").touch()
+    assert "compiling" not in run("serve").output

@@ -1,0 +1,181 @@
+"""The contract that is documented is the one that is kept: one battery for all routes."""
+
+import json
+import threading
+import tomllib
+from pathlib import Path
+
+import pytest
+from starlette.testclient import TestClient
+
+from app.main import create_app
+from app.problems import KINDS, Problem
+from app.schemas import examples
+from app.schemas.jobs import Job, JobList, JobRequest
+from app.schemas.logs import LogList, LogSummary
+from app.schemas.robots import Robot, RobotDescription, RobotList
+from app.settings import Settings
+from app.store.logs import log_id as id_of_log
+from app.version import VERSION
+from core.robot import description as core_description
+from tests.app.conftest import assert_problem, service
+from tests.app.planar_arm import description
+from tests.app.stubs import StubExecutor
+
+ROOT = Path(__file__).parents[2]
+OPENAPI = create_app().openapi()
+PATHS = {path: {method.upper() for method in operations} for path, operations in OPENAPI["paths"].items()}
+# What api.md promises and this version serves.
+PROMISED = {
+    "/v1/robots": {"GET", "POST"},
+    "/v1/robots/{robot_id}": {"GET", "DELETE"},
+    "/v1/robots/{robot_id}/base-parameters": {"GET"},
+    "/v1/logs": {"GET", "POST"},
+    "/v1/logs/{log_id}": {"GET", "DELETE"},
+    "/v1/jobs": {"GET", "POST"},
+    "/v1/jobs/{job_id}": {"GET", "DELETE"},
+    "/v1/jobs/{job_id}/results": {"GET"},
+    "/v1/jobs/{job_id}/results/{artifact}": {"GET"},
+    "/v1/identify": {"POST"},
+    "/healthz": {"GET"},
+    "/readyz": {"GET"},
+    "/version": {"GET"},
+}
+
+
+def test_the_paths_and_methods_are_the_promised_ones():
+    assert PATHS == PROMISED
+
+
+@pytest.mark.parametrize("path", sorted(PROMISED))
+def test_a_method_that_a_path_does_not_take_is_refused_with_all_that_it_takes(client, path):
+    real = path.format(robot_id="yumi", log_id="l", job_id="j", artifact="parameters.csv")
+    for method in {"GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"} - PROMISED[path]:
+        answer = client.request(method, real)
+        assert_problem(answer, 405, "method-not-allowed")
+        assert {one.strip() for one in answer.headers["allow"].split(",")} == PROMISED[path]
+
+
+def test_an_address_that_does_not_exist_is_a_problem(client):
+    assert_problem(client.get("/v2/robots"), 404, "not-found")
+
+
+def test_every_operation_documents_its_answers_and_its_problems():
+    for path, operations in OPENAPI["paths"].items():
+        for method, operation in operations.items():
+            assert operation["summary"], (path, method)
+            for status, answer in operation["responses"].items():
+                if int(status) >= 400:
+                    assert list(answer["content"]) == ["application/problem+json"], (path, method, status)
+            if "{" in path:
+                assert "404" in operation["responses"]
+            if method == "post":
+                assert {"400", "413", "415", "422"} <= set(operation["responses"])
+
+
+def test_every_reference_of_the_contract_leads_somewhere():
+    def references(node):
+        if isinstance(node, dict):
+            yield from ([node["$ref"]] if "$ref" in node else [])
+            for child in node.values():
+                yield from references(child)
+        elif isinstance(node, list):
+            for child in node:
+                yield from references(child)
+
+    for reference in set(references(OPENAPI)):
+        target = OPENAPI
+        for step in reference.removeprefix("#/").split("/"):
+            target = target[step]
+        assert isinstance(target, dict)
+
+
+def test_the_documented_fields_of_a_robot_are_those_that_core_reads():
+    def fields(model):
+        return set(RobotDescription.model_json_schema()["$defs"][model]["properties"])
+
+    assert set(RobotDescription.model_fields) == set(core_description.ROBOT_FIELDS)
+    both = core_description.ROW_FIELDS | core_description.FRAME_FIELDS | core_description.JOINT_FIELDS
+    assert fields("JointDescription") == set(both)
+    assert fields("Limits") == set(core_description.LIMIT_FIELDS)
+    assert fields("CouplingDescription") == set(core_description.COUPLING_FIELDS)
+    assert fields("LinkPrior") == set(core_description.PRIOR_FIELDS)
+    assert fields("StandardParameters") == set(core_description.SYMBOL_FIELDS)
+
+
+def test_answers_follow_the_documented_models(client, robot_id, log_id):
+    answers = {
+        Robot: client.get(f"/v1/robots/{robot_id}"),
+        RobotList: client.get("/v1/robots"),
+        LogSummary: client.get(f"/v1/logs/{log_id}"),
+        LogList: client.get("/v1/logs"),
+        Job: client.post("/v1/jobs", json={"kind": "identify", "robot": robot_id, "logs": [log_id]}),
+        JobList: client.get("/v1/jobs"),
+    }
+    for model, answer in answers.items():
+        model.model_validate_json(answer.content)
+    for name in ("yumi-left", "yumi-right", "yumi"):
+        Robot.model_validate_json(client.get(f"/v1/robots/{name}").content)
+
+
+def test_the_examples_of_the_contract_work(client):
+    JobRequest.model_validate(examples.JOB_REQUEST)
+    assert client.post("/v1/robots", json=examples.YUMI_LEFT).status_code == 201
+    urdf = client.post("/v1/robots", content=examples.PENDULUM_URDF, headers={"Content-Type": "text/xml"})
+    assert urdf.status_code == 201
+    json.loads(examples.MAPPING)
+
+
+def test_the_example_job_names_the_log_that_ships_with_the_project(client):
+    content = (ROOT / examples.EXAMPLE_LOG).read_bytes()
+    answer = client.post("/v1/logs", files={"file": ("log.csv", content, "text/csv")})
+    assert answer.json()["id"] == examples.EXAMPLE_LOG_ID
+    assert client.post("/v1/jobs", json=examples.JOB_REQUEST).status_code == 202
+
+
+def test_the_id_of_a_log_depends_on_bytes_name_and_mapping_only():
+    one = id_of_log(sha256="ab", name="a", mapping={"x": 1, "y": 2})
+    assert one == id_of_log(sha256="ab", name="a", mapping={"y": 2, "x": 1})
+    others = [("cd", "a", {}), ("ab", "b", {}), ("ab", "a", None)]
+    assert len({one, *(id_of_log(sha256=s, name=n, mapping=m) for s, n, m in others)}) == 4
+
+
+def test_every_kind_of_problem_is_whole():
+    for kind, (status, title) in KINDS.items():
+        assert 400 <= status < 600
+        assert title
+        assert Problem(kind, "a cause").document()["status"] == status
+
+
+def test_a_mistake_of_ours_shows_nothing_of_the_inside(tmp_path, caplog):
+    app = create_app(Settings(data_dir=tmp_path), executor=None)
+
+    @app.get("/broken")
+    def broken() -> None:
+        raise ZeroDivisionError("a secret of ours")
+
+    answer = TestClient(app, raise_server_exceptions=False).get("/broken")
+    problem = assert_problem(answer, 500, "internal")
+    assert "secret" not in answer.text
+    assert problem["evidence"]["incident"] in caplog.text
+
+
+def test_the_version_is_the_one_of_the_project(client):
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert VERSION == project["version"] == client.get("/version").json()["version"]
+
+
+def test_a_service_that_still_loads_the_solver_is_alive_but_not_ready(tmp_path):
+    class Loading(StubExecutor):
+        gate = threading.Event()
+
+        def prepare(self):
+            self.gate.wait(10.0)
+
+    with service(tmp_path, Loading()) as client:
+        assert client.get("/healthz").status_code == 200
+        assert_problem(client.get("/readyz"), 503, "not-ready")
+        assert client.post("/v1/robots", json=description()).status_code == 201
+        Loading.gate.set()
+        client.app.state.services.runner.ready.wait(5.0)
+        assert client.get("/readyz").json() == {"status": "ready"}
