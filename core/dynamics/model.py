@@ -36,10 +36,7 @@ STANDARD_TERMS: Mapping[str, type[RigidBody | RotorInertia | Viscous | Coulomb |
 
 @dataclass(frozen=True, eq=False)
 class DynamicModel:
-    """Hold a robot and the terms its joint torque is the sum of.
-
-    Torque = sum over terms of columns times parameters.
-    """
+    """Hold a robot and the terms whose columns times parameters add up to its joint torque."""
 
     robot: RobotModel
     terms: tuple[Term, ...]

@@ -102,10 +102,7 @@ class Prior:
 
 
 def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:
-    """Give the positions of every link's ten parameters in `model.parameters`.
-
-    Empty when links are not modelled.
-    """
+    """Give the places of every modelled link's ten parameters in `model.parameters`."""
     place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
     return tuple(
         tuple(place[f"{symbol}{number}"] for symbol in INERTIAL_SYMBOLS)
@@ -114,11 +111,27 @@ def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:
     )
 
 
-def default_prior(model: DynamicModel, torque_rms: Vector) -> Prior:
-    """Believe the robot's own prior where it has one.
+def check_links(bounds: Bounds, model: DynamicModel) -> None:
+    """Refuse bounds on links that the model does not have.
 
-    Else small solid bodies in proportion to the torques and lengths.
+    Raises
+    ------
+    OptionError
+        If a bound names such a link, or any link of a model without rigid bodies.
     """
+    links = len(link_columns(model))
+    named = [link for link, _, _ in bounds.mass] + [region.link for region in bounds.centres]
+    unknown = sorted({link for link in named if not 1 <= link <= links})
+    if unknown or (bounds.total_mass is not None and not links):
+        raise OptionError(
+            "a bound names a link that the model does not have",
+            evidence={"links": unknown, "known": list(range(1, links + 1))},
+            remedy="number the links from 1, and keep the term rigid_body",
+        )
+
+
+def default_prior(model: DynamicModel, torque_rms: Vector) -> Prior:
+    """Believe the robot's own prior; where it has none, small balls in proportion to torques and lengths."""
     length, mass, effort = _proportions(model, torque_rms)
     units = {"kg m2": mass * length**2, "kg m": mass * length, "kg": mass}
     scale = np.array([units.get(parameter.unit, effort) for parameter in model.parameters])

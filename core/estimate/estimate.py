@@ -11,7 +11,7 @@ import numpy as np
 
 from core.arrays import BaseParameters, Indices, Parameters
 from core.errors import OptionError
-from core.estimate.constraints import Bounds, Prior
+from core.estimate.constraints import Bounds, Prior, check_links
 from core.estimate.programme import PULL, Programme, Solution
 from core.estimate.system import System
 from core.estimate.with_clarabel import solve_with_clarabel
@@ -127,9 +127,12 @@ def estimate(
 
     Raises
     ------
+    OptionError
+        If a bound names a link that the model does not have.
     SolverError
         If the programme has no accurate optimum.
     """
+    check_links(options.bounds, base.model)
     if essential is not None:
         system = _restricted(system, essential)
     unconstrained = system.solved()

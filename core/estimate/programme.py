@@ -21,10 +21,7 @@ from core.estimate.system import System
 from core.reduction.base import BaseModel
 
 PULL = 1e-5
-"""Weight of the pull towards the prior.
-
-Costs a few thousandths of chi^2 at most and bounds what the motion leaves open.
-"""
+"""Weight of the pull towards the prior: costs a few thousandths of chi^2, bounds what the motion leaves open."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,10 +51,7 @@ class Programme:
 
     @property
     def scaled_rows(self) -> tuple[Matrix, Vector]:
-        """Give the misfit as rows over phi / scale and target.
-
-        Both divided by the root of the number of equations.
-        """
+        """Give misfit rows over phi / scale and their target, divided by the root of the number of rows."""
         size = np.sqrt(self.system.rows)
         return self.system.triangle @ self.base.grouping * self.prior.scale / size, self.system.target / size
 
@@ -103,10 +97,7 @@ _MEANINGS = {
 
 
 def refusal(kind: str, *, status: str, solver: str, iterations: int) -> SolverError:
-    """Translate a solver's status into a sentence with cause and remedy.
-
-    Everything but an optimum is refused.
-    """
+    """Translate a solver's status into cause and remedy; everything but an optimum is refused."""
     cause, remedy = _MEANINGS[kind]
     return SolverError(
         cause, evidence={"status": status, "solver": solver, "iterations": iterations}, remedy=remedy

@@ -28,10 +28,7 @@ DIRECTIONAL = ("FC", "FCM")
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Offer the direction-dependent columns of a friction term under another name.
-
-    So that several widths stand side by side.
-    """
+    """Offer a friction term's direction-dependent columns under another name, to compare several widths."""
 
     term: Coulomb | GearCoupling
     number: int
@@ -82,10 +79,7 @@ def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
 def chosen_widths(
     observation: Observation, model: DynamicModel, speed: JointVector, fitted: tuple[int, ...]
 ) -> DynamicModel:
-    """Give the model with the widths that leave the smallest residual on the fitted blocks.
-
-    Joint by joint.
-    """
+    """Give the model with, per joint, the width that leaves the smallest residual on the fitted blocks."""
     names = [observation.plan.model.parameters[column].name for column in observation.plan.columns]
     shares = np.zeros(len(model.robot.joints))
     for joint, factor in enumerate(observation.joint_factors(fitted)):
@@ -118,10 +112,7 @@ def scan_plan(model: DynamicModel, kept: tuple[int, ...]) -> ColumnPlan:
 
 
 def _residual(factor: Factor, columns: Indices, names: list[str], number: int | None) -> float:
-    """Solve one joint's equations alone.
-
-    With its plain direction columns or those of one candidate instead.
-    """
+    """Solve one joint's equations alone, with its plain sign columns or those of one candidate instead."""
     wanted = [place for place, column in enumerate(columns) if _belongs(names[column], number)]
     kept = factor.triangle[:, wanted]
     scale = np.linalg.norm(kept, axis=0)

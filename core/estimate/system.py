@@ -44,10 +44,7 @@ class System:
         return float(miss @ miss) + self.rest
 
     def solved(self) -> BaseParameters:
-        """Give the unconstrained optimum.
-
-        Directions that the motion does not excite are set to their smallest norm.
-        """
+        """Give the unconstrained optimum of smallest norm, should the motion leave directions open."""
         scale = column_scale(self.triangle)
         scaled, *_ = np.linalg.lstsq(self.triangle / scale, self.target, rcond=RANK_TOLERANCE)
         return np.asarray(scaled / scale)
@@ -92,10 +89,7 @@ def ordinary(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base:
 
 
 def weighted(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int) -> System:
-    """Stack with each joint divided by the RMS of its own residual.
-
-    Settled in two rounds from the unweighted fit.
-    """
+    """Stack with each joint divided by the RMS of its own residual, in two rounds from the unweighted fit."""
     system = ordinary(factors, columns_of, base)
     for _ in range(_REWEIGHTINGS):
         system = stacked(factors, columns_of, base, joint_noise(factors, columns_of, system.solved()))
@@ -105,10 +99,7 @@ def weighted(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base:
 def joint_noise(
     factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: BaseParameters
 ) -> JointVector:
-    """Give the RMS residual per joint, N m.
-
-    With the degrees of freedom shared out evenly over the equations.
-    """
+    """Give the RMS residual per joint, N m; the parameters count against all joints' equations alike."""
     rows = sum(factor.rows for factor in factors)
     share = max(1.0 - len(base) / rows, 1.0 / rows)
     squares = [

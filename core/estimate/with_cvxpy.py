@@ -84,7 +84,7 @@ def _pseudo_inertia(programme: Programme, phi: cvxpy.Variable, columns: tuple[in
 
 
 def _entropy(programme: Programme, phi: cvxpy.Variable) -> cvxpy.Expression:
-    """Sum the links' log-det divergence from the prior: trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent.
+    """Sum the links' divergence from the prior: trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent.
 
     Links whose believed body could not exist (a frame without mass in a URDF) have none.
     """

@@ -28,11 +28,7 @@ def is_uniform(time: Samples, rate_hz: float) -> bool:
 
 
 def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointSeries]:
-    """Give time.
-
-    Position and torque (or current where no torque was logged) on a uniform clock that starts at the first
-    stamp.
-    """
+    """Give time, position and torque (or current) on a uniform clock that starts at the first stamp."""
     effort = rows.torque if rows.torque is not None else rows.current
     if effort is None:
         effort = np.zeros_like(rows.position)

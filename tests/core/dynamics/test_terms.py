@@ -1,0 +1,108 @@
+"""Hold every torque term to the same contract, found by listing the files of `core/dynamics/terms`."""
+
+import ast
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
+from core.dynamics.terms.coulomb import Coulomb, direction
+from core.errors import OptionError
+from core.regressor.columns import all_columns
+from core.robot.model import Coupling, RobotModel
+from core.signals.state import MotionState
+from tests.tools import random_robot
+
+FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
+SHARED_PARTS = {"__init__", "own_joint"}
+TERMS = sorted(STANDARD_TERMS)
+
+
+@pytest.fixture
+def robot() -> RobotModel:
+    plain = random_robot(np.random.default_rng(5), 4)
+    coupling = Coupling("wrist", 4, (3, 4), (1.0, 1.0))
+    return RobotModel(plain.name, plain.links, plain.joints, plain.gravity, (coupling,))
+
+
+@pytest.fixture
+def state() -> MotionState:
+    rng = np.random.default_rng(6)
+    return MotionState(*(rng.normal(size=(40, 4)) for _ in range(3)))
+
+
+def test_every_file_of_terms_is_registered_under_its_own_name():
+    files = {path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS
+    assert files == set(STANDARD_TERMS)
+    assert all(term().name == name for name, term in STANDARD_TERMS.items())
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_a_term_says_where_it_comes_from(name):
+    text = ast.get_docstring(ast.parse((FOLDER / f"{name}.py").read_text())) or ""
+    assert "Source" in text
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_a_term_gives_one_series_for_every_entry_it_announces(name, robot, state):
+    term = STANDARD_TERMS[name]()
+    entries, parameters = term.entries(robot), term.parameters(robot)
+    assert term.series(robot, state).shape == (len(entries), 40)
+    assert len(set(entries)) == len(entries)
+    assert {parameter for _, parameter in entries} == set(range(len(parameters)))
+    assert all(0 <= joint < 4 for joint, _ in entries)
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_parameters_of_a_term_have_unique_names_and_a_unit(name, robot):
+    parameters = STANDARD_TERMS[name]().parameters(robot)
+    assert len({parameter.name for parameter in parameters}) == len(parameters)
+    assert all(parameter.unit for parameter in parameters)
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_the_compiled_columns_give_the_torque_the_term_gives_by_itself(name, robot, state):
+    model = DynamicModel(robot, (STANDARD_TERMS[name](),))
+    values = np.random.default_rng(7).normal(size=len(model.parameters))
+    plan = all_columns(model)
+    torque = np.zeros((40, 4))
+    for (joint, column), row in zip(plan.entries, plan.series(state), strict=True):
+        torque[:, joint] += values[column] * row
+    np.testing.assert_allclose(torque, model.torque(values, state), rtol=0, atol=1e-11 * np.abs(torque).max())
+
+
+@pytest.mark.parametrize("name", ["viscous", "coulomb"])
+def test_friction_never_drives_the_joint(name, robot, state):
+    model = DynamicModel(robot, (STANDARD_TERMS[name](),))
+    torque = model.torque(np.ones(len(model.parameters)), state)
+    assert (torque * state.velocity >= 0.0).all()
+
+
+def test_the_motor_of_a_coupling_takes_exactly_the_power_its_joints_give(robot, state):
+    model = standard_model(robot, ("coupling",))
+    torque = model.torque(np.array([0.3, 0.7, 0.2]), state)
+    speed = state.velocity[:, 2] + state.velocity[:, 3]
+    rate = state.acceleration[:, 2] + state.acceleration[:, 3]
+    motor = 0.3 * rate + 0.7 * speed + 0.2 * np.sign(speed)
+    np.testing.assert_allclose((torque * state.velocity).sum(axis=1), motor * speed, rtol=1e-12, atol=1e-12)
+
+
+def test_a_smoothed_sign_becomes_the_plain_one_far_from_standstill():
+    velocity = np.array([-1.0, -0.2, 0.2, 1.0])
+    np.testing.assert_allclose(direction(velocity, 0.01), np.sign(velocity), atol=1e-12)
+    assert direction(np.array([0.0]), 0.01)[0] == 0.0
+
+
+def test_extending_a_model_replaces_the_term_of_the_same_name(robot):
+    model = standard_model(robot)
+    smooth = model.with_term(Coulomb((0.1,) * 4))
+    assert [term.name for term in smooth.terms].count("coulomb") == 1
+    assert {one.name for one in smooth.parameters} == {one.name for one in model.parameters}
+
+
+def test_an_unknown_term_is_refused_with_the_list_of_known_ones(robot):
+    with pytest.raises(OptionError) as refusal:
+        standard_model(robot, ("rigid_body", "stribek"))
+    assert refusal.value.evidence["unknown"] == ["stribek"]
+    assert set(refusal.value.evidence["known"]) == set(STANDARD_TERMS)
