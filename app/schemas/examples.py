@@ -8,7 +8,7 @@ from core.robot.builtin import builtin_description
 
 YUMI_LEFT: dict[str, object] = builtin_description("yumi-left")
 EXAMPLE_LOG = "examples/yumi/log.csv"
-EXAMPLE_LOG_ID = "log-de00e10263777d132d93"
+EXAMPLE_LOG_ID = "log-5d5467910a83d6dbb2b0"
 JOB_REQUEST: dict[str, object] = {
     "kind": "identify",
     "robot": "yumi-left",

@@ -1,6 +1,6 @@
 """A two-joint arm in a vertical plane, whose torque fits on one page and is written here from the textbook.
 
-Source: Siciliano, Sciavicco, Villani, Oriolo, Robotics (2009), section 7.3.2, with the parameters about the link frames.
+Source: Siciliano, Sciavicco, Villani, Oriolo, Robotics (2009), section 7.3.2, parameters about frames.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""An executor that computes nothing: it waits until it is told to end, and then gives the outcome it was made with."""
+"""An executor that computes nothing: it waits until it is released, then gives its outcome."""
 
 import threading
 

@@ -21,12 +21,8 @@ def real(tmp_path_factory):
 def identified(real):
     robot = real.post("/v1/robots", json=description()).json()["id"]
     log = real.post("/v1/logs?name=swing.csv", content=csv_log(), headers={"Content-Type": "text/csv"}).json()
-    request = {
-        "kind": "identify",
-        "robot": robot,
-        "logs": [log["id"]],
-        "options": {"bootstrap": {"draws": 20}},
-    }
+    request = {"kind": "identify", "robot": robot, "logs": [log["id"]]}
+    request["options"] = {"bootstrap": {"draws": 20}}
     answer = real.post("/v1/jobs", json=request, headers={"Prefer": "wait=60"})
     assert answer.status_code == 200, answer.text
     assert answer.json()["state"] == "successful", answer.text
