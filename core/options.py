@@ -104,9 +104,9 @@ class _Reader:
         value = self.take(name)
         if value is None:
             return None
-        if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e12:
+        if not _is_finite(value):
             raise self.wrong(name, value, "a finite number")
-        return float(value)
+        return float(cast("float", value))
 
     def whole(self, name: str, default: int) -> int:
         value = self.optional_whole(name)
@@ -147,6 +147,10 @@ class _Reader:
             evidence={"pointer": f"/options{self.path}/{name}", "value": repr(value)[:100]},
             remedy=f"give {wanted}",
         )
+
+
+def _is_finite(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e12
 
 
 def _filter(reader: _Reader) -> FilterOptions:
@@ -206,11 +210,13 @@ def _rows(reader: _Reader, name: str, width: int) -> list[list[float]]:
     good = isinstance(rows, list) and all(
         isinstance(row, list)
         and len(row) == wide
-        and all(isinstance(one, int | float) and not isinstance(one, bool) for one in row)
+        and all(_is_finite(one) for one in row)
+        and (width == 0 or float(row[0]).is_integer())
         for row in rows
     )
     if not good:
-        raise reader.wrong(name, value, f"{'a list of rows' if width else 'a pair'} of {wide} numbers")
+        wanted = f"a list of rows of a link's number and {wide - 1} numbers" if width else "a pair of numbers"
+        raise reader.wrong(name, value, f"{wanted}, all finite")
     return [[float(one) for one in row] for row in cast("list[list[float]]", rows)]
 
 
