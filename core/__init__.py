@@ -1,1 +1,36 @@
-"""Identify the dynamics of a robot from its log: a robot that can physically exist, and how well each number is known."""
+"""Identify the dynamics of a robot from its log: a robot that can exist, and how well each number is known.
+
+The public names are found here and loaded when first used, so that reading an error class compiles no kernel.
+"""
+
+from importlib import import_module
+
+_HOMES = {
+    "IdentifyRequest": "core.study",
+    "JointLog": "core.log.model",
+    "RobotModel": "core.robot.model",
+    "VeritorqueError": "core.errors",
+    "base_parameters": "core.study",
+    "builtin_robot": "core.robot.builtin",
+    "builtin_robots": "core.robot.builtin",
+    "identify": "core.study",
+    "log_from_arrays": "core.log.reader",
+    "parse_options": "core.options",
+    "read_log": "core.log.reader",
+    "robot_from_description": "core.robot.description",
+    "robot_from_urdf": "core.robot.urdf",
+    "to_description": "core.robot.writing",
+}
+
+__all__ = list(_HOMES)
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOMES:
+        message = f"core has no public name {name!r}; it has {', '.join(sorted(_HOMES))}"
+        raise AttributeError(message)
+    return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(_HOMES)

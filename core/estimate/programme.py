@@ -21,7 +21,7 @@ from core.estimate.system import System
 from core.reduction.base import BaseModel
 
 PULL = 1e-5
-"""Weight of the pull towards the prior: costs a few thousandths of chi^2, bounds what the motion leaves open."""
+"""Weight of the pull towards the prior: costs a few thousandths of chi^2, bounds what is left open."""
 
 
 @dataclass(frozen=True, eq=False)
