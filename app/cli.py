@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from app.settings import PREFIX, Settings, reaches_other_machines
 from app.version import VERSION
 
-COMPILE_SECONDS = 60
+COMPILE_SECONDS = 5
 DEFAULTS = Settings.model_construct()
 
 COMMANDS = typer.Typer(

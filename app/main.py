@@ -59,6 +59,9 @@ def create_app(settings: Settings | None = None, *, executor: Executor | None = 
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
+        generate_unique_id_function=lambda route: (
+            route.name
+        ),  # short names for clients and for links to /docs
     )
     for chapter in (robots, logs, jobs, identify, health, pages):
         app.include_router(chapter.ROUTER)

@@ -4,7 +4,7 @@ from html import escape
 from pathlib import Path
 from string import Template
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 from fastapi.responses import FileResponse, HTMLResponse
 
 from app.problems import Problem
@@ -32,13 +32,15 @@ RECENT = 10
 
 
 @ROUTER.get("/")
-def start_page(services: ServicesOf) -> HTMLResponse:
+def start_page(request: Request, services: ServicesOf) -> HTMLResponse:
     """Show where everything is, and the latest jobs."""
     jobs, total = services.store.jobs.page(limit=RECENT, offset=0)
     page = Template((PAGES / "start.html").read_text())
     rows = "".join(_row(job) for job in jobs)
     empty = '<tr><td colspan="5">None yet.</td></tr>'
-    return HTMLResponse(page.substitute(version=VERSION, rows=rows or empty, total=total), headers=POLICY)
+    address = escape(str(request.base_url))
+    text = page.substitute(version=VERSION, address=address, rows=rows or empty, total=total)
+    return HTMLResponse(text, headers=POLICY)
 
 
 @ROUTER.get("/docs")

@@ -69,7 +69,9 @@ def test_the_start_page_lists_the_latest_jobs_and_trusts_no_text(tmp_path, log_b
     executor = StubExecutor()
     executor.release.set()
     with service(tmp_path, executor) as client:
-        assert "None yet." in client.get("/").text
+        empty = client.get("/", headers={"Host": "<script>alert(1)</script>"}).text
+        assert "None yet." in empty
+        assert "<script>" not in empty
         job = client.post("/v1/jobs", json=asked(client, log_bytes), headers={"Prefer": "wait=10"}).json()
         page = client.get("/").text
         assert job["links"]["results"] in page
