@@ -58,6 +58,7 @@ def stacked(
         _widened(factor, columns, base) / sigma
         for factor, columns, sigma in zip(factors, columns_of, noise, strict=True)
     ]
+    rows.append(np.zeros((base + 2, base + 1)))  # so that few rows are made triangular and square too
     whole = Factor.of(np.vstack(rows)).triangle
     inner = whole[:base]
     rest = whole[base:, -1]

@@ -18,9 +18,9 @@ from tests.core.estimate.worlds import World, planar_robot, world_of, wrist_robo
 from tests.tools import random_robot
 
 SOLVER_GAP = 5e-8
-"""Both solvers close the gap to 1e-8, relative to an objective near one half; twice that for two of them, and room."""
+"""Both solvers close the gap to 1e-8, relative to an objective near one half; two of them, and room."""
 PULL_SHARE = 1e-3
-"""The pull may cost a thousandth of chi^2: it weighs 1e-5 per squared unit against n equations of variance one."""
+"""The pull may cost a thousandth of chi^2: 1e-5 per squared unit against n equations of variance one."""
 
 
 def _fit(world: World, **options: object) -> Estimate:
@@ -152,7 +152,7 @@ def test_a_bound_on_a_link_that_does_not_exist_is_refused_by_its_number(bounds):
 
 
 def test_relabelling_the_joints_relabels_the_estimate():
-    # Two arms on one base, once as arm A then B and once as B then A: the joints' numbers change, the robot does not.
+    # Two arms on one base, once A then B and once B then A: the numbers change, the robot does not.
     rng = np.random.default_rng(8)
     one = random_robot(rng, 2, prismatic=0.0)
     other = replace(one, links=tuple(replace(link, antecedent=0) for link in one.links))

@@ -1,0 +1,94 @@
+"""Hold the certificate of feasibility: it passes every robot that can exist, and no robot that cannot."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.errors import SolverError
+from core.estimate import feasibility as module
+from core.estimate.feasibility import active_constraints, feasibility
+from core.robot.inertia import from_mass_properties
+from tests.core.estimate.worlds import World, planar_robot, world_of
+from tests.tools import random_robot
+
+
+@settings(max_examples=10)
+@given(seed=st.integers(0, 10_000), links=st.integers(1, 5))
+def test_the_base_parameters_of_a_robot_that_exists_are_feasible(seed, links):
+    world = world_of(random_robot(np.random.default_rng(seed), links), seed=seed, samples=60)
+    assert feasibility(world.base, world.true_base, world.prior).feasible
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("ZZ2", -0.01), ("IA2", -0.2), ("FV1", -0.1), ("FC2", -0.1), ("ZZR1", -0.3)]
+)
+def test_a_parameter_that_no_robot_has_is_refused_even_when_the_rest_is_right(name, value):
+    world = world_of(planar_robot())
+    values = world.true_base
+    values[world.base.names.index(name)] = value
+    found = feasibility(world.base, values, world.prior)
+    assert not found.feasible
+    assert found.margin < 0.0
+
+
+def test_an_inertia_smaller_than_its_own_first_moments_demand_is_refused_though_every_sign_is_right():
+    # Some mass has ZZ2 M2 >= MX2^2; but M2 enters MXR1 = MX1 + 0.4 M2 and ZZR1 = ZZ1 + 0.16 M2 too.
+    world = world_of(planar_robot())
+    values = world.true_base
+    values[world.base.names.index("ZZ2")] = 1e-3
+    values[world.base.names.index("MX2")] = 1.0
+    values[world.base.names.index("ZZR1")] = 1.0
+    assert not feasibility(world.base, values, world.prior).feasible
+
+
+def test_a_body_that_breaks_the_triangle_inequality_is_refused_though_its_mass_is_open():
+    # |XX - YY| <= ZZ for every body; the last link's XX - YY and ZZ are known, its YY and mass are not.
+    robot = random_robot(np.random.default_rng(1), 6, prismatic=0.0)
+    world = world_of(robot)
+    last = from_mass_properties(1.0, np.zeros(3), np.diag([0.05, 0.01, 0.01]))
+    values = world.truth.copy()
+    values[50:60] = last
+    assert not feasibility(world.base, world.base.base_of(values), world.prior).feasible
+
+
+def test_feasibility_does_not_depend_on_the_units_of_the_prior():
+    world = world_of(planar_robot())
+    wide = module.Prior(world.prior.centre, 10.0 * world.prior.scale, "nominal")
+    assert feasibility(world.base, world.true_base, wide).feasible
+
+
+def _solver_that_says(status: str) -> type:
+    class Solver:
+        x = np.zeros(1)
+        iterations = 3
+
+        def __init__(self, *_: object) -> None:
+            self.status = status
+
+        def solve(self) -> "Solver":
+            return self
+
+    return Solver
+
+
+def test_a_certificate_that_the_solver_did_not_finish_is_no_certificate(monkeypatch):
+    world = world_of(planar_robot())
+    monkeypatch.setattr(module.clarabel, "DefaultSolver", _solver_that_says("MaxIterations"))
+    with pytest.raises(SolverError):
+        feasibility(world.base, world.true_base, world.prior)
+
+
+def _held(world: World, **changes: float) -> tuple[str, ...]:
+    values = world.truth.copy()
+    names = [one.name for one in world.model.parameters]
+    for name, value in changes.items():
+        values[names.index(name)] = value
+    return active_constraints(world.model, values, world.prior, module.Bounds())
+
+
+def test_the_constraints_that_hold_an_estimate_are_named():
+    world = world_of(planar_robot())
+    assert _held(world) == ()
+    assert _held(world, FC1=0.0) == ("FC1",)
+    assert _held(world, IA2=0.0, XX1=0.0, YY1=0.0) == ("pseudo_inertia_1", "IA2")

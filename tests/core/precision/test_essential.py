@@ -1,0 +1,65 @@
+"""Hold the elimination of weak parameters: negligible ones leave, strong ones stay, the path is kept."""
+
+import numpy as np
+
+from core.estimate.system import System
+from core.precision.covariance import INTERVAL_95, Precision
+from core.precision.essential import Essential, essential_parameters
+from tests.core.estimate.worlds import planar_robot, world_of
+
+
+def _white(system: System) -> Precision:
+    information = system.triangle.T @ system.triangle
+    return Precision(information, information, np.zeros(len(information)), np.ones(2))
+
+
+def _problem(values: np.ndarray, seed: int = 0, rows: int = 400) -> tuple[System, Essential]:
+    rng = np.random.default_rng(seed)
+    W = rng.normal(size=(rows, len(values)))
+    y = W @ values + rng.normal(size=rows)
+    Q, R = np.linalg.qr(W)
+    rest = float(y @ y - (Q.T @ y) @ (Q.T @ y))
+    system = System(R, Q.T @ y, rest, rows, np.ones(1))
+    return system, essential_parameters(system, _white(system))
+
+
+def test_negligible_parameters_leave_and_strong_ones_stay():
+    # A unit-variance column of 400 rows tells a value to 0.05: 2 is strong, 0.001 is nothing.
+    values = np.array([2.0, 0.001, -2.0, 0.0, 1.0])
+    for seed in range(5):
+        _, essential = _problem(values, seed)
+        assert {0, 2, 4} <= set(essential.kept.tolist())
+    kept = [len(_problem(values, seed)[1].kept) for seed in range(40)]
+    # Each of the two negligible ones stays by chance in five cases of a hundred.
+    assert np.mean(kept) - 3.0 < 0.35
+
+
+def test_the_path_names_every_step_from_the_weakest_on_and_its_cost_only_grows():
+    values = np.array([2.0, 0.02, -2.0, 0.0, 0.01, 1.0])
+    system, essential = _problem(values, 1)
+    gone = [step.parameter for step in essential.path]
+    assert sorted([*gone, *essential.kept.tolist()]) == list(range(6))
+    costs = [step.cost for step in essential.path]
+    assert costs == sorted(costs)
+    assert all(step.ratio <= INTERVAL_95 for step in essential.path)
+    # The last cost is that of a fit with the kept columns alone, done here anew.
+    columns = system.triangle[:, essential.kept]
+    _, squares, *_ = np.linalg.lstsq(columns, system.target)
+    expected = float(np.sum(squares)) + system.rest
+    np.testing.assert_allclose(costs[-1], expected, rtol=1e-9)
+
+
+def test_one_parameter_always_stays():
+    _, essential = _problem(np.zeros(3), 2)
+    assert len(essential.kept) >= 1
+
+
+def test_parameters_that_nothing_excites_leave_first():
+    world = world_of(planar_robot(), noise=0.01, samples=400)
+    precision = _white(world.system)
+    opened = Precision(
+        precision.information, precision.spread, np.eye(len(world.true_base))[3], precision.memory_factor
+    )
+    essential = essential_parameters(world.system, opened)
+    assert essential.path[0].parameter == 3
+    assert essential.path[0].ratio == 0.0
