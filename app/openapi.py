@@ -41,6 +41,11 @@ def file_part(description: str) -> dict[str, Any]:
     return {"type": "string", "format": "binary", "description": description}
 
 
+def text_part(description: str, default: str) -> dict[str, Any]:
+    """Document a text in a form; without a default Swagger UI would send the word "string"."""
+    return {"type": "string", "description": description, "default": default}
+
+
 def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """Document which failures a route answers with."""
     return {

@@ -9,7 +9,7 @@ from starlette.datastructures import FormData, UploadFile
 
 from app.handlers import problem_response
 from app.negotiation import LONGEST_WAIT_S, wait_seconds
-from app.openapi import body, file_part, problems
+from app.openapi import body, file_part, problems, text_part
 from app.problems import KINDS, URN, Problem
 from app.reading import parse_json, parse_object, require_media_type
 from app.schemas.examples import MAPPING
@@ -36,19 +36,18 @@ FORM_SCHEMA = {
     "type": "object",
     "required": ["robot", "log"],
     "properties": {
-        "robot": {
-            "type": "string",
-            "description": "the id of a robot, a description (JSON) or a URDF (XML); as text or as a file",
-            "default": "yumi-left",
-        },
+        "robot": text_part(
+            "the id of a robot, a description (JSON) or a URDF (XML); as text or as a file",
+            default="yumi-left",
+        ),
         "log": {
             "type": "array",
             "items": file_part("a log"),
             "minItems": 1,
             "description": "one or more logs",
         },
-        "mapping": {"type": "string", "description": f"JSON, the same for all logs, e.g. {MAPPING}"},
-        "options": {"type": "string", "description": "JSON; options of the job", "default": "{}"},
+        "mapping": text_part(f"JSON, the same for all logs, e.g. {MAPPING}", default="{}"),
+        "options": text_part("JSON: options of the job", default="{}"),
     },
     "additionalProperties": False,
 }

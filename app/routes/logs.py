@@ -6,7 +6,7 @@ import anyio
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 
-from app.openapi import body, file_part, problems
+from app.openapi import body, file_part, problems, text_part
 from app.reading import media_type_of, parse_object, require_media_type
 from app.schemas.examples import CSV_LOG, MAPPING
 from app.schemas.logs import LogList, LogSummary
@@ -35,11 +35,7 @@ FORM_SCHEMA = {
         "file": file_part(
             "CSV, Parquet, NPZ or MATLAB; columns time, q_1.., tau_1.. unless a mapping names others"
         ),
-        "mapping": {
-            "type": "string",
-            "description": f"JSON: which column is what, in which unit, e.g. {MAPPING}",
-        },
-        "name": {"type": "string", "maxLength": 200},
+        "mapping": text_part(f"JSON: which column is what, in which unit, e.g. {MAPPING}", default="{}"),
     },
     "additionalProperties": False,
 }
@@ -110,9 +106,9 @@ async def _from_form(
     request: Request, services: Services, incoming: Incoming, *, name: str | None, mapping: str | None
 ) -> LogRecord:
     async with open_form(request, longest_text=LONGEST_MAPPING) as form:
-        refuse_unknown_parts(form, ("file", "mapping", "name"))
+        refuse_unknown_parts(form, ("file", "mapping"))
         part = files_of(form, "file")[0]
-        name = text_of(form, "name") or name or part.filename or "log"
+        name = name or part.filename or "log"
         mapping = text_of(form, "mapping") or mapping
         await receive_part(part, incoming)
         return await _add(services, incoming, name=name, mapping=mapping, kind=claimed_type(part))

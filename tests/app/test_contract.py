@@ -73,6 +73,15 @@ def test_every_operation_documents_its_answers_and_its_problems():
                 assert {"400", "413", "415", "422"} <= set(operation["responses"])
 
 
+def test_a_form_that_is_sent_as_swagger_ui_fills_it_in_is_a_good_one():
+    for path in ("/v1/logs", "/v1/identify"):
+        content = OPENAPI["paths"][path]["post"]["requestBody"]["content"]
+        assert next(iter(content)) == "multipart/form-data"
+        parts = content["multipart/form-data"]["schema"]["properties"].values()
+        for part in parts:
+            assert "default" in part or "binary" in (part.get("format"), part.get("items", {}).get("format"))
+
+
 def test_every_reference_of_the_contract_leads_somewhere():
     def references(node):
         if isinstance(node, dict):

@@ -2,8 +2,11 @@
 
 import json
 import os
+import subprocess
+import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
@@ -11,6 +14,7 @@ from app.jobs.computation import Computation, Failed, Finished, Stopped
 from app.jobs.executor import ProcessExecutor
 from tests.app import work
 
+ROOT = Path(__file__).parents[2]
 COMPUTATION = Computation(kind="identify", robot={"name": "arm"}, logs=(), options={"essential": True})
 
 
@@ -66,3 +70,31 @@ def test_an_error_of_the_science_keeps_its_evidence():
     outcome = run(work.refuse)
     assert outcome.problem["evidence"] == {"speed": 0.01, "bad": "nan"}
     assert outcome.problem["remedy"] == "move faster"
+
+
+def test_a_computation_does_not_outlive_the_service():
+    """Kill a service the hard way: the process that computes for it notices and ends."""
+    script = (
+        "import threading; from app.jobs.executor import ProcessExecutor; from tests.app import work; "
+        "from tests.app.test_executor import COMPUTATION\n"
+        "def tell(stage, fraction): print(stage, flush=True)\n"
+        "if __name__ == '__main__':\n"
+        "    ProcessExecutor(work.name_yourself).run("
+        "COMPUTATION, progress=tell, stop=threading.Event(), timeout_s=60.0)\n"
+    )
+    service = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    with service:
+        computing = int(service.stdout.readline())
+        service.kill()
+    deadline = time.monotonic() + 10.0
+    while _lives(computing) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not _lives(computing)
+
+
+def _lives(process_id):
+    try:
+        os.kill(process_id, 0)
+    except ProcessLookupError:
+        return False
+    return True

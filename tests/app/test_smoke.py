@@ -34,7 +34,7 @@ def test_a_log_sent_over_http_becomes_the_parameters_of_the_arm_that_made_it(rea
     assert len(result["base_parameters"]) == 12  # ZZR1 MXR1 MY1 ZZ2 MX2 MY2 and three of friction per joint
     for row in result["base_parameters"]:
         true = sum(factor * TRUTH.get(name, 0.0) for name, factor in row["relation"].items())
-        # The noise of 0.01 N m is nothing on 10 N m; the filters and the corner of Coulomb friction cost more.
+        # Noise of 0.01 N m is nothing on 10 N m; the filters and the corner of Coulomb friction cost more.
         assert row["value"] == pytest.approx(true, rel=0.02, abs=0.02), row["name"]
 
 
