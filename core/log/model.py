@@ -138,11 +138,12 @@ def whole_rows(log: JointLog) -> LogRows:
 
 
 def repeated(rows: LogRows) -> np.ndarray:
-    """Mark the rows whose positions (and torques, where logged) repeat the row before.
+    """Mark the rows whose positions and torques (currents, where no torque is logged) repeat the row before.
 
     As for a dropped sample.
     """
-    measured = rows.position if rows.torque is None else np.hstack([rows.position, rows.torque])
+    effort = rows.current if rows.torque is None else rows.torque
+    measured = rows.position if effort is None else np.hstack([rows.position, effort])
     same = np.zeros(len(measured), dtype=bool)
     same[1:] = np.all(measured[1:] == measured[:-1], axis=1)
     return same

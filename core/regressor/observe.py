@@ -157,6 +157,8 @@ class _Gathering:
         block.end = float(tile.time[-1])
         step = tile.parallel.decimation * (1 + len(tile.time) // _POSITIONS_PER_TILE)
         self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE])
+        if not tile.follows:
+            self._tails = [tail[:0] for tail in self._tails]
         pairs = list(equations(self.plan, tile))
         weights = None if self.weigh is None else self.weigh(pairs)
         for joint, (rows, usable) in enumerate(pairs):
@@ -168,7 +170,7 @@ class _Gathering:
                 self.memory[joint] = self.memory[joint].extended(
                     self._tails[joint], marked, int(usable.sum())
                 )
-                self._tails[joint] = marked[-LaggedProducts.LAGS :]
+                self._tails[joint] = np.vstack([self._tails[joint], marked])[-LaggedProducts.LAGS :]
 
     def blocks(self, log: int) -> list[Block]:
         return [self._blocks[number].closed(log, number) for number in sorted(self._blocks)]

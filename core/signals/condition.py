@@ -58,6 +58,8 @@ class Tile:
         Which kept instants may be used for which joint.
     block
         Number of the log's block that the tile belongs to.
+    follows
+        Whether its first kept instant comes right after the last one of the tile before, with no gap between.
     """
 
     state: MotionState
@@ -67,6 +69,7 @@ class Tile:
     time: Instants
     usable: InstantMask
     block: int
+    follows: bool
 
     def filtered(self, series: Series) -> KeptSeries:
         """Apply the parallel filter to rows of samples and keep the tile's instants."""
@@ -163,6 +166,10 @@ class _Segment:
             kernel(self.recipe.cutoff_hz, self.rate_hz, self.recipe.order), self.recipe.decimation
         )
 
+    @property
+    def still_samples(self) -> int:
+        return max(3, int(STILL_SECONDS * self.rate_hz))
+
     @cached_property
     def low_pass(self) -> Samples:
         return kernel(self.recipe.position_cutoff_hz, self.rate_hz, self.recipe.order)
@@ -171,17 +178,22 @@ class _Segment:
         step, reach = self.recipe.decimation, self.parallel.reach
         first, last = first_kept * step, (last_kept - 1) * step
         begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
-        state, torque = self._conditioned(begin, end)
-        marks = self._unusable(state.velocity, begin)
+        # A standstill is known by its length, so the look for it reaches that much further than the filter.
+        early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
+        wide, torque = self._conditioned(early, late)
+        inner = slice(begin - early, end - early)
+        state = MotionState(wide.position[inner], wide.velocity[inner], wide.acceleration[inner])
+        marks = self._unusable(wide.velocity, early)[inner]
         influence = self.parallel.influence(marks.T.astype(float), first - begin, last_kept - first_kept)
         return Tile(
             state=state,
-            torque=torque * motion.effort_scale,
+            torque=torque[inner] * motion.effort_scale,
             parallel=self.parallel,
             first=first - begin,
             time=self.begin_time + np.arange(first_kept, last_kept) * (step / self.rate_hz),
             usable=influence.T <= UNUSABLE_SHARE,
             block=block,
+            follows=first_kept > 0,
         )
 
     def _conditioned(self, begin: int, end: int) -> tuple[MotionState, JointSeries]:
@@ -211,8 +223,8 @@ class _Segment:
         reach = reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2
         index = np.arange(begin, begin + len(velocity))
         ends: SampleMask = (index < reach) | (index >= self.samples - reach)
-        run = max(3, int(STILL_SECONDS * self.rate_hz))
-        return np.asarray(ends[:, None] | _long_runs(np.abs(velocity) <= self.recipe.still_speed, run))
+        slow = np.abs(velocity) <= self.recipe.still_speed
+        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples))
 
 
 def _long_runs(mask: JointMask, run: int) -> JointMask:

@@ -28,6 +28,8 @@ So that their filter does not bend what the parallel filter passes.
 """
 STILL_SHARE = 0.01
 """A joint stands when it is slower than this share of its RMS speed."""
+TREMBLE_SHARE = 0.01
+"""A joint slower than this share of the fastest one only trembles; its spectrum is its encoder's."""
 _LOOK_SECONDS = 60.0
 _LOOKS = 8
 
@@ -97,23 +99,23 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         If a given cut-off does not fit the log's rate.
     """
     rate = log.rate_hz
-    bands, speeds = _survey(log)
-    moving = bands[speeds > 0.0]
+    bands, speeds, slowest = _survey(log)
+    moving = bands[speeds > TREMBLE_SHARE * speeds.max()]
     band = float(moving.max()) if len(moving) else 1.0
-    highest = 0.4 * rate
-    cutoff = options.cutoff_hz or min(PARALLEL_OVER_MOTION * band, highest / 2.0)
-    position = options.position_cutoff_hz or min(POSITION_OVER_PARALLEL * cutoff, highest)
+    nyquist = 0.5 * min(rate, slowest)
+    highest = min(0.4 * rate, 0.9 * nyquist)
+    cutoff = _given(options.cutoff_hz, min(PARALLEL_OVER_MOTION * band, highest / 2.0))
+    position = _given(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
-        if not 0.0 < value < 0.5 * rate:
+        if not 0.0 < value < nyquist:
             raise OptionError(
                 f"{name} does not fit the log's rate",
-                evidence={name: value, "rate_hz": rate},
-                remedy=f"give a cut-off above 0 and below {0.5 * rate:.6g} Hz",
+                evidence={name: value, "rate_hz": 2.0 * nyquist},
+                remedy=f"give a cut-off above 0 and below {nyquist:.6g} Hz",
             )
     decimation = options.decimation or max(1, int(0.4 * rate / cutoff))
-    chosen = (
-        "given" if options.cutoff_hz else f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
-    )
+    chosen = f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
+    reason = chosen if options.cutoff_hz is None else "given"
     return Recipe(
         median_order=options.median_order,
         position_cutoff_hz=position,
@@ -124,24 +126,34 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         rms_speed=speeds,
         still_speed=STILL_SHARE * speeds,
         reason=(
-            f"parallel filter at {cutoff:.3g} Hz ({chosen}), positions at {position:.3g} Hz,"
+            f"parallel filter at {cutoff:.3g} Hz ({reason}), positions at {position:.3g} Hz,"
             f" one sample in {decimation} kept"
         ),
     )
 
 
-def _survey(log: JointLog) -> tuple[JointVector, JointVector]:
-    """Give band (Hz) and RMS speed of every joint, from up to eight looks over the longest segment."""
+def _given(asked: float | None, chosen: float) -> float:
+    return chosen if asked is None else asked
+
+
+def _survey(log: JointLog) -> tuple[JointVector, JointVector, float]:
+    """Give band (Hz) and RMS speed of every joint, from up to eight looks over the longest segment.
+
+    Last comes the mean rate (Hz) of the slowest look: rows that were never recorded make it less than the
+    log's.
+    """
     start, stop = max(log.segments, key=lambda one: one[1] - one[0])
     length = min(stop - start, int(_LOOK_SECONDS * log.rate_hz))
     count = min(_LOOKS, max(1, (stop - start) // length))
     firsts = np.linspace(start, stop - length, count).astype(int)
-    looks = [_velocity(log.source.rows(int(first), int(first) + length), log.rate_hz) for first in firsts]
+    seen = [log.source.rows(int(first), int(first) + length) for first in firsts]
+    slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in seen)
+    looks = [_velocity(rows, log.rate_hz) for rows in seen]
     speeds = np.sqrt(np.mean([np.mean(look**2, axis=0) for look in looks], axis=0))
     power = np.mean([_power(look, log.rate_hz) for look in looks], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
     held = np.cumsum(power, axis=0) / np.maximum(power.sum(axis=0), np.finfo(float).tiny)
-    return np.array([frequency[np.argmax(one >= MOTION_SHARE)] for one in held.T]), speeds
+    return np.array([frequency[np.argmax(one >= MOTION_SHARE)] for one in held.T]), speeds, slowest
 
 
 def _velocity(rows: LogRows, rate_hz: float) -> JointSeries:

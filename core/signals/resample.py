@@ -1,16 +1,18 @@
 """Bring stamped samples onto one clock: real stamps are honoured, uniform ones are left exactly as they are.
 
 Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be
-differentiated twice, torques carry noise that a spline would amplify. Rows that repeat the row before are
-dropped samples and are left out.
+differentiated twice, torques carry noise that a spline would amplify. A few rows that repeat the row before
+are dropped samples and are left out; many of them are a robot that stands still.
 """
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.arrays import Instants, InstantSeries, JointSeries, Samples
+from core.arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
 from core.log.model import LogRows, repeated
 
+STANDING_ROWS = 20
+"""More repeats than these in a row are a standstill, which a spline has to be told of."""
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that stray from a uniform clock by less than a thousandth of a step are uniform."""
 
@@ -41,9 +43,21 @@ def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointS
 
 def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[InstantSeries, InstantSeries]:
     """Interpolate position and effort at the instants of a grid inside the rows' time span."""
-    fresh = ~repeated(rows)
+    fresh = ~_dropped(rows)
     time = rows.time[fresh]
     torque = np.column_stack([np.interp(grid, time, column) for column in effort[fresh].T])
     if len(time) < 4:
         return np.column_stack([np.interp(grid, time, column) for column in rows.position[fresh].T]), torque
     return np.asarray(CubicSpline(time, rows.position[fresh], axis=0)(grid)), torque
+
+
+def _dropped(rows: LogRows) -> SampleMask:
+    """Mark the repeats that stand for dropped samples; never the last row, beyond which nothing is known."""
+    repeats = repeated(rows)
+    starts = np.flatnonzero(np.diff(repeats, prepend=False) & repeats)
+    stops = np.flatnonzero(np.diff(repeats, append=False) & repeats) + 1
+    for start, stop in zip(starts, stops, strict=True):
+        if stop - start > STANDING_ROWS:
+            repeats[start:stop] = False
+    repeats[-1] = False
+    return repeats

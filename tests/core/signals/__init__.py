@@ -1,0 +1,1 @@
+"""Hold the laws of conditioning: filters, derivatives, clocks and recipes."""

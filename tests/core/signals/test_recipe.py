@@ -1,0 +1,108 @@
+"""A recipe follows the motion, says why, and never looks at the torque."""
+
+import numpy as np
+import pytest
+
+from core.errors import OptionError
+from core.signals.recipe import FilterOptions, Recipe, choose_recipe
+from tests.core.signals.motions import Multisine, log_of
+
+RATE_HZ = 500.0
+
+
+def _recipe(
+    options: FilterOptions | None = None, *, pace: float = 1.0, torque: np.ndarray | None = None
+) -> Recipe:
+    time = np.arange(30_000) / RATE_HZ
+    swing = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0)
+    return choose_recipe(log_of(time, swing.position(pace * time), torque), options or FilterOptions())
+
+
+@pytest.mark.parametrize("pace", [0.5, 2.0, 4.0])
+def test_a_motion_played_faster_gets_cut_offs_as_much_higher(pace):
+    # The spectrum is read in steps of 1/8 Hz.
+    slow, fast = _recipe(), _recipe(pace=pace)
+    assert abs(fast.motion_band_hz - pace * slow.motion_band_hz) <= 0.13 * (1.0 + pace)
+    assert fast.cutoff_hz / slow.cutoff_hz == pytest.approx(fast.motion_band_hz / slow.motion_band_hz)
+    assert fast.position_cutoff_hz > 3.0 * fast.cutoff_hz
+
+
+def test_the_band_holds_the_motion():
+    swing = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0)
+    assert 0.8 * swing.frequency_hz.max() < _recipe().motion_band_hz < swing.frequency_hz.max() + 0.5
+
+
+def test_the_torque_has_no_say_in_the_recipe():
+    noise = 10.0 * np.random.default_rng(2).normal(size=(30_000, 3))
+    one, other = _recipe(), _recipe(torque=noise)
+    assert (one.cutoff_hz, one.position_cutoff_hz, one.decimation) == (
+        other.cutoff_hz,
+        other.position_cutoff_hz,
+        other.decimation,
+    )
+    assert np.array_equal(one.still_speed, other.still_speed)
+
+
+def test_encoder_noise_does_not_widen_the_band():
+    time = np.arange(30_000) / RATE_HZ
+    swing = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0)
+    noisy = swing.position(time) + 1e-5 * np.random.default_rng(3).normal(size=(30_000, 3))
+    assert choose_recipe(log_of(time, noisy), FilterOptions()).motion_band_hz < _recipe().motion_band_hz + 0.5
+
+
+def test_what_is_asked_for_is_what_is_done():
+    recipe = _recipe(FilterOptions(3, 8.0, 33.0, 4, 7))
+    assert (recipe.median_order, recipe.cutoff_hz, recipe.position_cutoff_hz) == (3, 8.0, 33.0)
+    assert (recipe.order, recipe.decimation) == (4, 7)
+    assert "given" in recipe.reason
+
+
+def test_the_reason_names_the_motions_band():
+    recipe = _recipe()
+    assert f"{recipe.motion_band_hz:.3g} Hz" in recipe.reason
+
+
+def test_a_log_too_slow_for_its_motion_still_gets_filters_below_half_its_rate():
+    time = np.arange(600) / 20.0
+    position = Multisine.random(np.random.default_rng(4), 2, highest_hz=6.0).position(time)
+    recipe = choose_recipe(log_of(time, position), FilterOptions())
+    assert 0.0 < recipe.cutoff_hz <= recipe.position_cutoff_hz < 10.0
+    assert recipe.decimation >= 1
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"cutoff_hz": 250.0}, {"cutoff_hz": -1.0}, {"position_cutoff_hz": 300.0}, {"cutoff_hz": float("nan")}],
+)
+def test_a_cut_off_that_does_not_fit_the_rate_is_refused_with_the_rate(options):
+    with pytest.raises(OptionError) as refusal:
+        _recipe(FilterOptions(**options))
+    assert refusal.value.evidence["rate_hz"] == pytest.approx(RATE_HZ)
+
+
+def test_a_cut_off_of_zero_is_refused_and_not_taken_for_none():
+    with pytest.raises(OptionError):
+        _recipe(FilterOptions(cutoff_hz=0.0))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"median_order": 4},
+        {"median_order": 33},
+        {"median_order": -1},
+        {"decimation": 0},
+        {"decimation": 1001},
+    ],
+)
+def test_options_that_make_no_sense_are_refused_by_name(wrong):
+    with pytest.raises(OptionError) as refusal:
+        FilterOptions(**wrong)
+    assert set(refusal.value.evidence) == set(wrong)
+
+
+def test_a_joint_that_only_trembles_does_not_widen_the_band():
+    time = np.arange(30_000) / RATE_HZ
+    position = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0).position(time)
+    position[:, 2] = 0.3 + 1e-5 * np.random.default_rng(5).normal(size=len(time))
+    assert choose_recipe(log_of(time, position), FilterOptions()).motion_band_hz < 1.5
