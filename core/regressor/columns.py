@@ -89,7 +89,7 @@ class _TermFill:
 
     def __call__(self, state: MotionState, out: Series) -> None:
         keep = self.targets >= 0
-        np.add.at(out, self.targets[keep], self.term.series(self.robot, state)[keep])  # type: ignore[attr-defined]
+        out[self.targets[keep]] = self.term.series(self.robot, state)[keep]  # type: ignore[attr-defined]
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,20 +134,15 @@ class _RigidBodyFill:
         )
 
     def __call__(self, state: MotionState, out: Series) -> None:
-        coordinate = self.ratio[:, None] * state.position.T[self.joint] + self.offset[:, None]
-        slides = self.prismatic[:, None]
-        angle = np.where(slides, 0.0, coordinate) if self.prismatic.any() else coordinate
-        stroke = np.where(slides, coordinate, 0.0)
         rigid_body_series(
-            np.cos(angle),
-            np.sin(angle),
-            stroke,
+            np.ascontiguousarray(state.position.T),
             np.ascontiguousarray(state.velocity.T),
             np.ascontiguousarray(state.acceleration.T),
             self.prismatic,
             self.antecedent,
             self.joint,
             self.ratio,
+            self.offset,
             self.rotation,
             self.translation,
             np.asarray(self.robot.gravity, dtype=float),

@@ -1,35 +1,182 @@
-"""Compute the rigid body's regressor, compiled: torque per unit inertial parameter for every joint that carries the link.
+"""Compute the rigid body's regressor, compiled: torque per unit inertial parameter on every carrying joint.
 
 Each link's six-by-ten force map is written in the link's own frame and projected on the axes of the joints
 that carry it, which are themselves carried outwards link by link; no six-by-six transform appears. Samples
-are taken in blocks small enough for the first-level cache, with the sample index innermost so that the
-compiler can use vector instructions. Sources: Atkeson, An & Hollerbach 1986 (linearity); Khalil & Dombre
-(2002), ch. 9.
+are taken in blocks small enough for the nearest caches, with the sample index innermost so that the compiler
+can use vector instructions. It does so only where a loop stores into one table and reads others, where what
+its turns share stands in local numbers, and where indices are unsigned (a signed one may count from the end);
+each loop below is written to that rule, and sine and cosine are series for the same reason. Sources:
+Atkeson, An & Hollerbach 1986 (linearity); Khalil & Dombre (2002), ch. 9.
 """
+
+# Types stand in the signature; numbers and tables are handed on one by one, which is what compiles well.
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
+# mypy: disable-error-code="no-untyped-def"
+
+from math import factorial
 
 import numpy as np
 from numba import njit
 
-BLOCK = 32
+BLOCK = 64
+
+TWO_OVER_PI = 2.0 / np.pi
+HALF_PI_HIGH = float.fromhex("0x1.921fb544p+0")
+"""Half of pi to 33 bits, so that its product with a count of quarter turns is exact; the rest follows."""
+HALF_PI_LOW = float.fromhex("0x1.0b4611a626331p-34")
+S3, S5, S7, S9, S11, S13, S15, S17 = ((-1.0) ** k / factorial(2 * k + 1) for k in range(1, 9))
+C2, C4, C6, C8, C10, C12, C14, C16 = ((-1.0) ** k / factorial(2 * k) for k in range(1, 9))
 
 _SIGNATURE = (
-    "void(float64[:,::1], float64[:,::1], float64[:,::1], float64[:,::1], float64[:,::1], boolean[::1], int64[::1],"
-    " int64[::1], float64[::1], float64[:,:,::1], float64[:,::1], float64[::1], int64[::1], int64[::1], int64[:,::1],"
+    "void(float64[:,::1], float64[:,::1], float64[:,::1], boolean[::1], int64[::1], int64[::1], float64[::1],"
+    " float64[::1], float64[:,:,::1], float64[:,::1], float64[::1], int64[::1], int64[::1], int64[:,::1],"
     " float64[:,::1])"
 )
 
 
+@njit(inline="always")
+def _sine_cosine(angle):
+    """Give sine and cosine to rounding, for angles up to a million radians, by series that vectorise."""
+    quarters = np.floor(angle * TWO_OVER_PI + 0.5)
+    x = (angle - quarters * HALF_PI_HIGH) - quarters * HALF_PI_LOW
+    z = x * x
+    sine = x + x * z * (S3 + z * (S5 + z * (S7 + z * (S9 + z * (S11 + z * (S13 + z * (S15 + z * S17)))))))
+    cosine = 1.0 + z * (C2 + z * (C4 + z * (C6 + z * (C8 + z * (C10 + z * (C12 + z * (C14 + z * C16)))))))
+    turn = quarters - 4.0 * np.floor(0.25 * quarters)
+    first, second = (sine, cosine) if turn - 2.0 * np.floor(0.5 * turn) == 0.0 else (cosine, sine)
+    return (-first if turn >= 2.0 else first), (-second if abs(turn - 1.5) < 1.0 else second)
+
+
+@njit(inline="always")
+def _place_link(place, position, joint, begin, count, scale, offset, slides, rotation, translation):
+    """Write the link's frame in its antecedent's: nine rows of rotation, three of position."""
+    r00, r01, r02 = rotation[0, 0], rotation[0, 1], rotation[0, 2]
+    r10, r11, r12 = rotation[1, 0], rotation[1, 1], rotation[1, 2]
+    r20, r21, r22 = rotation[2, 0], rotation[2, 1], rotation[2, 2]
+    t0, t1, t2 = translation[0], translation[1], translation[2]
+    for s in range(count):
+        coordinate = scale * position[joint, begin + s] + offset
+        d, c = _sine_cosine((1.0 - slides) * coordinate)
+        q = slides * coordinate
+        place[0, s], place[1, s], place[2, s] = c * r00 + d * r01, c * r01 - d * r00, r02
+        place[3, s], place[4, s], place[5, s] = c * r10 + d * r11, c * r11 - d * r10, r12
+        place[6, s], place[7, s], place[8, s] = c * r20 + d * r21, c * r21 - d * r20, r22
+        place[9, s], place[10, s], place[11, s] = t0 + q * r02, t1 + q * r12, t2 + q * r22
+
+
+@njit(inline="always")
+def _copy(table, place, rows, many, count):
+    """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
+    for row in range(many):
+        for s in range(count):
+            table[place, row, s] = rows[row, s]
+
+
+@njit(inline="always")
+def _move_link(motion, parent, own, place, velocity, acceleration, joint, begin, moved, count, turns, slides):
+    """Carry spin, its rate and the origin's acceleration less gravity (three rows each) one link outwards."""
+    for s in range(count):
+        p0, p1, p2 = place[9, s], place[10, s], place[11, s]
+        w0, w1, w2 = motion[parent, 0, s], motion[parent, 1, s], motion[parent, 2, s]
+        e0, e1, e2 = motion[parent, 3, s], motion[parent, 4, s], motion[parent, 5, s]
+        wp = w0 * p0 + w1 * p1 + w2 * p2
+        ww = w0 * w0 + w1 * w1 + w2 * w2
+        a0 = motion[parent, 6, s] + e1 * p2 - e2 * p1 + w0 * wp - p0 * ww
+        a1 = motion[parent, 7, s] + e2 * p0 - e0 * p2 + w1 * wp - p1 * ww
+        a2 = motion[parent, 8, s] + e0 * p1 - e1 * p0 + w2 * wp - p2 * ww
+        v, dv = velocity[joint, begin + s], acceleration[joint, begin + s]
+        u0 = place[0, s] * w0 + place[3, s] * w1 + place[6, s] * w2
+        u1 = place[1, s] * w0 + place[4, s] * w1 + place[7, s] * w2
+        u2 = place[2, s] * w0 + place[5, s] * w1 + place[8, s] * w2
+        moved[0, s] = u0
+        moved[1, s] = u1
+        moved[2, s] = u2 + turns * v
+        moved[3, s] = place[0, s] * e0 + place[3, s] * e1 + place[6, s] * e2 + turns * (u1 * v)
+        moved[4, s] = place[1, s] * e0 + place[4, s] * e1 + place[7, s] * e2 - turns * (u0 * v)
+        moved[5, s] = place[2, s] * e0 + place[5, s] * e1 + place[8, s] * e2 + turns * dv
+        moved[6, s] = place[0, s] * a0 + place[3, s] * a1 + place[6, s] * a2 + slides * (2.0 * u1 * v)
+        moved[7, s] = place[1, s] * a0 + place[4, s] * a1 + place[7, s] * a2 - slides * (2.0 * u0 * v)
+        moved[8, s] = place[2, s] * a0 + place[5, s] * a1 + place[8, s] * a2 + slides * dv
+    _copy(motion, own, moved, 9, count)
+
+
+@njit(inline="always")
+def _map_forces(effect, motion, own, count):
+    """Write what one unit of each parameter asks for: 18 rows of moment (XX..ZZ), 9 of force (MX..MZ)."""
+    for s in range(count):
+        w0, w1, w2 = motion[own, 0, s], motion[own, 1, s], motion[own, 2, s]
+        e0, e1, e2 = motion[own, 3, s], motion[own, 4, s], motion[own, 5, s]
+        xx, yy, zz = w0 * w0, w1 * w1, w2 * w2
+        xy, xz, yz = w0 * w1, w0 * w2, w1 * w2
+        effect[0, s], effect[1, s], effect[2, s] = e0, xz, -xy
+        effect[3, s], effect[4, s], effect[5, s] = e1 - xz, e0 + yz, xx - yy
+        effect[6, s], effect[7, s], effect[8, s] = e2 + xy, zz - xx, e0 - yz
+        effect[9, s], effect[10, s], effect[11, s] = -yz, e1, xy
+        effect[12, s], effect[13, s], effect[14, s] = yy - zz, e2 - xy, e1 + xz
+        effect[15, s], effect[16, s], effect[17, s] = yz, -xz, e2
+        effect[18, s], effect[19, s], effect[20, s] = -(yy + zz), xy + e2, xz - e1
+        effect[21, s], effect[22, s], effect[23, s] = xy - e2, -(xx + zz), yz + e0
+        effect[24, s], effect[25, s], effect[26, s] = xz + e1, yz - e0, -(xx + yy)
+
+
+@njit(inline="always")
+def _move_axis(axis, inner, outer, place, moved, count):
+    """Write a carrying joint's axis (three rows of direction, three of moment) in the next link's frame."""
+    for s in range(count):
+        p0, p1, p2 = place[9, s], place[10, s], place[11, s]
+        x0, x1, x2 = axis[inner, 0, s], axis[inner, 1, s], axis[inner, 2, s]
+        y0 = axis[inner, 3, s] + x1 * p2 - x2 * p1
+        y1 = axis[inner, 4, s] + x2 * p0 - x0 * p2
+        y2 = axis[inner, 5, s] + x0 * p1 - x1 * p0
+        moved[0, s] = place[0, s] * x0 + place[3, s] * x1 + place[6, s] * x2
+        moved[1, s] = place[1, s] * x0 + place[4, s] * x1 + place[7, s] * x2
+        moved[2, s] = place[2, s] * x0 + place[5, s] * x1 + place[8, s] * x2
+        moved[3, s] = place[0, s] * y0 + place[3, s] * y1 + place[6, s] * y2
+        moved[4, s] = place[1, s] * y0 + place[4, s] * y1 + place[7, s] * y2
+        moved[5, s] = place[2, s] * y0 + place[5, s] * y1 + place[8, s] * y2
+    _copy(axis, outer, moved, 6, count)
+
+
+@njit(inline="always")
+def _project(torque, axis, pair, effect, motion, own, count):
+    """Write the torque on one carrying joint per unit of each of the link's ten parameters."""
+    for s in range(count):
+        x0, x1, x2 = axis[pair, 0, s], axis[pair, 1, s], axis[pair, 2, s]
+        y0, y1, y2 = axis[pair, 3, s], axis[pair, 4, s], axis[pair, 5, s]
+        a0, a1, a2 = motion[own, 6, s], motion[own, 7, s], motion[own, 8, s]
+        torque[0, s] = x0 * effect[0, s] + x1 * effect[1, s] + x2 * effect[2, s]
+        torque[1, s] = x0 * effect[3, s] + x1 * effect[4, s] + x2 * effect[5, s]
+        torque[2, s] = x0 * effect[6, s] + x1 * effect[7, s] + x2 * effect[8, s]
+        torque[3, s] = x0 * effect[9, s] + x1 * effect[10, s] + x2 * effect[11, s]
+        torque[4, s] = x0 * effect[12, s] + x1 * effect[13, s] + x2 * effect[14, s]
+        torque[5, s] = x0 * effect[15, s] + x1 * effect[16, s] + x2 * effect[17, s]
+        # the origin's acceleration acts on the lever: x (e_k x a) = e_k (a x x)
+        torque[6, s] = x2 * a1 - x1 * a2 + y0 * effect[18, s] + y1 * effect[19, s] + y2 * effect[20, s]
+        torque[7, s] = x0 * a2 - x2 * a0 + y0 * effect[21, s] + y1 * effect[22, s] + y2 * effect[23, s]
+        torque[8, s] = x1 * a0 - x0 * a1 + y0 * effect[24, s] + y1 * effect[25, s] + y2 * effect[26, s]
+        torque[9, s] = y0 * a0 + y1 * a1 + y2 * a2
+
+
+@njit(inline="always")
+def _add(out, slots, torque, scale, begin, count):
+    """Add the wanted rows to the output."""
+    for k in range(10):
+        if slots[k] >= 0:
+            target = np.uintp(slots[k])
+            for s in range(count):
+                out[target, begin + s] += scale * torque[k, s]
+
+
 @njit(_SIGNATURE, nogil=True, cache=True, fastmath={"contract", "nsz", "arcp"}, error_model="numpy")
-def rigid_body_series(  # pragma: no cover  (compiled)  # noqa: PLR0912, PLR0913, PLR0915, C901
-    cosine,
-    sine,
-    stroke,
+def rigid_body_series(  # pragma: no cover  (compiled)
+    position,
     velocity,
     acceleration,
     prismatic,
     antecedent,
     joint,
     ratio,
+    offset,
     rotation,
     translation,
     gravity,
@@ -38,141 +185,60 @@ def rigid_body_series(  # pragma: no cover  (compiled)  # noqa: PLR0912, PLR0913
     slot,
     out,
 ):
-    """Fill `out[slot[pair, k]]` with the torque on a carrying joint per unit parameter k of a link.
+    """Add to `out[slot[pair, k]]` the torque on a carrying joint per unit parameter k of a link.
 
-    `cosine`, `sine`, `stroke` are (links, samples); `velocity`, `acceleration` are (joints, samples); pairs
-    run over links and, within a link, over its chain from the base outwards; `slot` is -1 where the series is
-    not wanted. Where two carriers move with the same joint their series add up, so `out` must come in as
-    zeros.
+    `position`, `velocity`, `acceleration` are (joints, samples); pairs run over links and, within a link,
+    over its chain from the base outwards; `slot` is -1 where the series is not wanted. Where two carriers
+    move with the same joint their series add up, so `out` must come in as zeros.
     """
     links = len(antecedent)
-    samples = cosine.shape[1]
-    pairs = len(chain)
-    turn = np.empty((9, BLOCK))
-    spin = np.empty((links, 3, BLOCK))
-    rate = np.empty((links, 3, BLOCK))
-    push = np.empty((links, 3, BLOCK))
-    axis = np.empty((pairs, 6, BLOCK))
-    map_moment = np.empty((18, BLOCK))
-    map_force = np.empty((9, BLOCK))
+    samples = position.shape[1]
+    place = np.empty((12, BLOCK))
+    motion = np.zeros((links + 1, 9, BLOCK))
+    axis = np.zeros((len(chain), 6, BLOCK))
+    effect = np.empty((27, BLOCK))
+    moved = np.empty((9, BLOCK))
+    torque = np.empty((10, BLOCK))
+    for k in range(3):
+        motion[0, 6 + k] = -gravity[k]
+    for j in range(links):
+        axis[chain_start[j + 1] - 1, 5 if prismatic[j] else 2] = 1.0
     for begin in range(0, samples, BLOCK):
-        count = min(BLOCK, samples - begin)
+        start, count = np.uintp(begin), np.uintp(min(BLOCK, samples - begin))
         for j in range(links):
-            a = antecedent[j] - 1
-            mine = joint[j]
-            scale = ratio[j]
-            slides = prismatic[j]
-            r = rotation[j]
-            t0, t1, t2 = translation[j, 0], translation[j, 1], translation[j, 2]
-            for s in range(count):
-                c, d = cosine[j, begin + s], sine[j, begin + s]
-                for row in range(3):
-                    turn[3 * row, s] = c * r[row, 0] + d * r[row, 1]
-                    turn[3 * row + 1, s] = c * r[row, 1] - d * r[row, 0]
-                    turn[3 * row + 2, s] = r[row, 2]
-            for s in range(count):
-                q = stroke[j, begin + s]
-                p0, p1, p2 = t0 + q * r[0, 2], t1 + q * r[1, 2], t2 + q * r[2, 2]
-                if a >= 0:
-                    w0, w1, w2 = spin[a, 0, s], spin[a, 1, s], spin[a, 2, s]
-                    e0, e1, e2 = rate[a, 0, s], rate[a, 1, s], rate[a, 2, s]
-                    wp = w0 * p0 + w1 * p1 + w2 * p2
-                    ww = w0 * w0 + w1 * w1 + w2 * w2
-                    a0 = push[a, 0, s] + e1 * p2 - e2 * p1 + w0 * wp - p0 * ww
-                    a1 = push[a, 1, s] + e2 * p0 - e0 * p2 + w1 * wp - p1 * ww
-                    a2 = push[a, 2, s] + e0 * p1 - e1 * p0 + w2 * wp - p2 * ww
-                else:
-                    w0 = w1 = w2 = e0 = e1 = e2 = 0.0
-                    a0, a1, a2 = -gravity[0], -gravity[1], -gravity[2]
-                m0, m1, m2 = turn[0, s], turn[3, s], turn[6, s]
-                n0, n1, n2 = turn[1, s], turn[4, s], turn[7, s]
-                o0, o1, o2 = turn[2, s], turn[5, s], turn[8, s]
-                u0 = m0 * w0 + m1 * w1 + m2 * w2
-                u1 = n0 * w0 + n1 * w1 + n2 * w2
-                u2 = o0 * w0 + o1 * w1 + o2 * w2
-                f0 = m0 * e0 + m1 * e1 + m2 * e2
-                f1 = n0 * e0 + n1 * e1 + n2 * e2
-                f2 = o0 * e0 + o1 * e1 + o2 * e2
-                g0 = m0 * a0 + m1 * a1 + m2 * a2
-                g1 = n0 * a0 + n1 * a1 + n2 * a2
-                g2 = o0 * a0 + o1 * a1 + o2 * a2
-                v = scale * velocity[mine, begin + s]
-                dv = scale * acceleration[mine, begin + s]
-                if slides:
-                    g0 += 2.0 * u1 * v
-                    g1 -= 2.0 * u0 * v
-                    g2 += dv
-                else:
-                    f0 += u1 * v
-                    f1 -= u0 * v
-                    f2 += dv
-                    u2 += v
-                spin[j, 0, s], spin[j, 1, s], spin[j, 2, s] = u0, u1, u2
-                rate[j, 0, s], rate[j, 1, s], rate[j, 2, s] = f0, f1, f2
-                push[j, 0, s], push[j, 1, s], push[j, 2, s] = g0, g1, g2
-            for s in range(count):
-                w0, w1, w2 = spin[j, 0, s], spin[j, 1, s], spin[j, 2, s]
-                e0, e1, e2 = rate[j, 0, s], rate[j, 1, s], rate[j, 2, s]
-                xx, yy, zz = w0 * w0, w1 * w1, w2 * w2
-                xy, xz, yz = w0 * w1, w0 * w2, w1 * w2
-                map_moment[0, s], map_moment[1, s], map_moment[2, s] = e0, xz, -xy
-                map_moment[3, s], map_moment[4, s], map_moment[5, s] = e1 - xz, e0 + yz, xx - yy
-                map_moment[6, s], map_moment[7, s], map_moment[8, s] = e2 + xy, zz - xx, e0 - yz
-                map_moment[9, s], map_moment[10, s], map_moment[11, s] = -yz, e1, xy
-                map_moment[12, s], map_moment[13, s], map_moment[14, s] = yy - zz, e2 - xy, e1 + xz
-                map_moment[15, s], map_moment[16, s], map_moment[17, s] = yz, -xz, e2
-                map_force[0, s], map_force[1, s], map_force[2, s] = -(yy + zz), xy + e2, xz - e1
-                map_force[3, s], map_force[4, s], map_force[5, s] = xy - e2, -(xx + zz), yz + e0
-                map_force[6, s], map_force[7, s], map_force[8, s] = xz + e1, yz - e0, -(xx + yy)
-            first = chain_start[j]
-            depth = chain_start[j + 1] - first
-            above = chain_start[a] if a >= 0 else 0
-            for k in range(depth - 1):
-                for s in range(count):
-                    q = stroke[j, begin + s]
-                    p0, p1, p2 = t0 + q * r[0, 2], t1 + q * r[1, 2], t2 + q * r[2, 2]
-                    x0, x1, x2 = axis[above + k, 0, s], axis[above + k, 1, s], axis[above + k, 2, s]
-                    y0 = axis[above + k, 3, s] + x1 * p2 - x2 * p1
-                    y1 = axis[above + k, 4, s] + x2 * p0 - x0 * p2
-                    y2 = axis[above + k, 5, s] + x0 * p1 - x1 * p0
-                    for column in range(3):
-                        m0, m1, m2 = turn[column, s], turn[3 + column, s], turn[6 + column, s]
-                        axis[first + k, column, s] = m0 * x0 + m1 * x1 + m2 * x2
-                        axis[first + k, 3 + column, s] = m0 * y0 + m1 * y1 + m2 * y2
-            own = first + depth - 1
-            for s in range(count):
-                for column in range(6):
-                    axis[own, column, s] = 0.0
-                axis[own, 5 if slides else 2, s] = 1.0
-            for pair in range(first, first + depth):
-                scale = ratio[chain[pair]]
-                for k in range(6):
-                    target = slot[pair, k]
-                    if target >= 0:
-                        for s in range(count):
-                            out[target, begin + s] += scale * (
-                                axis[pair, 0, s] * map_moment[3 * k, s]
-                                + axis[pair, 1, s] * map_moment[3 * k + 1, s]
-                                + axis[pair, 2, s] * map_moment[3 * k + 2, s]
-                            )
-                for k in range(3):
-                    target = slot[pair, 6 + k]
-                    if target >= 0:
-                        # the body's push acts on the lever: e_k x push, seen from the axis, is the axis turned by push
-                        b, c = (k + 1) % 3, (k + 2) % 3
-                        for s in range(count):
-                            out[target, begin + s] += scale * (
-                                axis[pair, c, s] * push[j, b, s]
-                                - axis[pair, b, s] * push[j, c, s]
-                                + axis[pair, 3, s] * map_force[3 * k, s]
-                                + axis[pair, 4, s] * map_force[3 * k + 1, s]
-                                + axis[pair, 5, s] * map_force[3 * k + 2, s]
-                            )
-                target = slot[pair, 9]
-                if target >= 0:
-                    for s in range(count):
-                        out[target, begin + s] += scale * (
-                            axis[pair, 3, s] * push[j, 0, s]
-                            + axis[pair, 4, s] * push[j, 1, s]
-                            + axis[pair, 5, s] * push[j, 2, s]
-                        )
+            own, parent = np.uintp(j + 1), np.uintp(antecedent[j])
+            slides = 1.0 if prismatic[j] else 0.0
+            first, last = chain_start[j], chain_start[j + 1] - 1
+            above = chain_start[antecedent[j] - 1]
+            _place_link(
+                place,
+                position,
+                np.uintp(joint[j]),
+                start,
+                count,
+                ratio[j],
+                offset[j],
+                slides,
+                rotation[j],
+                translation[j],
+            )
+            _move_link(
+                motion,
+                parent,
+                own,
+                place,
+                velocity,
+                acceleration,
+                np.uintp(joint[j]),
+                start,
+                moved,
+                count,
+                ratio[j] * (1.0 - slides),
+                ratio[j] * slides,
+            )
+            _map_forces(effect, motion, own, count)
+            for k in range(last - first):
+                _move_axis(axis, np.uintp(above + k), np.uintp(first + k), place, moved, count)
+            for pair in range(first, last + 1):
+                _project(torque, axis, np.uintp(pair), effect, motion, own, count)
+                _add(out, slot[pair], torque, ratio[chain[pair]], start, count)
