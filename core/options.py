@@ -10,7 +10,7 @@ from typing import cast
 from core.dynamics.model import STANDARD_TERMS
 from core.errors import OptionError
 from core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid
-from core.estimate.estimate import EstimateOptions, Estimator
+from core.estimate.estimate import EstimateOptions
 from core.estimate.programme import PULL
 from core.signals.recipe import FilterOptions
 from core.validation.holdout import HoldOut
@@ -169,7 +169,7 @@ def _estimate(reader: _Reader) -> EstimateOptions:
     prior = reader.section("prior")
     bounds = _bounds(reader.section("bounds"))
     parsed = EstimateOptions(
-        estimator=cast("Estimator", reader.text("estimator", "sdp")),
+        estimator=reader.text("estimator", "sdp"),
         solver=reader.text("solver", "clarabel"),
         robust=reader.flag("robust", default=False),
         pull=prior.number("pull", PULL),
@@ -253,7 +253,8 @@ def _terms(reader: _Reader) -> tuple[str, ...] | None:
     value = reader.take("terms")
     if value is None:
         return None
-    unknown = [one for one in value if one not in STANDARD_TERMS] if isinstance(value, list) else [value]
+    known = tuple(STANDARD_TERMS)
+    unknown = [one for one in value if one not in known] if isinstance(value, list) else [value]
     if unknown or not value:
         raise OptionError(
             "a torque term is not known",

@@ -70,14 +70,16 @@ class Bounds:
             any(low > high for low, high in [*pairs, *corners])
             or any(low < 0.0 for low, _ in pairs)
             or any(a <= 0 for a in axes)
+            or self.margin < 0.0
         ):
             raise OptionError(
                 "the bounds leave no robot",
                 evidence={
                     "mass_kg": [list(one) for one in self.mass],
                     "total_mass_kg": list(self.total_mass or ()),
+                    "margin": self.margin,
                 },
-                remedy="give masses from 0 upwards, lower bounds below upper ones, and positive semi-axes",
+                remedy="give lower bounds from 0 up and below upper ones, positive semi-axes, a margin from 0 up",
             )
 
 

@@ -5,7 +5,6 @@ same equations is always reported beside it, because the difference is the price
 """
 
 from dataclasses import dataclass, field, replace
-from typing import Literal
 
 import numpy as np
 
@@ -18,8 +17,7 @@ from core.estimate.with_clarabel import solve_with_clarabel
 from core.estimate.with_cvxpy import solve_with_cvxpy
 from core.reduction.base import BaseModel
 
-Estimator = Literal["sdp", "ols", "wls", "irls"]
-ESTIMATORS: tuple[Estimator, ...] = ("sdp", "ols", "wls", "irls")
+ESTIMATORS = ("sdp", "ols", "wls", "irls")
 SOLVERS = ("clarabel", "cvxpy")
 
 
@@ -40,7 +38,7 @@ class EstimateOptions:
         Weights of the squared and of the entropic distance to the prior.
     """
 
-    estimator: Estimator = "sdp"
+    estimator: str = "sdp"
     solver: str = "clarabel"
     robust: bool = False
     pull: float = PULL

@@ -28,7 +28,7 @@ def planar_robot(**more: object) -> RobotModel:
     """Give two links of 0.4 m that move in a vertical plane: 13 base parameters, all known in closed form."""
     row = {"type": "revolute", "alpha": 0.0, "r": 0.0, "theta_offset": 0.0}
     joints = [{**row, "d": 0.0}, {**row, "d": 0.4}]
-    return robot_from_description({"name": "planar", "gravity": [0.0, -9.81, 0.0], "joints": joints, **more})
+    return robot_from_description({"name": "planar", "gravity": [0.0, -9.81, 0.0], "joints": joints} | more)
 
 
 def wrist_robot() -> RobotModel:
