@@ -65,6 +65,7 @@ def serve(
             f"{settings.host} can be reached from other machines, and the service has no keys yet; set "
             f"{PREFIX}ALLOW_REMOTE=1 if everybody who reaches the port may use it, or keep --host 127.0.0.1"
         )
+    _require_directory(settings.data_dir)
     _keep_compiled_kernels(settings.data_dir)
     _listen(settings)
 
@@ -90,6 +91,15 @@ def _settings(**chosen: object) -> Settings:
         first = error.errors(include_url=False)[0]
         _stop(f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}")
         raise
+
+
+def _require_directory(data_dir: Path) -> None:
+    try:
+        data_dir.mkdir(parents=True, exist_ok=True)
+        (data_dir / ".writable").touch()
+        (data_dir / ".writable").unlink()
+    except OSError as error:
+        _stop(f"nothing can be kept in {data_dir}: {error.strerror}; choose another --data-dir")
 
 
 def _keep_compiled_kernels(data_dir: Path) -> None:

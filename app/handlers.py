@@ -16,7 +16,7 @@ from app.reading import invalid
 from core.errors import VeritorqueError
 
 LOGGER = logging.getLogger(__name__)
-METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
+METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 _KIND_OF_STATUS = {400: "bad-request", 404: "not-found", 405: "method-not-allowed", 413: "too-large"}
 
 
@@ -70,6 +70,8 @@ async def _on_mistake(request: Request, error: Exception) -> Response:
 
 def _wrong_method(request: Request) -> Problem:
     allowed = [method for method in METHODS if _takes(request, method)]
+    if "GET" in allowed:
+        allowed.append("HEAD")
     return Problem(
         "method-not-allowed",
         f"{request.url.path} does not take {request.method}",

@@ -13,7 +13,7 @@ from fastapi import FastAPI
 
 from app import handlers, openapi
 from app.jobs.executor import Executor, ProcessExecutor
-from app.middleware import BodyLimit, SafeHeaders
+from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
 from app.routes import health, identify, jobs, logs, pages, robots
 from app.services import Services
 from app.settings import Settings
@@ -67,6 +67,7 @@ def create_app(settings: Settings | None = None, *, executor: Executor | None = 
         app.include_router(chapter.ROUTER)
     handlers.install(app)
     app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes)
+    app.add_middleware(HeadAsGet)
     app.add_middleware(SafeHeaders)
 
     def contract() -> dict[str, Any]:

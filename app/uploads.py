@@ -27,10 +27,14 @@ async def receive_body(request: Request, incoming: Incoming) -> None:
     Problem
         If the client went away meanwhile (400).
     """
+    waiting = bytearray()
     try:
         async for piece in request.stream():
-            if piece:
-                await anyio.to_thread.run_sync(incoming.write, piece)
+            waiting += piece
+            if len(waiting) >= PIECE:
+                await anyio.to_thread.run_sync(incoming.write, bytes(waiting))
+                waiting.clear()
+        await anyio.to_thread.run_sync(incoming.write, bytes(waiting))
     except ClientDisconnect:
         raise Problem("bad-request", "the upload ended early", remedy="send it again") from None
 

@@ -72,9 +72,17 @@ def test_a_setting_that_makes_no_sense_is_refused_with_its_name(listened):
     assert (refused.exit_code, listened) == (2, [])
 
 
+def test_a_directory_that_cannot_be_written_is_refused_with_a_remedy(listened, tmp_path):
+    (tmp_path / "file").touch()
+    refused = run("serve", "--data-dir", str(tmp_path / "file"))
+    assert refused.exit_code == 2
+    assert "--data-dir" in refused.output
+    assert listened == []
+
+
 def test_the_first_compilation_is_announced_once(listened, tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
-    assert "compiling the regressor once" in run("serve").output
+    assert "compiling the regressor once" in run("serve", "--data-dir", str(tmp_path)).output
     (tmp_path / "kernels" / "core").mkdir(parents=True)
     (tmp_path / "kernels" / "core" / "kernel.nbi").touch()
-    assert "compiling" not in run("serve").output
+    assert "compiling" not in run("serve", "--data-dir", str(tmp_path)).output

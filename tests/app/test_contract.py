@@ -53,7 +53,15 @@ def test_a_method_that_a_path_does_not_take_is_refused_with_all_that_it_takes(cl
     for method in {"GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"} - PROMISED[path]:
         answer = client.request(method, real)
         assert_problem(answer, 405, "method-not-allowed")
-        assert {one.strip() for one in answer.headers["allow"].split(",")} == PROMISED[path]
+        allowed = {one.strip() for one in answer.headers["allow"].split(",")}
+        assert allowed == PROMISED[path] | ({"HEAD"} if "GET" in PROMISED[path] else set())
+
+
+def test_head_is_answered_like_get_without_the_body(client, log_id):
+    for path in ("/", "/docs", "/healthz", "/v1/robots/yumi", f"/v1/logs/{log_id}", "/v1/jobs/none"):
+        head, get = client.head(path), client.get(path)
+        assert (head.status_code, head.content) == (get.status_code, b"")
+        assert head.headers["content-type"] == get.headers["content-type"]
 
 
 def test_an_address_that_does_not_exist_is_a_problem(client):
