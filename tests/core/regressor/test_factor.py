@@ -1,4 +1,4 @@
-"""Factors are a monoid, and hold all that least squares can know. Tolerance: QR rounds to 1e-15 of the norm."""
+"""Factors are a monoid, and hold all that least squares can know. Tolerance: QR rounds to 1e-15."""
 
 import numpy as np
 from hypothesis import given
