@@ -32,7 +32,9 @@ def run(*, quick: bool) -> list[Figure]:
     motion = condition(log, scene.robot, OPTIONS)
     ours = processor_seconds(lambda: observe(scene.plan, (motion,)), repeats=3) / samples * 1e6
     answers: list[np.ndarray] = []
-    theirs = processor_seconds(lambda: answers.append(_peer(scene, state.position, torque + noise)), repeats=1)
+    theirs = processor_seconds(
+        lambda: answers.append(_peer(scene, state.position, torque + noise)), repeats=1
+    )
     theirs *= 1e6 / samples
     own = _solved(*_our_rows(scene, motion))
     gap = float(np.linalg.norm((own - answers[-1]) * _spread(scene)) / np.linalg.norm(own * _spread(scene)))

@@ -27,7 +27,9 @@ def run(*, quick: bool) -> list[Figure]:
     return [
         Figure("regressor, us/sample", f"{ours:.3f}", "<= 0.35", f"pinocchio {loop:.2f}"),
         Figure("times faster than pinocchio's loop", f"{ratio:.1f}", ">= 12", ratio=True),
-        Figure("largest relative difference", f"{difference(state):.1e}", "<= 1e-12", "pinocchio", ratio=True),
+        Figure(
+            "largest relative difference", f"{difference(state):.1e}", "<= 1e-12", "pinocchio", ratio=True
+        ),
     ]
 
 
