@@ -1,0 +1,1 @@
+"""Hold the base parameters against published tables and against numerical rank."""
