@@ -66,6 +66,7 @@ def serve(
             f"{PREFIX}ALLOW_REMOTE=1 if everybody who reaches the port may use it, or keep --host 127.0.0.1"
         )
     _require_directory(settings.data_dir)
+    _compute_on_one_thread()
     _keep_compiled_kernels(settings.data_dir)
     _listen(settings)
 
@@ -100,6 +101,16 @@ def _require_directory(data_dir: Path) -> None:
         (data_dir / ".writable").unlink()
     except OSError as error:
         _stop(f"nothing can be kept in {data_dir}: {error.strerror}; choose another --data-dir")
+
+
+def _compute_on_one_thread() -> None:
+    """Let linear algebra use one thread per computation, unless the operator has decided otherwise.
+
+    The matrices are small: more threads double the CPU time of a job, wait for each other on a busy machine,
+    and add numbers in an order that depends on their count. It has to stand before numpy is loaded.
+    """
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
 
 
 def _keep_compiled_kernels(data_dir: Path) -> None:

@@ -1,4 +1,7 @@
 import json
+import os
+import subprocess
+import sys
 
 import pytest
 from typer.testing import CliRunner
@@ -11,6 +14,14 @@ from app.version import VERSION
 
 def run(*arguments, **environment):
     return CliRunner().invoke(cli.COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
+
+
+@pytest.fixture(autouse=True)
+def the_environment_is_left_as_it_was():
+    before = dict(os.environ)
+    yield
+    os.environ.clear()
+    os.environ.update(before)
 
 
 @pytest.fixture
@@ -78,6 +89,17 @@ def test_a_directory_that_cannot_be_written_is_refused_with_a_remedy(listened, t
     assert refused.exit_code == 2
     assert "--data-dir" in refused.output
     assert listened == []
+
+
+def test_linear_algebra_is_told_to_use_one_thread_before_it_is_loaded(listened, tmp_path):
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.pop(name, None)
+    os.environ["MKL_NUM_THREADS"] = "3"
+    run("serve", "--data-dir", str(tmp_path))
+    chosen = [os.environ[name] for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")]
+    assert chosen == ["1", "1", "3"]
+    loaded = "import sys, app.cli; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", loaded], check=False).returncode == 0
 
 
 def test_the_first_compilation_is_announced_once(listened, tmp_path, monkeypatch):
