@@ -79,7 +79,7 @@ class Bounds:
                     "total_mass_kg": list(self.total_mass or ()),
                     "margin": self.margin,
                 },
-                remedy="give lower bounds from 0 up and below upper ones, positive semi-axes, a margin from 0 up",
+                remedy="give lower bounds from 0 to the upper ones, positive semi-axes and a margin from 0",
             )
 
 

@@ -3,6 +3,8 @@
 The readable formulation, which is also the reference that the hot path is held against.
 """
 
+import warnings
+
 import cvxpy
 import numpy as np
 
@@ -36,10 +38,13 @@ def solve_with_cvxpy(programme: Programme) -> Solution:
         objective += programme.entropy / programme.system.rows * _entropy(programme, phi)
     problem = cvxpy.Problem(cvxpy.Minimize(objective), _constraints(programme, phi))
     try:
-        problem.solve(solver=cvxpy.CLARABEL, tol_gap_abs=1e-8, tol_gap_rel=1e-8, tol_feas=1e-8)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # an inaccurate solution is refused below
+            problem.solve(solver=cvxpy.CLARABEL, tol_gap_abs=1e-8, tol_gap_rel=1e-8, tol_feas=1e-8)
     except cvxpy.error.SolverError as error:
         raise refusal("stopped", status=str(error), solver="cvxpy", iterations=0) from None
-    iterations = int(problem.solver_stats.num_iters or 0)
+    stats = problem.solver_stats
+    iterations = int(stats.num_iters or 0) if stats is not None else 0
     if problem.status != cvxpy.OPTIMAL or phi.value is None:
         kind = _KINDS.get(problem.status, "stopped")
         raise refusal(kind, status=problem.status, solver="cvxpy", iterations=iterations)

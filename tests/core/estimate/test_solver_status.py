@@ -1,5 +1,7 @@
 """Hold the translation of solver statuses to completeness: only an optimum is success."""
 
+import warnings
+
 import clarabel
 import cvxpy
 import numpy as np
@@ -91,3 +93,31 @@ def test_an_infeasible_problem_and_an_inaccurate_one_have_different_remedies():
     }
     assert "bounds" in remedies["infeasible"]
     assert "motion" in remedies["inaccurate"]
+
+
+def test_where_rounding_stops_the_solver_early_a_coarser_accuracy_is_asked_for_before_giving_up(monkeypatch):
+    asked = []
+
+    class Solver:
+        def __init__(self, quadratic: object, *rest: object) -> None:
+            asked.append(rest[-1].tol_gap_rel)
+            self.size = quadratic.shape[0]
+
+        def solve(self) -> _Answer:
+            return _Answer("Solved" if len(asked) > 1 else "InsufficientProgress", np.ones(self.size))
+
+    monkeypatch.setattr(with_clarabel.clarabel, "DefaultSolver", Solver)
+    assert solve_with_clarabel(_programme()).status == "optimal"
+    assert asked == [1e-9, 1e-7]
+
+
+def test_an_inaccurate_solution_is_refused_by_cvxpy_as_ours_and_not_by_a_warning(monkeypatch):
+    class Hesitant(with_cvxpy.cvxpy.Problem):
+        status = "optimal_inaccurate"
+
+        def solve(self, **_options: object) -> None:
+            warnings.warn("Solution may be inaccurate.", UserWarning, stacklevel=2)
+
+    monkeypatch.setattr(with_cvxpy.cvxpy, "Problem", Hesitant)
+    with pytest.raises(SolverError, match="accuracy"):
+        solve_with_cvxpy(_programme())
