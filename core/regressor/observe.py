@@ -156,7 +156,7 @@ class _Gathering:
         block = self._blocks.setdefault(tile.block, _OpenBlock(self.plan, float(tile.time[0])))
         block.end = float(tile.time[-1])
         step = tile.parallel.decimation * (1 + len(tile.time) // _POSITIONS_PER_TILE)
-        self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE])
+        self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE].copy())
         if not tile.follows:
             self._tails = [tail[:0] for tail in self._tails]
         pairs = list(equations(self.plan, tile))
