@@ -13,7 +13,9 @@ ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 def main() -> None:
     """Read the command line and print one table per benchmark."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks", description=(__doc__ or "").partition("\n")[0]
+    )
     parser.add_argument("names", nargs="*", metavar="name", help=f"any of {', '.join(NAMES)}; all by default")
     parser.add_argument("--quick", action="store_true", help="small inputs: everything in about a minute")
     arguments = parser.parse_args()
@@ -24,7 +26,7 @@ def main() -> None:
     figures = importlib.import_module("benchmarks.figures")
     for name in arguments.names or NAMES:
         module = importlib.import_module(f"benchmarks.{name}")
-        figures.show(module.__doc__.partition("\n")[0], module.run(quick=arguments.quick))
+        figures.show((module.__doc__ or "").partition("\n")[0], module.run(quick=arguments.quick))
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -61,7 +62,7 @@ def write_log(path: Path, samples: int) -> None:
             writer.write_table(pa.table(dict(zip(names, columns, strict=True))))
 
 
-def _identified(path: Path) -> dict[str, dict[str, float]]:
+def _identified(path: Path) -> dict[str, Any]:
     command = [sys.executable, "-m", "benchmarks.hour_worker", str(path)]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     return dict(json.loads(done.stdout))

@@ -1,4 +1,4 @@
-"""The seed's criterion by Nelder-Mead: squared torque error, with a penalty unless the mass matrix is positive.
+"""The seed's criterion by Nelder-Mead: squared torque error, and a wall where M(q) is not positive.
 
 It is minimised over the same weighted equations as the semidefinite programme, from the same prior, with the
 mass matrix checked along the trajectory only, as the seed paper does. Source: the seed paper, section 3.

@@ -10,14 +10,21 @@ from scipy import signal
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import base_columns, pinocchio_model
 from benchmarks.scene import NOISE_SHARE, RATE_HZ, Scene, smooth_motion, yumi_arm
-from core.dynamics.term import MotionState
 from core.log.reader import log_from_arrays
 from core.regressor.observe import equations, observe
 from core.signals.condition import Motion, condition
 from core.signals.recipe import FilterOptions
+from core.signals.state import MotionState
 
 TRIM_SECONDS = 2.0
-OPTIONS = FilterOptions(median_order=1, cutoff_hz=10.0, position_cutoff_hz=50.0, decimation=10)
+ORDER, CUTOFF_HZ, POSITION_CUTOFF_HZ, DECIMATION = 5, 10.0, 50.0, 10
+OPTIONS = FilterOptions(
+    median_order=1,
+    cutoff_hz=CUTOFF_HZ,
+    position_cutoff_hz=POSITION_CUTOFF_HZ,
+    order=ORDER,
+    decimation=DECIMATION,
+)
 
 
 def run(*, quick: bool) -> list[Figure]:
@@ -46,16 +53,16 @@ def run(*, quick: bool) -> list[Figure]:
 
 
 def _peer(scene: Scene, position: np.ndarray, torque: np.ndarray) -> np.ndarray:
-    low = signal.butter(OPTIONS.order, OPTIONS.position_cutoff_hz, fs=RATE_HZ, output="sos")
+    low = signal.butter(ORDER, POSITION_CUTOFF_HZ, fs=RATE_HZ, output="sos")
     smooth = signal.sosfiltfilt(low, position, axis=0)
     velocity, acceleration = np.zeros_like(smooth), np.zeros_like(smooth)
     velocity[1:-1] = (smooth[2:] - smooth[:-2]) * RATE_HZ / 2.0
     acceleration[2:-2] = (velocity[3:-1] - velocity[1:-3]) * RATE_HZ / 2.0
     W = base_columns(pinocchio_model(scene.robot), scene.base, MotionState(smooth, velocity, acceleration))
-    band = signal.butter(OPTIONS.order, OPTIONS.cutoff_hz, fs=RATE_HZ, output="sos")
-    filtered = signal.sosfiltfilt(band, W, axis=0)[:: OPTIONS.decimation]
-    target = signal.sosfiltfilt(band, torque, axis=0)[:: OPTIONS.decimation]
-    edge = round(TRIM_SECONDS * RATE_HZ / OPTIONS.decimation)
+    band = signal.butter(ORDER, CUTOFF_HZ, fs=RATE_HZ, output="sos")
+    filtered = signal.sosfiltfilt(band, W, axis=0)[::DECIMATION]
+    target = signal.sosfiltfilt(band, torque, axis=0)[::DECIMATION]
+    edge = round(TRIM_SECONDS * RATE_HZ / DECIMATION)
     return _solved(filtered[edge:-edge].reshape(-1, W.shape[2]), target[edge:-edge].reshape(-1))
 
 

@@ -3,6 +3,8 @@
 Its size depends on the robot alone; the log is behind it as one factor.
 """
 
+from functools import partial
+
 import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
@@ -29,8 +31,8 @@ def run(*, quick: bool) -> list[Figure]:
         links = len(robot.links)
         programme = programme_of(scene_of(robot))
         repeats = 3 if quick or links > 20 else 7
-        ours = processor_seconds(lambda one=programme: solve_with_clarabel(one), repeats=repeats, least=0.0)
-        theirs = processor_seconds(lambda one=programme: solve_with_cvxpy(one), repeats=1, least=0.0)
+        ours = processor_seconds(partial(solve_with_clarabel, programme), repeats=repeats, least=0.0)
+        theirs = processor_seconds(partial(solve_with_cvxpy, programme), repeats=1, least=0.0)
         base, system = programme.base, programme.system
         costs = [
             system.cost(base.base_of(solve(programme).standard))

@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import base_columns, pinocchio_model, regressors
 from benchmarks.scene import RATE_HZ, smooth_motion, yumi_arm
-from core.dynamics.term import MotionState
+from core.signals.state import MotionState
 
 STRETCH = 2048
 """Samples at a time, about what a tile of a log holds."""
@@ -34,7 +34,7 @@ def run(*, quick: bool) -> list[Figure]:
 
 
 def difference(state: MotionState) -> float:
-    """Give the largest difference of any column from pinocchio's, relative to the parameter's largest torque."""
+    """Give the largest difference from pinocchio's columns, relative to the parameter's largest torque."""
     scene = yumi_arm()
     theirs = base_columns(pinocchio_model(scene.robot), scene.base, state)
     worst = 0.0

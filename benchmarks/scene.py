@@ -1,4 +1,4 @@
-"""Set the scene of the benchmarks: YuMi's left arm, a body for every link, and smooth random motion at 250 Hz.
+"""Set the scene of the benchmarks: YuMi's left arm, a body per link, and smooth random motion at 250 Hz.
 
 Frequencies are drawn at random, so that a motion of an hour does not repeat itself.
 """
@@ -10,12 +10,12 @@ from typing import Final
 import numpy as np
 
 from core.dynamics.model import DynamicModel, standard_model
-from core.dynamics.term import MotionState
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
 from core.robot.builtin import builtin_robot
 from core.robot.inertia import from_mass_properties
 from core.robot.model import RobotModel
+from core.signals.state import MotionState
 
 RATE_HZ: Final = 250.0
 HARMONICS: Final = 6
@@ -25,7 +25,7 @@ NOISE_SHARE: Final = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Hold a robot, its model, base parameters, the plan of its columns, and parameters of a possible robot."""
+    """Hold a robot, its model, base parameters, plan of columns, and parameters of a possible robot."""
 
     robot: RobotModel
     model: DynamicModel

@@ -1,4 +1,4 @@
-"""Every benchmark runs on tiny input and gives figures that mean something; how fast is not for tests to say."""
+"""Every benchmark runs on tiny input and gives figures that mean something; speed is not a test's to judge."""
 
 import importlib
 
