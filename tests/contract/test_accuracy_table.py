@@ -1,0 +1,110 @@
+"""Make the README's accuracy table again, row by row, as docs/accuracy.md says that it was made.
+
+The logs are public measurements kept beside the project; without them these tests skip and say so.
+"""
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from core.log.model import JointLog
+from core.log.reader import log_from_arrays
+from core.robot.description import robot_from_description
+from core.robot.model import RobotModel
+from core.robot.urdf import robot_from_urdf
+from core.study import IdentifyRequest, identify
+from tests.tools import shared
+
+ROOT = Path(__file__).parents[2]
+PRINTED = 0.06
+"""The table prints one decimal; a little more than half a unit of it, for rounding twice."""
+
+Cut = tuple[str, int, int | None]
+UR10E: list[Cut] = [("fourier_30s_12h", 635, 3510), ("fourier_20s_8h", 320, 2310)]
+UR10E_40S: Cut = ("fourier_40s_12h", 500, 4460)
+UR10E_50S: Cut = ("fourier_50s_12h", 355, 5090)
+UR10E_MOVES: Cut = ("validation_ptp_10pts", 700, 4200)
+TX40: list[Cut] = [("run1", 500, 26_050), ("run1", 26_050, 37_000)]
+PANDA: list[Cut] = [("traj1", 0, 10_272), ("traj1", 10_272, 20_544)]
+XMATE: list[Cut] = [("excit", 0, None)]
+ROWS: list[tuple[str, list[Cut], dict[str, object]]] = [
+    ("ur10e_open", [*UR10E, UR10E_40S], {}),
+    ("ur10e_open", [*UR10E, UR10E_40S], {"filter": {"cutoff_hz": 15.0}}),
+    ("ur10e_open", [*UR10E, UR10E_50S], {}),
+    ("ur10e_open", [UR10E[0], UR10E_MOVES], {}),
+    ("staubli_tx40", TX40, {}),
+    ("staubli_tx40", TX40, {"filter": {"cutoff_hz": 50.0}}),
+    ("staubli_tx40", TX40, {"filter": {"cutoff_hz": 50.0}, "smooth_coulomb": True}),
+    ("franka_panda", PANDA, {}),
+    ("franka_panda", PANDA, {"filter": {"cutoff_hz": 15.0}}),
+    ("rokae_xmate3", XMATE, {}),
+    ("rokae_xmate3", XMATE, {"filter": {"cutoff_hz": 10.0}}),
+]
+"""The rows of the table in their order; the last log is held out, and of a single one the default blocks."""
+
+
+def printed_rows() -> list[list[str]]:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    (table,) = re.findall(r"^\| robot \| fitted, held out \|.*?\n\n", text, re.DOTALL | re.MULTILINE)
+    return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.strip().splitlines()[2:]]
+
+
+@cache
+def robot_of(name: str) -> RobotModel:
+    if name == "ur10e_open":
+        return robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())
+    table = json.loads(shared(f"data/{name}/model_mdh.json").read_text())
+    joints = [
+        {
+            "type": "revolute",
+            "theta_offset": row["theta"],
+            **{letter: row[letter] for letter in ("alpha", "d", "r")},
+        }
+        for row in table["mdh"]
+    ]
+    couplings = []
+    if name == "staubli_tx40":
+        joints[5]["rotor_inertia"] = False
+        couplings = [{"name": "wrist", "number": 6, "joints": [5, 6], "weights": [1.0, 1.0]}]
+    return robot_from_description(
+        {"name": name, "joints": joints, "gravity": table["gravity"], "couplings": couplings}
+    )
+
+
+@cache
+def log_of(name: str, cut: Cut) -> JointLog:
+    run, start, stop = cut
+    table = pq.read_table(shared(f"data/{name}/runs/{run}.parquet"))
+    joints = len(robot_of(name).joints)
+
+    def rows(prefix: str) -> np.ndarray:
+        columns = [table[f"{prefix}_{joint}"].to_numpy() for joint in range(1, joints + 1)]
+        return np.column_stack(columns)[start:stop]
+
+    return log_from_arrays(run, table["time"].to_numpy()[start:stop], rows("q"), rows("tau"))
+
+
+def test_the_table_has_the_rows_that_are_made_here():
+    assert len(printed_rows()) == len(ROWS)
+
+
+@pytest.mark.parametrize("number", range(len(ROWS)))
+def test_every_row_of_the_accuracy_table_can_be_made_again(number):
+    name, cuts, options = ROWS[number]
+    _, _, band, percents, total = printed_rows()[number]
+    logs = tuple(log_of(name, cut) for cut in cuts)
+    held_out = {"validation": {"logs": [len(logs)]}} if len(logs) > 1 else {}
+    request = IdentifyRequest(robot_of(name), logs, {"bootstrap": {"draws": 0}, **held_out, **options})
+    made = identify(request)
+    assert made["feasibility"]["feasible"]
+    assert made["validation_total_percent"] == pytest.approx(float(total), abs=PRINTED)
+    found = [row["nrmse_of_rms_percent"] for row in made["validation"]]
+    assert found == pytest.approx([float(one) for one in percents.split()], abs=PRINTED)
+    bands = {float(one) for one in re.findall(r"[\d.]+", band)}
+    used = [log["filter"]["cutoff_hz"] for log in made["logs"]]
+    assert all(min(abs(one - each) for each in bands) < 0.5 for one in used)
