@@ -1,4 +1,4 @@
-"""Every benchmark runs on tiny input and gives figures that mean something; speed is not a test's to judge."""
+"""Every benchmark runs on tiny input and gives figures that mean something; speed is not judged here."""
 
 import importlib
 
