@@ -80,7 +80,7 @@ def standard_model(robot: RobotModel, names: tuple[str, ...] | None = None) -> D
     Raises
     ------
     OptionError
-        If a name is not a known term.
+        If a name is not a known term, or no term has a parameter on this robot.
     """
     wanted = tuple(STANDARD_TERMS) if names is None else names
     unknown = [name for name in wanted if name not in STANDARD_TERMS]
@@ -90,4 +90,11 @@ def standard_model(robot: RobotModel, names: tuple[str, ...] | None = None) -> D
             evidence={"unknown": unknown, "known": sorted(STANDARD_TERMS)},
             remedy="name terms from the list of known ones",
         )
-    return DynamicModel(robot, tuple(STANDARD_TERMS[name]() for name in STANDARD_TERMS if name in wanted))
+    model = DynamicModel(robot, tuple(STANDARD_TERMS[name]() for name in STANDARD_TERMS if name in wanted))
+    if not model.parameters:
+        raise OptionError(
+            "the chosen torque terms have no parameter on this robot",
+            evidence={"terms": list(wanted), "couplings": len(robot.couplings)},
+            remedy="keep rigid_body, or name terms that the robot's joints have",
+        )
+    return model

@@ -79,7 +79,7 @@ class Solution:
 _MEANINGS = {
     "infeasible": (
         "no robot satisfies the bounds on masses and mass centres",
-        "widen the bounds, or check that the prior's units are kg and m",
+        "widen the bounds or lower the margin, and check that masses are in kg and lengths in m",
     ),
     "unbounded": (
         "the optimum lies at infinity",

@@ -21,8 +21,6 @@ from core.robot.urdf import robot_from_urdf
 from core.study import IdentifyRequest, identify, identify_in_full
 from tests.tools import shared
 
-PRINTED = 0.05
-"""The floors are printed to one decimal, so half a unit of it belongs to them."""
 FRANKA_ROWS = 20_544
 TX40_TRAIN = (500, round((0.1 + 0.7 * 7.3) * 5000))
 TX40_TEST = (TX40_TRAIN[1], 37_000)
@@ -81,7 +79,7 @@ def _percents(document: dict[str, object], part: str) -> np.ndarray:
 
 def _assert_at_most(found: np.ndarray, floor: str) -> None:
     limits = np.array([float(one) for one in floor.split()])
-    assert np.all(found <= limits + PRINTED), f"{found.round(2).tolist()} against {limits.tolist()}"
+    assert np.all(found <= limits), f"{found.round(2).tolist()} against {limits.tolist()}"
 
 
 def _masses(document: dict[str, object]) -> np.ndarray:

@@ -163,6 +163,11 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
         OptionError,
         "link",
     ),
+    "terms that this robot does not have": (
+        lambda: _request(terms=["coupling"]),
+        OptionError,
+        "no parameter on this robot",
+    ),
     "too short a log": (
         lambda: _request(_short(), filter={"cutoff_hz": 5}),
         VeritorqueError,
