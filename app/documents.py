@@ -1,6 +1,7 @@
-"""Write JSON in the one way that the service allows: equal documents are equal bytes, and none holds NaN.
+"""Write JSON in the two ways the service needs: in order for readers, sorted for hashes; neither holds NaN.
 
-RFC 8259 leaves the order of names and the spaces open; a document that is hashed, stored and compared cannot.
+RFC 8259 leaves the order of names open. A reader expects name, value, unit; a hash must not depend on the
+order in which a client wrote its description.
 """
 
 import json
@@ -11,8 +12,19 @@ LONGEST_TEXT = 500
 LONGEST_LIST = 50
 
 
+def json_bytes(document: object) -> bytes:
+    """Write a document as JSON with its names in the order they were put in, and no spaces.
+
+    Examples
+    --------
+    >>> json_bytes({"name": "ZZR1", "joint": 1})
+    b'{"name":"ZZR1","joint":1}'
+    """
+    return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+
+
 def canonical_json(document: object) -> bytes:
-    """Write a document as JSON with sorted names and no spaces: one document, one sequence of bytes.
+    """Write a document for hashing: its names are sorted, so that equal documents are equal bytes.
 
     Examples
     --------

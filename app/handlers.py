@@ -10,7 +10,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Match
 
-from app.documents import canonical_json
+from app.documents import json_bytes
 from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of
 from app.reading import invalid
 from core.errors import VeritorqueError
@@ -23,7 +23,7 @@ _KIND_OF_STATUS = {400: "bad-request", 404: "not-found", 405: "method-not-allowe
 def problem_response(problem: Problem) -> Response:
     """Answer with a problem document."""
     return Response(
-        canonical_json(problem.document()),
+        json_bytes(problem.document()),
         status_code=problem.status_code,
         headers=dict(problem.headers or {}),
         media_type=MEDIA_TYPE,

@@ -12,7 +12,7 @@ import traceback
 from contextlib import suppress
 from multiprocessing.connection import Connection
 
-from app.documents import canonical_json
+from app.documents import json_bytes
 from app.jobs.computation import Computation, Work
 from app.problems import Problem, problem_of
 from core.errors import VeritorqueError
@@ -33,17 +33,17 @@ def compute(pipe: Connection, work: Work, computation: Computation) -> None:
             pipe.send_bytes(letter + content)
 
     def progress(stage: str, fraction: float) -> None:
-        send(PROGRESS, canonical_json([stage, min(max(float(fraction), 0.0), 1.0)]))
+        send(PROGRESS, json_bytes([stage, min(max(float(fraction), 0.0), 1.0)]))
 
     try:
-        send(RESULT, canonical_json(work(computation, progress)))
+        send(RESULT, json_bytes(work(computation, progress)))
     except VeritorqueError as error:
-        send(FAILURE, canonical_json(problem_of(error).document()))
+        send(FAILURE, json_bytes(problem_of(error).document()))
     except MemoryError:
-        send(FAILURE, canonical_json(out_of_memory().document()))
+        send(FAILURE, json_bytes(out_of_memory().document()))
     except Exception:  # noqa: BLE001  (the boundary of the process: what is not ours becomes a problem without internals)
         send(TRACE, traceback.format_exc().encode(errors="replace"))
-        send(FAILURE, canonical_json(mistake().document()))
+        send(FAILURE, json_bytes(mistake().document()))
 
 
 def nothing() -> None:

@@ -2,7 +2,7 @@
 
 import threading
 
-from app.documents import canonical_json
+from app.documents import json_bytes
 from app.jobs.computation import Failed, Finished, Stopped
 from app.problems import Problem
 
@@ -21,7 +21,7 @@ RESULT = {
 
 class StubExecutor:
     def __init__(self, outcome=None):
-        self.outcome = outcome or Finished(canonical_json(RESULT))
+        self.outcome = outcome or Finished(json_bytes(RESULT))
         self.release = threading.Event()
         self.started = threading.Event()
         self.stopped = threading.Event()
@@ -41,6 +41,6 @@ class StubExecutor:
         return self.outcome
 
 
-def failing(kind="excitation"):
-    problem = Problem(kind, "the motion is too slow", evidence={"speed": 0.01}, remedy="move faster")
+def failing(kind="excitation", cause="the motion is too slow"):
+    problem = Problem(kind, cause, evidence={"speed": 0.01}, remedy="move faster")
     return StubExecutor(Failed(problem.document()))

@@ -50,6 +50,13 @@ def test_the_same_request_gives_the_same_result_byte_for_byte(real, identified):
     assert results[0] == results[1]
 
 
+def test_a_result_reads_in_the_order_of_the_contract(real, identified):
+    result = real.get(identified[0]["links"]["results"]).json()
+    assert list(result)[:3] == ["schema_version", "kind", "robot"]
+    assert list(result["base_parameters"][0])[:2] == ["name", "unit"]
+    assert next(iter(result["robot"])) == "name"
+
+
 def test_one_request_identifies_a_robot_that_is_sent_along(real, identified):
     answer = real.post(
         "/v1/identify",
