@@ -62,10 +62,14 @@ class Catalogue:
         Problem
             If there is none (404, or 422 where the body of the request names it).
         """
-        found = self.built_in.get(identity) or self._store.robots.get(identity)
+        found = self.find_robot(identity)
         if found is None:
             raise _missing("robot", identity, named_in_body=named_in_body)
         return found
+
+    def find_robot(self, identity: str) -> RobotRecord | None:
+        """Find a robot; None where there is none."""
+        return self.built_in.get(identity) or self._store.robots.get(identity)
 
     def robots(self, *, limit: int, offset: int) -> tuple[list[RobotRecord], int]:
         """List robots, built-in ones first, and count all of them."""
@@ -129,10 +133,14 @@ class Catalogue:
         Problem
             If there is none (404, or 422 where the body of the request names it).
         """
-        found = self._store.logs.get(identity)
+        found = self.find_log(identity)
         if found is None:
             raise _missing("log", identity, named_in_body=named_in_body)
         return found
+
+    def find_log(self, identity: str) -> LogRecord | None:
+        """Find a log; None where there is none."""
+        return self._store.logs.get(identity)
 
     def _add(self, robot: RobotModel, description: Document) -> RobotRecord:
         return self._store.robots.add(

@@ -7,9 +7,9 @@ from string import Template
 from fastapi import APIRouter, Request
 from fastapi.responses import FileResponse, HTMLResponse
 
+from app.pages.latest import header_cells, job_rows
 from app.problems import Problem
 from app.services import ServicesOf
-from app.store.records import JobRecord
 from app.version import VERSION
 
 ROUTER = APIRouter(include_in_schema=False)
@@ -36,10 +36,13 @@ def start_page(request: Request, services: ServicesOf) -> HTMLResponse:
     """Show where everything is, and the latest jobs."""
     jobs, total = services.store.jobs.page(limit=RECENT, offset=0)
     page = Template((PAGES / "start.html").read_text())
-    rows = "".join(_row(job) for job in jobs)
-    empty = '<tr><td colspan="5">None yet.</td></tr>'
-    address = escape(str(request.base_url))
-    text = page.substitute(version=VERSION, address=address, rows=rows or empty, total=total)
+    text = page.substitute(
+        version=VERSION,
+        address=escape(str(request.base_url)),
+        columns=header_cells(),
+        rows=job_rows(jobs, services.catalogue),
+        total=total,
+    )
     return HTMLResponse(text, headers=POLICY)
 
 
@@ -56,17 +59,3 @@ def static_file(name: str) -> FileResponse:
         raise Problem("not-found", f"there is no file {name}", evidence={"known": list(FILES)})
     path, media_type = FILES[name]
     return FileResponse(path, media_type=media_type, headers={"Cache-Control": "max-age=3600"})
-
-
-def _row(job: JobRecord) -> str:
-    path = escape(f"/v1/jobs/{job.id}")
-    result = f'<a href="{path}/results">result</a>' if job.state == "successful" else ""
-    progress = f"{escape(job.stage)} {job.fraction:.0%}" if job.state == "running" else ""
-    cells = (
-        f'<a href="{path}">{escape(job.id)}</a>',
-        escape(job.request.robot),
-        f'<span class="state {escape(job.state)}">{escape(job.state)}</span> {progress}',
-        escape(job.created_at[:19].replace("T", " ")),
-        result,
-    )
-    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
