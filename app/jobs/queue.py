@@ -64,7 +64,11 @@ def _check_joints(robot: RobotRecord, log: LogRecord) -> None:
         return
     name = log.summary["name"]
     raise LogError(
-        f"the log {name} has {log.joints} joints, the robot {robot.name} has {robot.joints}",
+        f"the log {name} has {_joints(log.joints)}, the robot {robot.name} has {robot.joints}",
         evidence={"log": log.id, "log_joints": log.joints, "robot": robot.id, "robot_joints": robot.joints},
         remedy="choose the robot that was measured, or map exactly one column per joint",
     )
+
+
+def _joints(count: int) -> str:
+    return f"{count} joint" if count == 1 else f"{count} joints"

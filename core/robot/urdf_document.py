@@ -16,7 +16,7 @@ from defusedxml.ElementTree import fromstring
 
 from core.arrays import LinkParameters, Rotation, Vector, Vector3
 from core.errors import RobotError
-from core.robot.fields import LARGEST_NUMBER, LONGEST_NAME, shown
+from core.robot.fields import LARGEST_NUMBER, LONGEST_NAME
 from core.robot.frames import rotation_rpy
 from core.robot.inertia import from_mass_properties
 from core.robot.model import Limits
@@ -107,14 +107,14 @@ def _parse(text: bytes | str) -> Element:
             _refuse_xacro("an undeclared xacro prefix")
         raise RobotError(
             "the URDF is not well-formed XML",
-            evidence={"parser": shown(str(error))},
+            evidence={"parser": _excerpt(str(error))},
             remedy="send one XML document",
         ) from error
     _refuse_xacro_inside(root)
     if _tag(root) != "robot":
         raise RobotError(
             "the document is not a URDF: its root element is not robot",
-            evidence={"root": shown(_tag(root))},
+            evidence={"root": _excerpt(_tag(root))},
             remedy="send a document that starts with <robot name=...>",
         )
     return root
@@ -131,7 +131,7 @@ def _refuse_xacro_inside(root: Element) -> None:
 
 def _refuse_xacro(found: str) -> None:
     raise RobotError(
-        "the document is a xacro, not a URDF", evidence={"found": shown(found)}, remedy=_EXPAND
+        "the document is a xacro, not a URDF", evidence={"found": _excerpt(found)}, remedy=_EXPAND
     ) from None
 
 
@@ -142,7 +142,7 @@ def _joint(element: Element) -> UrdfJoint:
     if kind not in MOVING_KINDS and kind != "fixed":
         raise RobotError(
             f"{where} is of a type that cannot be identified",
-            evidence={"type": shown(kind), "known": [*MOVING_KINDS, "fixed"]},
+            evidence={"type": _excerpt(kind), "known": [*MOVING_KINDS, "fixed"]},
             remedy="use one of the known types; start a floating robot at a link that is fixed",
         )
     rotation, translation = _origin(element, where)
@@ -247,7 +247,7 @@ def _attribute(element: Element, name: str, where: str) -> str:
     if name == "name" and (len(value) > LONGEST_NAME or not value.isprintable()):
         raise RobotError(
             f"the name of a {_tag(element)} is too long or cannot be printed",
-            evidence={"name": shown(value), "characters": len(value), "limit": LONGEST_NAME},
+            evidence={"name": _excerpt(value), "characters": len(value), "limit": LONGEST_NAME},
             remedy="give it a short name",
         )
     return value
@@ -273,7 +273,13 @@ def _values(text: str, name: str, where: str, count: int) -> Vector:
     if len(values) != count or not (np.abs(values) <= LARGEST_NUMBER).all():
         raise RobotError(
             f"{where}: {name} does not hold {count} finite number{'s' if count > 1 else ''}",
-            evidence={name: shown(text)},
+            evidence={name: _excerpt(text)},
             remedy="write decimal numbers, separated by blanks",
         )
     return values
+
+
+def _excerpt(text: str) -> str:
+    """Give at most eighty characters of a text, with escapes for what cannot be printed."""
+    printable = text if text.isprintable() else repr(text)[1:-1]
+    return printable if len(printable) <= 80 else printable[:77] + "..."

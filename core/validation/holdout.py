@@ -57,6 +57,12 @@ class HoldOut:
         return frozenset((log, int(block)) for log in range(logs) for block in places)
 
     def _check(self, logs: int) -> None:
+        if logs == 1:
+            raise OptionError(
+                "a single log cannot be held out whole, because nothing would be left to fit",
+                evidence={"held_out": list(self.logs), "logs": logs},
+                remedy="hold out a fraction of its blocks instead, or give a second log",
+            )
         if any(not 1 <= log <= logs for log in self.logs) or len(set(self.logs)) >= logs:
             raise OptionError(
                 "the held-out logs leave nothing to fit or do not exist",

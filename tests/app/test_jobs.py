@@ -3,7 +3,7 @@ import time
 
 import pytest
 
-from app.documents import canonical_json
+from app.documents import json_bytes
 from app.schemas.jobs import Job
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import description
@@ -55,7 +55,7 @@ def test_a_job_is_accepted_runs_and_succeeds(slow, executor, request_body):
     executor.release.set()
     done = state_of(slow, path, ("successful",))
     assert done["progress"]["fraction"] == 1.0
-    assert slow.get(done["links"]["results"]).content == canonical_json(RESULT)
+    assert slow.get(done["links"]["results"]).content == json_bytes(RESULT)
     Job.model_validate(done)
 
 
@@ -163,7 +163,7 @@ def test_one_request_answers_the_result_document(slow, executor, log_bytes):
     executor.release.set()
     form = {"robot": (None, json.dumps(description())), "log": ("a.csv", log_bytes, "text/csv")}
     answer = slow.post("/v1/identify", files=form)
-    assert (answer.status_code, answer.content) == (200, canonical_json(RESULT))
+    assert (answer.status_code, answer.content) == (200, json_bytes(RESULT))
 
 
 def test_one_request_that_takes_too_long_is_answered_like_a_job(slow, log_bytes):
@@ -173,3 +173,11 @@ def test_one_request_that_takes_too_long_is_answered_like_a_job(slow, log_bytes)
     answer = slow.post("/v1/identify", files=form, headers={"Prefer": "wait=0"})
     assert answer.status_code == 202
     assert slow.get(answer.headers["location"]).json()["state"] in {"accepted", "running"}
+
+
+def test_a_log_of_one_joint_is_spoken_of_in_the_singular(slow, request_body, log_bytes):
+    lines = (line.split(b",") for line in log_bytes.splitlines())
+    content = b"\n".join(b",".join((time, q, tau)) for time, q, _, tau, _ in lines)
+    log = slow.post("/v1/logs?name=one.csv", content=content, headers={"Content-Type": "text/csv"}).json()
+    problem = assert_problem(slow.post("/v1/jobs", json=request_body | {"logs": [log["id"]]}), 422, "log")
+    assert problem["cause"] == "the log one.csv has 1 joint, the robot planar arm has 2"

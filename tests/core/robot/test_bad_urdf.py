@@ -133,6 +133,16 @@ def test_the_remedy_for_a_xacro_is_to_expand_it():
     assert caught.value.remedy == "expand it first: xacro robot.urdf.xacro > robot.urdf"
 
 
+@pytest.mark.parametrize(
+    ("case", "name", "seen"),
+    [("a xacro", "found", "the element xacro:arm"), ("an unexpanded value", "found", "0 0 ${height}")],
+)
+def test_evidence_quotes_a_urdf_as_it_is_written(case, name, seen):
+    with pytest.raises(RobotError) as caught:
+        robot_from_urdf(BAD[case][0])
+    assert caught.value.evidence[name] == seen
+
+
 def test_a_xacro_namespace_that_is_declared_and_not_used_is_no_xacro():
     text = robot(PAIR + HINGE).replace('name="made-up"', 'name="r" xmlns:xacro="http://ros.org/wiki/xacro"')
     assert len(robot_from_urdf(text).joints) == 1

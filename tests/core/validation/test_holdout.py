@@ -87,6 +87,12 @@ def test_logs_that_do_not_exist_or_leave_nothing_to_fit_are_refused(logs):
         HoldOut(logs=logs).chosen(2)
 
 
+def test_whoever_holds_out_the_only_log_is_offered_a_fraction_of_it():
+    with pytest.raises(OptionError, match="single log") as refusal:
+        HoldOut(logs=(1,)).chosen(1)
+    assert "fraction" in refusal.value.remedy
+
+
 @pytest.mark.parametrize("wrong", [{"fraction": 0.6}, {"fraction": -0.1}, {"blocks": 3}, {"blocks": 201}])
 def test_hold_outs_that_make_no_sense_are_refused(wrong):
     with pytest.raises(OptionError):
