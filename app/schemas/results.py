@@ -58,4 +58,7 @@ class ResultDocument(Open):
     validation: Annotated[list[JointFit], Field(description="on blocks that the fit has not seen")]
     condition_number: float | None
     defects: list[JsonValue]
+    doubts: Annotated[
+        list[str], Field(description="sentences: what deserves a second look before it is used")
+    ]
     diagnosis: JsonValue = None
