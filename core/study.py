@@ -25,7 +25,8 @@ from core.precision.essential import essential_parameters
 from core.reduction.base import base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import BlockKey, Observation, Weigh, observe, torque_scales
-from core.report.document import Identification, grouping_row, identification_document
+from core.report.document import grouping_row, identification_document
+from core.report.identification import Identification
 from core.report.numbers import plain
 from core.robot.model import RobotModel
 from core.signals.condition import Motion, condition

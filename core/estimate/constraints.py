@@ -16,6 +16,9 @@ from core.errors import OptionError
 from core.robot.inertia import from_mass_properties
 from core.robot.parameters import INERTIAL_SYMBOLS
 
+LARGEST_MARGIN = 0.1
+"""A margin is a share of an ordinary link's pseudo-inertia; more than a tenth would shape the answer."""
+
 
 @dataclass(frozen=True)
 class CentreBox:
@@ -70,7 +73,7 @@ class Bounds:
             any(low > high for low, high in [*pairs, *corners])
             or any(low < 0.0 for low, _ in pairs)
             or any(a <= 0 for a in axes)
-            or self.margin < 0.0
+            or not 0.0 <= self.margin <= LARGEST_MARGIN
         ):
             raise OptionError(
                 "the bounds leave no robot",
@@ -79,7 +82,7 @@ class Bounds:
                     "total_mass_kg": list(self.total_mass or ()),
                     "margin": self.margin,
                 },
-                remedy="give lower bounds from 0 to the upper ones, positive semi-axes and a margin from 0",
+                remedy="give lower bounds from 0 to the upper ones, positive semi-axes, a margin up to 0.1",
             )
 
 

@@ -21,7 +21,7 @@ from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
 from core.signals.state import MotionState
 
-SHARES = (0.01, 0.02, 0.05, 0.1, 0.2)
+SHARES = (0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4)
 """Candidate widths as shares of a joint's RMS speed, besides the plain sign."""
 DIRECTIONAL = ("FC", "FCM")
 

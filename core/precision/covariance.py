@@ -15,6 +15,7 @@ from core.estimate.system import System, column_scale
 from core.regressor.memory import LaggedProducts
 
 _RANK_TOLERANCE = 1e-8
+_ROUNDS = 3
 INTERVAL_95 = 1.959964
 
 
@@ -69,21 +70,39 @@ def assess(
     base
         The parameters whose residual tells the noise.
     """
-    size = system.triangle.shape[1]
-    spread = np.zeros((size, size))
-    factors = np.ones(len(memory))
-    share = max(1.0 - size / system.rows, 1.0 / system.rows)
-    for joint, (products, columns, noise) in enumerate(zip(memory, columns_of, system.noise, strict=True)):
-        covariance = products.autocovariance(base[columns])
-        if covariance[0] <= 0.0:
-            continue
-        correlation = covariance / covariance[0]
-        variance = covariance[0] / max(share * products.rows, 1.0)
-        spread[np.ix_(columns, columns)] += products.spread(correlation) * variance / noise**4
-        taper = 1.0 - np.arange(1, len(correlation)) / len(correlation)
-        factors[joint] = max(1.0 + 2.0 * float(taper @ correlation[1:]), 1e-3)
     information = system.triangle.T @ system.triangle
+    size = len(information)
+    covariance, spread, factors = np.zeros((size, size)), np.zeros((size, size)), np.ones(len(memory))
+    for _ in range(_ROUNDS):
+        spread = np.zeros((size, size))
+        for joint, (products, columns, noise) in enumerate(
+            zip(memory, columns_of, system.noise, strict=True)
+        ):
+            place = np.ix_(columns, columns)
+            autocovariance = _true_autocovariance(products, base[columns], covariance[place])
+            spread[place] += products.spread(autocovariance) / noise**4
+            factors[joint] = _memory_factor(autocovariance)
+        covariance = _sandwich(information, spread)
     return Precision(information, spread, _open_share(system.triangle), factors)
+
+
+def _true_autocovariance(
+    products: LaggedProducts, values: BaseParameters, covariance: SquareMatrix
+) -> Vector:
+    """Estimate the noise's autocovariance from the residual's, which the fit has made smaller.
+
+    A fit takes sum_t w(t)' C w(t + l) out of lag l, C being the covariance of what was fitted; for
+    independent samples and lag 0 that is the n - d of the textbooks.
+    """
+    taken = np.einsum("lij,ij->l", products.products[:, :-1, :-1], covariance)
+    return np.asarray((products.autocovariance(values) + taken) / max(products.rows, 1))
+
+
+def _memory_factor(autocovariance: Vector) -> float:
+    if autocovariance[0] <= 0.0:
+        return 1.0
+    taper = 1.0 - np.arange(1, len(autocovariance)) / len(autocovariance)
+    return float(max(1.0 + 2.0 * taper @ autocovariance[1:] / autocovariance[0], 1e-3))
 
 
 def relative_deviation_percent(base: BaseParameters, deviation: Vector) -> Vector:
@@ -111,7 +130,8 @@ def subset(precision: Precision, chosen: Indices) -> Precision:
 
 def _sandwich(information: SquareMatrix, spread: SquareMatrix) -> SquareMatrix:
     """Give A^-1 B A^-1 within the directions in which A is not zero."""
-    scale = np.sqrt(np.maximum(np.diag(information), np.finfo(float).tiny))
+    size = np.sqrt(np.diag(information))
+    scale = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
     excited = values > _RANK_TOLERANCE**2 * values[-1]
     root = vectors[:, excited] / values[excited] @ vectors[:, excited].T / np.outer(scale, scale)

@@ -6,7 +6,7 @@ parameter groups. This gives SYMORO's names and groupings without symbolic algeb
 1990; Gautier 1991 (numerical, by QR); Khalil & Dombre (2002), ch. 9.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from core.arrays import BaseParameters, Matrix, Parameters, Rows
 from core.dynamics.model import DynamicModel
 from core.regressor.columns import all_columns, dense
-from core.robot.model import RobotModel
+from core.robot.model import Link, RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS, Parameter
 from core.signals.state import MotionState
 
@@ -23,6 +23,10 @@ RANK_TOLERANCE = 1e-9
 
 Rounding leaves about 1e-13.
 """
+RIGHT_ANGLE_TOLERANCE = 2e-5
+"""Entries of a rotation this close to 0 or 1 are meant to be 0 or 1."""
+_RIGHT_ANGLE_ENTRIES = 5
+"""A turn by right angles and about one axis has four entries 0 and one 1; fewer are a coincidence."""
 _SEED = 20221
 _REVOLUTE_ORDER = ("XX", "XY", "XZ", "YZ", "ZZ", "MX", "MY", "IA", "YY", "MZ", "M")
 _PRISMATIC_ORDER = ("M", "MX", "MY", "MZ", "IA", "XX", "XY", "XZ", "YY", "YZ", "ZZ")
@@ -77,7 +81,7 @@ class BaseModel:
         text = ""
         for name, coefficient in self.relation(row).items():
             size = abs(coefficient)
-            factor = "" if size == 1.0 else f"{size:.6g} "
+            factor = "" if size == 1.0 else f"{size:.5g} "
             joint = (" - " if coefficient < 0 else " + ") if text else ("-" if coefficient < 0 else "")
             text += f"{joint}{factor}{name}"
         return text
@@ -105,7 +109,8 @@ def base_model(model: DynamicModel) -> BaseModel:
     The states are drawn with a fixed seed and ignore the joint limits: what is sought holds for every motion.
     """
     order = khalil_order(model)
-    matrix = dense(all_columns(model), _random_states(model.robot, len(order)))[:, list(order)]
+    ideal = replace(model, robot=_idealised(model.robot))
+    matrix = dense(all_columns(ideal), _random_states(model.robot, len(order)))[:, list(order)]
     kept, relation = _first_independent(matrix)
     grouping = np.zeros((len(kept), len(order)))
     grouping[:, list(order)] = relation
@@ -137,6 +142,23 @@ def _table_place(model: DynamicModel, column: int) -> tuple[int, int, int]:
 
 def _link_of(robot: RobotModel, joint: int) -> int:
     return next(number for number, link in enumerate(robot.links, start=1) if link.joint == joint)
+
+
+def _idealised(robot: RobotModel) -> RobotModel:
+    """Take right angles that were written with a few digits (1.5708) for right angles.
+
+    Such a robot has base parameters that differ from their neighbours by a few millionths and cannot be
+    told from them; only what is grouped is decided on the ideal robot, torque is computed with the given one.
+    """
+    return replace(robot, links=tuple(_squared(link) for link in robot.links))
+
+
+def _squared(link: Link) -> Link:
+    whole = np.round(link.rotation)
+    near = np.abs(link.rotation - whole) < RIGHT_ANGLE_TOLERANCE
+    if near.sum() < _RIGHT_ANGLE_ENTRIES:
+        return link
+    return replace(link, rotation=np.where(near, whole, link.rotation), row=None)
 
 
 def _random_states(robot: RobotModel, parameters: int) -> MotionState:

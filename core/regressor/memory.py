@@ -50,15 +50,12 @@ class LaggedProducts:
         weights = np.append(-parameters, 1.0)
         return np.array([weights @ product @ weights for product in self.products])
 
-    def spread(self, autocorrelation: Vector) -> Matrix:
-        """Give W'V W for a residual of unit variance with this autocorrelation.
-
-        Tapered so that V is positive (Bartlett).
-        """
-        width = len(autocorrelation)
-        total = np.array(self.products[0][:-1, :-1])
+    def spread(self, autocovariance: Vector) -> Matrix:
+        """Give W'V W for noise of this autocovariance, tapered after Bartlett so that V is positive."""
+        width = len(autocovariance)
+        total = autocovariance[0] * self.products[0][:-1, :-1]
         for lag in range(1, min(width, self.LAGS + 1)):
-            weight = (1.0 - lag / width) * autocorrelation[lag]
+            weight = (1.0 - lag / width) * autocovariance[lag]
             product = self.products[lag][:-1, :-1]
             total += weight * (product + product.T)
         return np.asarray(total)

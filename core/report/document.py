@@ -3,54 +3,20 @@
 Fields may be added, never renamed. Every estimated number stands beside its unit and its uncertainty.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from core.arrays import Matrix
-from core.estimate.estimate import Estimate
-from core.estimate.feasibility import Feasibility
 from core.log.model import JointLog
 from core.precision.bootstrap import intervals
-from core.precision.covariance import INTERVAL_95, Precision, relative_deviation_percent
-from core.precision.essential import Essential
+from core.precision.covariance import INTERVAL_95, relative_deviation_percent
 from core.reduction.base import BaseModel
 from core.regressor.observe import Observation
+from core.report.doubts import doubts
+from core.report.identification import Identification
 from core.report.numbers import plain
 from core.robot.writing import to_description
 from core.signals.condition import Motion
-from core.validation.excitation import ExcitationScore
-from core.validation.mass_matrix import MassMatrixCheck
-from core.validation.scores import JointScore
 
 SCHEMA_VERSION = "1.0"
-
-
-@dataclass(frozen=True, eq=False)
-class Identification:
-    """Hold everything that an identification found out, chapter by chapter."""
-
-    logs: tuple[JointLog, ...]
-    motions: tuple[Motion, ...]
-    base: BaseModel
-    observation: Observation
-    estimate: Estimate
-    precision: Precision
-    essential: Essential
-    draws: Matrix
-    fit: tuple[JointScore, ...]
-    fit_total_percent: float
-    validation: tuple[JointScore, ...]
-    validation_total_percent: float
-    excitation: ExcitationScore
-    unconstrained_feasibility: Feasibility
-    estimate_feasibility: Feasibility
-    pseudo_inertia_eigenvalues: tuple[float, ...]
-    active_constraints: tuple[str, ...]
-    trajectory: MassMatrixCheck
-    workspace: MassMatrixCheck
-    widths: tuple[float, ...]
-    seed: int
 
 
 def identification_document(found: Identification, *, version: str, options: object) -> dict[str, object]:
@@ -88,6 +54,7 @@ def identification_document(found: Identification, *, version: str, options: obj
             for number, log in enumerate(found.logs, start=1)
             for defect in log.defects
         ],
+        "doubts": doubts(found),
         "diagnosis": None,
     }
     return {key: plain(value) for key, value in document.items()}
@@ -143,9 +110,7 @@ def _standard_parameters(found: Identification) -> list[dict[str, object]]:
 
 def _feasibility(found: Identification) -> dict[str, object]:
     return {
-        "feasible": found.estimate_feasibility.feasible
-        and found.trajectory.positive
-        and found.workspace.positive,
+        "feasible": found.feasible,
         "margin": found.estimate_feasibility.margin,
         "ols_feasible": found.unconstrained_feasibility.feasible,
         "ols_margin": found.unconstrained_feasibility.margin,

@@ -33,5 +33,6 @@ def _scalar(value: object) -> bool | int | float | str | None:
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, float):
-        return float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None
+        shown = float(f"{value:.{DIGITS}g}")
+        return shown if np.isfinite(shown) else None
     return value if value is None or isinstance(value, bool | int) else str(value)

@@ -43,10 +43,15 @@ def _about_angles(number: int, link: Link) -> list[str]:
     if link.row is None:
         return []
     angles = {"alpha": link.row.alpha, "theta_offset": link.row.theta, "gamma": link.row.gamma}
-    return [
+    turns = [
         f"joint {number}: {name} is {angle:.4g} rad, more than a turn; were degrees meant?"
         for name, angle in angles.items()
         if abs(angle) > 2.0 * np.pi
+    ]
+    return turns + [
+        f"joint {number}: {name} is {angle:.7g} rad, almost but not quite a right angle; was one meant?"
+        for name, angle in angles.items()
+        if 2e-5 < abs(angle - np.pi / 2 * round(angle / (np.pi / 2))) < 2e-3
     ]
 
 

@@ -124,12 +124,18 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         decimation=decimation,
         motion_band_hz=band,
         rms_speed=speeds,
-        still_speed=STILL_SHARE * speeds,
+        still_speed=_still_speed(speeds),
         reason=(
             f"parallel filter at {cutoff:.3g} Hz ({reason}), positions at {position:.3g} Hz,"
             f" one sample in {decimation} kept"
         ),
     )
+
+
+def _still_speed(speeds: JointVector) -> JointVector:
+    """Give the speed below which each joint stands, such that a joint held by its drive stands throughout."""
+    trembling = speeds <= TREMBLE_SHARE * speeds.max()
+    return np.where(trembling, TREMBLE_SHARE * speeds.max(), STILL_SHARE * speeds)
 
 
 def _given(asked: float | None, chosen: float) -> float:

@@ -78,8 +78,9 @@ def _percents(document: dict[str, object], part: str) -> np.ndarray:
 
 
 def _assert_at_most(found: np.ndarray, floor: str) -> None:
+    """Compare to the one decimal that the floors are printed with."""
     limits = np.array([float(one) for one in floor.split()])
-    assert np.all(found <= limits), f"{found.round(2).tolist()} against {limits.tolist()}"
+    assert np.all(found.round(1) <= limits), f"{found.round(2).tolist()} against {limits.tolist()}"
 
 
 def _masses(document: dict[str, object]) -> np.ndarray:
@@ -140,7 +141,7 @@ def test_the_real_robots_are_feasible_robots():
 @cache
 def _tx40(*, smooth: bool) -> dict[str, object]:
     logs = (_log("staubli_tx40", "run1", *TX40_TRAIN), _log("staubli_tx40", "run1", *TX40_TEST))
-    return _document("staubli_tx40", *logs, held_out=2, smooth_coulomb=smooth, filter={"cutoff_hz": 50.0})
+    return _document("staubli_tx40", *logs, held_out=2, smooth_coulomb=smooth)
 
 
 @pytest.mark.parametrize(("smooth", "train", "unseen"), [(False, 6.1, 9.6), (True, 5.1, 7.9)])
@@ -236,13 +237,38 @@ def test_tx40_agrees_with_the_published_base_parameters_within_three_combined_de
 # ----------------------------------------------------------------------------------- link-side torque sensors
 
 
-def test_franka_predicts_the_second_half_of_its_run_from_the_first():
+# The floors are those of an unconstrained fit. On these two robots the sensors sit behind the gears, and
+# least squares finds negative rotor inertias; a robot that can exist may not have them and pays for it.
+
+
+@cache
+def _franka(estimator: str) -> dict[str, object]:
     half = FRANKA_ROWS // 2
     logs = (_log("franka_panda", "traj1", 0, half), _log("franka_panda", "traj1", half, FRANKA_ROWS))
-    document = _document("franka_panda", *logs, held_out=2)
-    _assert_at_most(_percents(document, "validation"), "6.0 1.0 1.2 1.0 7.2 3.0 18.5")
+    return _document("franka_panda", *logs, held_out=2, estimator=estimator)
+
+
+@cache
+def _rokae(estimator: str) -> dict[str, object]:
+    return _document("rokae_xmate3", _log("rokae_xmate3", "excit"), estimator=estimator)
+
+
+def test_franka_predicts_the_second_half_of_its_run_from_the_first():
+    _assert_at_most(_percents(_franka("wls"), "validation"), "6.0 1.0 1.2 1.0 7.2 3.0 18.5")
 
 
 def test_rokae_is_explained_as_well_as_by_a_plain_fit_or_better():
-    document = _document("rokae_xmate3", _log("rokae_xmate3", "excit"))
-    _assert_at_most(_percents(document, "fit"), "22.8 1.7 4.9 1.5 13.9 4.1 17.1")
+    _assert_at_most(_percents(_rokae("wls"), "fit"), "22.8 1.7 4.9 1.5 13.9 4.1 17.1")
+
+
+@pytest.mark.parametrize("robot", [_franka, _rokae])
+def test_the_price_of_existence_is_stated_where_it_is_high(robot):
+    document = robot("sdp")
+    assert document["solver"]["objective"] > 1.1 * document["solver"]["objective_ols"]
+    assert document["feasibility"]["feasible"]
+    assert not document["feasibility"]["ols_feasible"]
+
+
+def test_a_feasible_franka_predicts_the_torque_of_the_unseen_half_as_well_as_a_robot_that_cannot_exist():
+    feasible, free = (_franka(estimator)["validation_total_percent"] for estimator in ("sdp", "wls"))
+    assert feasible <= free + 0.1

@@ -147,11 +147,15 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
     "no log": (lambda: IdentifyRequest(MODEL.robot, ()), LogError, "no log"),
     "an unknown option": (lambda: _request(colour="red"), OptionError, "not known"),
     "an unknown estimator": (lambda: _request(estimator="magic"), OptionError, "not known"),
-    "a hold-out of all logs": (lambda: _request(validation={"logs": [1]}), OptionError, "nothing to fit"),
+    "a hold-out of all logs": (
+        lambda: _request(validation={"logs": [1]}),
+        OptionError,
+        "nothing would be left",
+    ),
     "a hold-out of a log that is not there": (
         lambda: _request(validation={"logs": [4]}),
         OptionError,
-        "do not exist",
+        "nothing would be left",
     ),
     "a cut-off above the log's rate": (
         lambda: _request(filter={"cutoff_hz": 80}),

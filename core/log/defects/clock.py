@@ -1,7 +1,7 @@
 """Look at the stamps: how fast the log was sampled, where samples are missing, and how even the steps are.
 
-Real stamps are used as they are; nothing is put on a uniform grid. A gap splits the log, because no
-derivative holds across it.
+Real stamps are used as they are; nothing is put on a uniform grid. A gap in which the motion is lost splits
+the log, because no derivative holds across it; over a few milliseconds a spline is as good as a sample.
 """
 
 from itertools import pairwise
@@ -15,6 +15,8 @@ from core.log.model import Defect
 
 GAP_STEPS = 3.0
 """A step of more than this many median steps is a gap."""
+SHORT_GAP_S = 0.025
+"""A gap up to this length (s) is bridged: arms do not move faster than a few hertz."""
 
 UNEVEN = 0.1
 """A step that differs from the median by more than this share is counted as uneven."""
@@ -64,7 +66,7 @@ class Clock:
 
     def segments(self) -> tuple[tuple[int, int], ...]:
         """Give (start, stop) rows between the gaps."""
-        borders = [0, *(row for row, _, _ in self._gaps()), self._samples]
+        borders = [0, *(row for row, before, after in self._gaps() if _splits(before, after)), self._samples]
         return tuple(pairwise(borders))
 
     def _gaps(self) -> list[tuple[int, float, float]]:
@@ -86,7 +88,7 @@ class Clock:
         statement = (
             f"{counted(len(gaps), 'gap')}: steps of more than {GAP_STEPS:g} times the median of "
             f"{step * 1e3:.4g} ms, the longest {max(lengths):.4g} s, together {sum(lengths):.4g} s; "
-            "the log is split there."
+            f"{_consequence(gaps)}."
         )
         return [
             Defect(
@@ -106,3 +108,14 @@ class Clock:
             "the stamps are used as they are."
         )
         return [Defect("jitter", "time", None, self._uneven.rows, self._uneven.intervals, statement)]
+
+
+def _splits(before: float, after: float) -> bool:
+    return after - before > SHORT_GAP_S
+
+
+def _consequence(gaps: list[tuple[int, float, float]]) -> str:
+    split = sum(_splits(before, after) for _, before, after in gaps)
+    if not split:
+        return f"none is longer than {SHORT_GAP_S * 1e3:g} ms, so they are bridged"
+    return f"the log is split at the {split} longer than {SHORT_GAP_S * 1e3:g} ms"

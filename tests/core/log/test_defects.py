@@ -32,7 +32,7 @@ def test_a_healthy_log_has_no_defect_whatever_its_noise(seed, rate_hz, joints):
     assert log_of(*healthy(12.0, rate_hz, joints, seed)).defects == ()
 
 
-@given(row=st.integers(200, 4800), missing=st.floats(0.02, 2.0))
+@given(row=st.integers(200, 4800), missing=st.floats(0.03, 2.0))
 def test_missing_samples_are_a_gap_that_splits_the_log(row, missing):
     time, position, torque = healthy()
     time[row:] += missing
@@ -41,6 +41,16 @@ def test_missing_samples_are_a_gap_that_splits_the_log(row, missing):
     assert log.segments == ((0, row), (row, 5000))
     assert gap.count == 1
     assert gap.intervals == ((pytest.approx(time[row - 1]), pytest.approx(time[row])),)
+
+
+@given(row=st.integers(200, 4800), missing=st.floats(0.010, 0.020))
+def test_a_few_missing_milliseconds_are_said_and_bridged(row, missing):
+    time, position, torque = healthy()
+    time[row:] += missing
+    log = log_of(time, position, torque)
+    (gap,) = only(log, "gap")
+    assert log.segments == ((0, 5000),)
+    assert "bridged" in gap.statement
 
 
 def test_jitter_is_stated_with_its_size_and_without_alarm():

@@ -221,3 +221,14 @@ def test_the_same_robot_gives_the_same_numbers_every_time():
 
 def _arm() -> DynamicModel:
     return standard_model(builtin_robot("yumi-left"), INERTIAL)
+
+
+def test_a_right_angle_written_with_five_digits_is_still_a_right_angle():
+    def arm(quarter: float) -> RobotModel:
+        turns = [rotation_rpy(angle, 0.0, 0.0) for angle in (0.0, -quarter, 0.0, quarter, -quarter, quarter)]
+        return _robot("RRRRRR", *turns)
+
+    exact, rounded = (base_model(standard_model(arm(angle))) for angle in (np.pi / 2, 1.5708))
+    assert rounded.names == exact.names
+    meant = base_model(standard_model(arm(1.6)))
+    assert len(meant.kept) > len(exact.kept)

@@ -85,3 +85,13 @@ def test_position_limits_in_degrees_are_suspected():
 @pytest.mark.parametrize("name", ["ur10e_open", "staubli_tx40"])
 def test_the_urdfs_of_real_robots_raise_no_suspicion(name):
     assert suspicions(robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())) == ()
+
+
+def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected():
+    def arm(alpha: float) -> dict[str, object]:
+        row = {"type": "revolute", "d": 0.0, "r": 0.2, "theta_offset": 0.0}
+        return {"name": "arm", "joints": [row | {"alpha": 0.0}, row | {"alpha": alpha}]}
+
+    assert any("right angle" in one for one in suspicions(robot_from_description(arm(1.571))))
+    assert not any("right angle" in one for one in suspicions(robot_from_description(arm(1.5708))))
+    assert not any("right angle" in one for one in suspicions(robot_from_description(arm(0.98))))

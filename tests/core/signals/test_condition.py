@@ -216,3 +216,12 @@ def test_a_log_of_another_robot_is_refused():
         condition(log_of(time, swing.position(time)), turntables(3))
     assert refusal.value.evidence["log_joints"] == 2
     assert refusal.value.evidence["robot_joints"] == 3
+
+
+def test_a_joint_that_its_drive_holds_while_others_move_counts_as_standing():
+    time, swing = _swing()
+    position = swing.position(time)
+    position[:, 1] = 0.4 + 1e-5 * np.round(np.random.default_rng(3).normal(size=len(time)))
+    _, _, usable = _kept(_conditioned(log_of(time, position)))
+    assert usable[:, 0].mean() > 0.9
+    assert usable[:, 1].mean() < 0.05

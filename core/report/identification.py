@@ -1,0 +1,50 @@
+"""Hold everything that an identification found out, chapter by chapter, for the pages that tell it."""
+
+from dataclasses import dataclass
+
+from core.arrays import Matrix
+from core.estimate.estimate import Estimate
+from core.estimate.feasibility import Feasibility
+from core.log.model import JointLog
+from core.precision.covariance import Precision
+from core.precision.essential import Essential
+from core.reduction.base import BaseModel
+from core.regressor.observe import Observation
+from core.signals.condition import Motion
+from core.validation.excitation import ExcitationScore
+from core.validation.mass_matrix import MassMatrixCheck
+from core.validation.scores import JointScore
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """Hold everything that an identification found out, chapter by chapter."""
+
+    logs: tuple[JointLog, ...]
+    motions: tuple[Motion, ...]
+    base: BaseModel
+    observation: Observation
+    estimate: Estimate
+    precision: Precision
+    essential: Essential
+    draws: Matrix
+    fit: tuple[JointScore, ...]
+    fit_total_percent: float
+    validation: tuple[JointScore, ...]
+    validation_total_percent: float
+    excitation: ExcitationScore
+    unconstrained_feasibility: Feasibility
+    estimate_feasibility: Feasibility
+    pseudo_inertia_eigenvalues: tuple[float, ...]
+    active_constraints: tuple[str, ...]
+    trajectory: MassMatrixCheck
+    workspace: MassMatrixCheck
+    widths: tuple[float, ...]
+    seed: int
+
+    @property
+    def feasible(self) -> bool:
+        """Tell whether the robot can exist; its mass matrix counts where links are modelled."""
+        if not self.pseudo_inertia_eigenvalues:
+            return self.estimate_feasibility.feasible
+        return self.estimate_feasibility.feasible and self.trajectory.positive and self.workspace.positive

@@ -1,0 +1,59 @@
+"""Hold the doubts: a sound study raises none, and nonsense that still has an optimum is named."""
+
+import numpy as np
+import pytest
+
+from core.dynamics.model import standard_model
+from core.log.model import whole_rows
+from core.log.reader import log_from_arrays
+from core.study import IdentifyRequest, identify
+from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+
+
+@pytest.fixture(scope="module")
+def world():
+    model = standard_model(planar_robot())
+    state = swing(2)
+    rows = whole_rows(
+        log_of(
+            model,
+            true_parameters(model),
+            state,
+            0.02 * np.random.default_rng(4).normal(size=state.position.shape),
+        )
+    )
+    return model.robot, rows
+
+
+def _doubts(robot, rows, position=None, torque=None, **options):
+    log = log_from_arrays(
+        "log",
+        rows.time,
+        rows.position if position is None else position,
+        rows.torque if torque is None else torque,
+    )
+    return identify(IdentifyRequest(robot, (log,), {"bootstrap": {"draws": 0}, **options}))["doubts"]
+
+
+def test_a_sound_study_raises_no_doubt(world):
+    assert _doubts(*world) == []
+
+
+def test_torque_of_the_opposite_sign_is_doubted(world):
+    robot, rows = world
+    found = _doubts(robot, rows, torque=-rows.torque)
+    assert any("times worse" in one and "sign" in one for one in found)
+    assert any("opposite sign" in one and "joint 1" in one for one in found)
+
+
+def test_a_joint_that_stands_is_named_as_not_excited(world):
+    robot, rows = world
+    still = rows.position.copy()
+    still[:, 1] = 0.3
+    (doubt,) = [one for one in _doubts(robot, rows, position=still) if "does not excite" in one]
+    assert "FC2" in doubt
+    assert "FC1" not in doubt
+
+
+def test_a_model_that_explains_little_is_doubted(world):
+    assert any("unexplained" in one for one in _doubts(*world, terms=["viscous"]))
