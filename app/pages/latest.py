@@ -1,7 +1,7 @@
 """Write the latest jobs as rows of a table: what was asked for, how far it is, how old, and where to read on.
 
 Names of robots and logs, and problems, hold what clients wrote: every text is escaped. What was deleted since
-is named and not linked.
+is named by its id and not linked.
 """
 
 from datetime import UTC, datetime
@@ -12,6 +12,8 @@ from app.store.records import JobRecord
 
 COLUMNS = ("Job", "Robot", "Logs", "State", "Asked for", "Outcome")
 MOST_LOGS = 3
+SHORT_ID = 12
+"""Letters of an id that tell it from its neighbours; the whole one shows when pointed at."""
 
 
 def job_rows(jobs: list[JobRecord], catalogue: Catalogue, *, now: datetime | None = None) -> str:
@@ -43,7 +45,7 @@ def lasting(seconds: float) -> str:
 
 def _row(job: JobRecord, catalogue: Catalogue, now: datetime) -> str:
     cells = (
-        _link(f"/v1/jobs/{job.id}", job.id),
+        f'<a href="/v1/jobs/{job.id}">{_short(job.id)}</a>',
         _robot(job, catalogue),
         _logs(job, catalogue),
         _state(job),
@@ -55,16 +57,15 @@ def _row(job: JobRecord, catalogue: Catalogue, now: datetime) -> str:
 
 def _robot(job: JobRecord, catalogue: Catalogue) -> str:
     robot = catalogue.find_robot(job.request.robot)
-    return escape(job.request.robot) if robot is None else _link(f"/v1/robots/{robot.id}", robot.name)
+    return _short(job.request.robot) if robot is None else _link(f"/v1/robots/{robot.id}", robot.name)
 
 
 def _logs(job: JobRecord, catalogue: Catalogue) -> str:
     shown = []
     for identity in job.request.logs[:MOST_LOGS]:
         log = catalogue.find_log(identity)
-        shown.append(
-            escape(identity) if log is None else _link(f"/v1/logs/{log.id}", str(log.summary["name"]))
-        )
+        name = "" if log is None else str(log.summary["name"])
+        shown.append(_short(identity) if log is None else _link(f"/v1/logs/{log.id}", name))
     more = len(job.request.logs) - len(shown)
     return ", ".join(shown) + (f" and {more} more" if more else "")
 
@@ -88,6 +89,12 @@ def _outcome(job: JobRecord) -> str:
     if job.problem is not None:
         return _link(path, "problem") + ": " + escape(str(job.problem["cause"]))
     return ""
+
+
+def _short(identity: str) -> str:
+    if len(identity) <= SHORT_ID:
+        return escape(identity)
+    return f'<span title="{escape(identity)}">{escape(identity[:SHORT_ID])}&hellip;</span>'
 
 
 def _link(path: str, text: str) -> str:
