@@ -1,0 +1,1 @@
+"""Hold the benchmarks to running at all: in comes a tiny scene, out goes a table of figures."""

@@ -40,6 +40,7 @@ ROWS: list[tuple[str, list[Cut], dict[str, object]]] = [
     ("staubli_tx40", TX40, {}),
     ("staubli_tx40", TX40, {"filter": {"cutoff_hz": 50.0}}),
     ("staubli_tx40", TX40, {"filter": {"cutoff_hz": 50.0}, "smooth_coulomb": True}),
+    ("staubli_tx40", TX40, {"smooth_coulomb": True}),
     ("franka_panda", PANDA, {}),
     ("franka_panda", PANDA, {"filter": {"cutoff_hz": 15.0}}),
     ("rokae_xmate3", XMATE, {}),
