@@ -14,7 +14,6 @@ from core.estimate.constraints import Bounds, Prior, check_links
 from core.estimate.programme import PULL, Programme, Solution
 from core.estimate.system import System
 from core.estimate.with_clarabel import solve_with_clarabel
-from core.estimate.with_cvxpy import solve_with_cvxpy
 from core.reduction.base import BaseModel
 
 ESTIMATORS = ("sdp", "ols", "wls", "irls")
@@ -149,7 +148,11 @@ def estimate(
 
 def solve(programme: Programme, solver: str) -> Solution:
     """Solve a programme with the named solver."""
-    return solve_with_cvxpy(programme) if solver == "cvxpy" else solve_with_clarabel(programme)
+    if solver == "clarabel":
+        return solve_with_clarabel(programme)
+    from core.estimate.with_cvxpy import solve_with_cvxpy  # takes as long to load as all the rest together
+
+    return solve_with_cvxpy(programme)
 
 
 def _restricted(system: System, kept: Indices) -> System:

@@ -12,7 +12,7 @@ import numpy as np
 
 from core.arrays import KeptSeries, Matrix, Samples, Series
 
-_ROWS = 64
+_ROWS = 32
 
 
 @dataclass(frozen=True, eq=False)

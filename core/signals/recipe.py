@@ -12,6 +12,7 @@ from scipy import signal
 from core.arrays import JointSeries, JointVector
 from core.errors import OptionError
 from core.log.model import JointLog, LogRows
+from core.signals.derivative import median
 from core.signals.resample import uniform
 
 MOTION_SHARE = 0.995
@@ -30,6 +31,8 @@ STILL_SHARE = 0.01
 """A joint stands when it is slower than this share of its RMS speed."""
 TREMBLE_SHARE = 0.01
 """A joint slower than this share of the fastest one only trembles; its spectrum is its encoder's."""
+LOWEST_SHARE = 0.05
+"""A cut-off below this share of the motion's band leaves no motion, and its kernel outgrows any log."""
 _LOOK_SECONDS = 60.0
 _LOOKS = 8
 
@@ -96,10 +99,10 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
     Raises
     ------
     OptionError
-        If a given cut-off does not fit the log's rate.
+        If a given cut-off does not fit the log's rate or motion.
     """
     rate = log.rate_hz
-    bands, speeds, slowest = _survey(log)
+    bands, speeds, slowest = _survey(log, options.median_order)
     moving = bands[speeds > TREMBLE_SHARE * speeds.max()]
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)
@@ -107,11 +110,11 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
     cutoff = _given(options.cutoff_hz, min(PARALLEL_OVER_MOTION * band, highest / 2.0))
     position = _given(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
-        if not 0.0 < value < nyquist:
+        if not LOWEST_SHARE * band < value < nyquist:
             raise OptionError(
-                f"{name} does not fit the log's rate",
-                evidence={name: value, "rate_hz": 2.0 * nyquist},
-                remedy=f"give a cut-off above 0 and below {nyquist:.6g} Hz",
+                f"{name} does not fit the log's rate or its motion",
+                evidence={name: value, "rate_hz": 2.0 * nyquist, "motion_band_hz": band},
+                remedy=f"give a cut-off above {LOWEST_SHARE * band:.3g} Hz and below {nyquist:.6g} Hz",
             )
     decimation = options.decimation or max(1, int(0.4 * rate / cutoff))
     chosen = f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
@@ -142,7 +145,7 @@ def _given(asked: float | None, chosen: float) -> float:
     return chosen if asked is None else asked
 
 
-def _survey(log: JointLog) -> tuple[JointVector, JointVector, float]:
+def _survey(log: JointLog, median_order: int) -> tuple[JointVector, JointVector, float]:
     """Give band (Hz) and RMS speed of every joint, from up to eight looks over the longest segment.
 
     Last comes the mean rate (Hz) of the slowest look: rows that were never recorded make it less than the
@@ -154,7 +157,7 @@ def _survey(log: JointLog) -> tuple[JointVector, JointVector, float]:
     firsts = np.linspace(start, stop - length, count).astype(int)
     seen = [log.source.rows(int(first), int(first) + length) for first in firsts]
     slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in seen)
-    looks = [_velocity(rows, log.rate_hz) for rows in seen]
+    looks = [_velocity(rows, log.rate_hz, median_order) for rows in seen]
     speeds = np.sqrt(np.mean([np.mean(look**2, axis=0) for look in looks], axis=0))
     power = np.mean([_power(look, log.rate_hz) for look in looks], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
@@ -162,10 +165,12 @@ def _survey(log: JointLog) -> tuple[JointVector, JointVector, float]:
     return np.array([frequency[np.argmax(one >= MOTION_SHARE)] for one in held.T]), speeds, slowest
 
 
-def _velocity(rows: LogRows, rate_hz: float) -> JointSeries:
+def _velocity(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
+    """Differentiate without the absurd samples, which would otherwise pass for quick motion."""
     _, position, _ = uniform(rows, rate_hz)
     low = signal.butter(2, min(0.2 * rate_hz, 40.0), fs=rate_hz, output="sos")
-    return np.asarray(np.gradient(signal.sosfiltfilt(low, position, axis=0), 1.0 / rate_hz, axis=0))
+    smooth = signal.sosfiltfilt(low, median(position, median_order), axis=0)
+    return np.asarray(np.gradient(smooth, 1.0 / rate_hz, axis=0))
 
 
 def _power(velocity: JointSeries, rate_hz: float) -> np.ndarray:

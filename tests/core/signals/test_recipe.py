@@ -50,6 +50,23 @@ def test_encoder_noise_does_not_widen_the_band():
     assert choose_recipe(log_of(time, noisy), FilterOptions()).motion_band_hz < _recipe().motion_band_hz + 0.5
 
 
+def test_single_absurd_samples_are_not_taken_for_quick_motion():
+    rng = np.random.default_rng(6)
+    time = np.arange(30_000) / RATE_HZ
+    position = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0).position(time)
+    position[rng.integers(0, len(time), 200), rng.integers(0, 3, 200)] += 0.5
+    recipe = choose_recipe(log_of(time, position), FilterOptions())
+    assert recipe.motion_band_hz == pytest.approx(_recipe().motion_band_hz, abs=0.13)
+    # The sharper side of the claim: without the median the same samples do widen the band.
+    assert choose_recipe(log_of(time, position), FilterOptions(median_order=1)).motion_band_hz > 5.0
+
+
+def test_a_cut_off_far_below_the_motion_is_refused_at_once():
+    with pytest.raises(OptionError) as refusal:
+        _recipe(FilterOptions(cutoff_hz=10.0, position_cutoff_hz=0.001))
+    assert refusal.value.evidence["motion_band_hz"] == pytest.approx(_recipe().motion_band_hz)
+
+
 def test_what_is_asked_for_is_what_is_done():
     recipe = _recipe(FilterOptions(3, 8.0, 33.0, 4, 7))
     assert (recipe.median_order, recipe.cutoff_hz, recipe.position_cutoff_hz) == (3, 8.0, 33.0)
