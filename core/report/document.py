@@ -69,7 +69,7 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
     drawn = intervals(found.draws) if len(found.draws) else None
     return [
         {
-            **grouping_row(found.base, row),
+            **_named(found.base, row),
             "value": estimate.base[row],
             "value_ols": estimate.unconstrained[row],
             "standard_deviation": deviation[row],
@@ -78,6 +78,7 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
             "bootstrap_interval_95": None if drawn is None else drawn[row],
             "own_share": found.excitation.own_share[row],
             "essential": row in essential,
+            **_grouped(found.base, row),
         }
         for row in range(len(found.base.kept))
     ]
@@ -85,14 +86,16 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
 
 def grouping_row(base: BaseModel, row: int) -> dict[str, object]:
     """Name a base parameter, and say in words and as data what is grouped in it."""
+    return {**_named(base, row), **_grouped(base, row)}
+
+
+def _named(base: BaseModel, row: int) -> dict[str, object]:
     parameter = base.parameter(row)
-    return {
-        "name": base.names[row],
-        "unit": parameter.unit,
-        "joint": parameter.joint,
-        "grouping": base.in_words(row),
-        "relation": base.relation(row),
-    }
+    return {"name": base.names[row], "unit": parameter.unit, "joint": parameter.joint}
+
+
+def _grouped(base: BaseModel, row: int) -> dict[str, object]:
+    return {"grouping": base.in_words(row), "relation": base.relation(row)}
 
 
 def _standard_parameters(found: Identification) -> list[dict[str, object]]:
