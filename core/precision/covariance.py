@@ -117,13 +117,17 @@ def relative_deviation_percent(base: BaseParameters, deviation: Vector) -> Vecto
         return np.where(base == 0.0, np.inf, 100.0 * deviation / np.abs(base))
 
 
-def subset(precision: Precision, chosen: Indices) -> Precision:
-    """Give the precision of a model reduced to the chosen base parameters."""
+def subset(precision: Precision, chosen: Indices, triangle: Matrix) -> Precision:
+    """Give the precision of a model reduced to the chosen base parameters.
+
+    What the motion could not tell apart it may, once others are gone; so their `open_share` is found anew.
+    """
     square = np.ix_(chosen, chosen)
+    was_open = precision.open_share[chosen]
     return Precision(
         precision.information[square],
         precision.spread[square],
-        precision.open_share[chosen],
+        _open_share(triangle[:, chosen]) if was_open.any() else was_open,
         precision.memory_factor,
     )
 

@@ -41,9 +41,9 @@ def essential_parameters(system: System, precision: Precision) -> Essential:
     path: list[Elimination] = []
     while len(kept) > 1:
         values, cost = _refitted(system, kept)
-        deviation = subset(precision, kept).standard_deviation
+        deviation = subset(precision, kept, system.triangle).standard_deviation
         ratios = np.where(np.isfinite(deviation), np.abs(values) / np.maximum(deviation, 1e-300), 0.0)
-        weakest = int(np.argmin(ratios))
+        weakest = int(np.flatnonzero(ratios == ratios.min())[-1])  # of equals, the farthest from the base
         if path:
             path[-1] = Elimination(path[-1].parameter, path[-1].ratio, cost)
         if ratios[weakest] > INTERVAL_95:

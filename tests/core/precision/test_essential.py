@@ -1,5 +1,7 @@
 """Hold the elimination of weak parameters: negligible ones leave, strong ones stay, the path is kept."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from core.estimate.system import System
@@ -56,10 +58,24 @@ def test_one_parameter_always_stays():
 
 def test_parameters_that_nothing_excites_leave_first():
     world = world_of(planar_robot(), noise=0.01, samples=400)
-    precision = _white(world.system)
-    opened = Precision(
-        precision.information, precision.spread, np.eye(len(world.true_base))[3], precision.memory_factor
-    )
-    essential = essential_parameters(world.system, opened)
+    unmoved = np.eye(len(world.true_base))[3]
+    system = replace(world.system, triangle=world.system.triangle * (1.0 - unmoved))
+    precision = replace(_white(system), open_share=unmoved)
+    essential = essential_parameters(system, precision)
     assert essential.path[0].parameter == 3
     assert essential.path[0].ratio == 0.0
+
+
+def test_of_two_that_only_act_together_the_later_leaves_and_the_other_carries_both():
+    rng = np.random.default_rng(3)
+    W = rng.normal(size=(400, 3))
+    W[:, 1] = 2.0 * W[:, 0]
+    y = W @ np.array([1.0, 1.0, -2.0]) + 0.1 * rng.normal(size=400)
+    Q, R = np.linalg.qr(W)
+    system = System(R, Q.T @ y, float(y @ y - (Q.T @ y) @ (Q.T @ y)), 400, np.ones(1))
+    together = np.array([0.9, 0.4, 0.0])
+    information = R.T @ R
+    essential = essential_parameters(system, Precision(information, 0.01 * information, together, np.ones(1)))
+    assert essential.kept.tolist() == [0, 2]
+    # Nothing was lost: the noise alone is left.
+    assert essential.path[-1].cost < 1.2 * 0.01 * 400
