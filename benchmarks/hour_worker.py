@@ -4,7 +4,7 @@ A process of its own, so that nothing but the identification is counted.
 """
 
 import json
-import resource
+import re
 import sys
 import time
 from pathlib import Path
@@ -32,11 +32,17 @@ def main() -> None:
     spent = {"imports": marks[0][1], "read": marks[1][1] - marks[0][1], **stages}
     told = {
         "seconds": time.process_time(),
-        "peak_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
+        "peak_mb": _peak_mb(),
         "stages": {name: seconds for name, seconds in spent.items() if seconds >= 0.005},
         "status": document["solver"]["status"],  # type: ignore[index]
     }
     sys.stdout.write(json.dumps(told))
+
+
+def _peak_mb() -> float:
+    """Read the peak since this program was loaded; getrusage would count the process it was forked from."""
+    (kilobytes,) = re.findall(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())
+    return int(kilobytes) / 1024.0
 
 
 def _charge(stages: dict[str, float], stage: str, marks: list[tuple[str, float]]) -> None:
