@@ -253,9 +253,11 @@ def _terms(reader: _Reader) -> tuple[str, ...] | None:
     value = reader.take("terms")
     if value is None:
         return None
+    if value == [] or (isinstance(value, list) and len(set(map(str, value))) < len(value)):
+        raise reader.wrong("terms", value, "a list of at least one term, each named once")
     known = tuple(STANDARD_TERMS)
     unknown = [one for one in value if one not in known] if isinstance(value, list) else [value]
-    if unknown or not value:
+    if unknown:
         raise OptionError(
             "a torque term is not known",
             evidence={"unknown": [str(one)[:50] for one in unknown[:10]], "known": sorted(STANDARD_TERMS)},

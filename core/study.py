@@ -69,10 +69,7 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     """Identify a robot and give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_options(request.options)
-    if not request.logs:
-        raise LogError(
-            "there is no log to identify from", evidence={"logs": 0}, remedy="name at least one log"
-        )
+    _check_logs(request.logs)
     tell("condition", 0.02)
     motions = _condition(request, options)
     held_out = options.validation.chosen(len(motions))
@@ -121,7 +118,7 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
         validation_total_percent=total_percent(observation, held, answer.base) if held else 0.0,
         excitation=excitation(system.triangle),
         unconstrained_feasibility=feasibility(base, answer.unconstrained, prior),
-        estimate_feasibility=feasibility(base, answer.base, prior),
+        estimate_feasibility=feasibility(base, base.base_of(answer.standard), prior),
         pseudo_inertia_eigenvalues=pseudo_inertia_eigenvalues(model, answer.standard),
         active_constraints=active_constraints(model, answer.standard, prior, options.estimate.bounds),
         trajectory=check_mass_matrix(model, answer.standard, observation.positions),
@@ -160,6 +157,18 @@ class _Look:
         places = range(len(held))
         fitted = tuple(place for place in places if not held[place])
         return fitted, tuple(place for place in places if held[place])
+
+
+def _check_logs(logs: tuple[JointLog, ...]) -> None:
+    if not logs:
+        raise LogError("there is no log to identify from", evidence={"logs": 0}, remedy="name at least one")
+    hashes = [log.sha256 for log in logs if log.sha256]
+    if len(set(hashes)) < len(hashes):
+        raise LogError(
+            "the same log is given more than once, and would count as independent data",
+            evidence={"logs": [log.name for log in logs], "different": len(set(hashes))},
+            remedy="name every log once",
+        )
 
 
 def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Motion, ...]:

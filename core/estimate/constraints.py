@@ -168,7 +168,7 @@ def lower_bounds(model: DynamicModel) -> Vector:
 def _proportions(model: DynamicModel, torque_rms: Vector) -> tuple[float, float, float]:
     robot = model.robot
     lengths: list[float] = [float(np.linalg.norm(link.translation)) for link in robot.links]
-    length = max(sum(lengths) / len(lengths), 0.05)
+    length = max(*lengths, 0.05)
     effort = max(float(torque_rms.max()), 1e-6)
     gravity = max(float(np.linalg.norm(robot.gravity)), 1.0)
     reach = max(sum(lengths), length)

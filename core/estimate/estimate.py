@@ -57,11 +57,22 @@ class EstimateOptions:
                 },
                 remedy="choose one of the known names",
             )
-        if not 0.0 < self.pull <= 1.0 or not 0.0 <= self.entropy <= 1e6:
+        without_effect = [
+            name
+            for name, asked in (("bounds", self.bounds != Bounds()), ("entropy", self.entropy > 0.0))
+            if asked and self.estimator != "sdp"
+        ] + (["robust"] if self.robust and self.estimator == "ols" else [])
+        if without_effect:
+            raise OptionError(
+                f"{' and '.join(without_effect)} would have no effect on this estimator",
+                evidence={"estimator": self.estimator, "without_effect": without_effect},
+                remedy="ask for estimator sdp, or leave these options out",
+            )
+        if not 0.0 < self.pull <= 1e6 or not 0.0 <= self.entropy <= 1e6:
             raise OptionError(
                 "the weights of the prior make no sense",
                 evidence={"pull": self.pull, "entropy": self.entropy},
-                remedy="give a pull above 0 and up to 1, and an entropy from 0 to 1e6",
+                remedy="give a pull above 0 and up to 1e6, and an entropy from 0 to 1e6",
             )
         if self.entropy > 0.0 and self.solver != "cvxpy":
             raise OptionError(

@@ -1,6 +1,6 @@
 """State the semidefinite programme once: what is minimised, over what, under which constraints.
 
-    minimise    ||R G phi - z||^2 / (2 n)  +  pull ||(phi - prior) / scale||^2 / 2
+    minimise    ||R G phi - z||^2 / (2 n)  +  pull ||(phi - prior) / scale||^2 / (2 n)
                 +  entropy / n  sum_k d(J_k, J_k of the prior)
     subject to  D J_k(phi) D >= margin E  for every link k,
                 phi_i >= lower_i,  bounds on masses and mass centres
@@ -20,8 +20,12 @@ from core.estimate.constraints import Bounds, Prior
 from core.estimate.system import System
 from core.reduction.base import BaseModel
 
-PULL = 1e-5
-"""Weight of the pull towards the prior: costs a few thousandths of chi^2, bounds what is left open."""
+PULL = 0.02
+"""Weight of the pull towards the prior, in units of chi^2 per squared scale.
+
+A parameter that lies one scale from the prior is pulled by a fiftieth of a deviation at most, however long
+the log; what the motion leaves open goes to the prior all the same.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +52,11 @@ class Programme:
     bounds: Bounds
     pull: float = PULL
     entropy: float = 0.0
+
+    @property
+    def scaled_pull(self) -> float:
+        """Give the pull's weight beside the misfit per equation."""
+        return self.pull / self.system.rows
 
     @property
     def scaled_rows(self) -> tuple[Matrix, Vector]:

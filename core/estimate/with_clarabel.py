@@ -71,7 +71,7 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     _add_signs(cones, programme)
     _add_masses(cones, programme)
     _add_centres(cones, programme)
-    pull = np.full(parameters, programme.pull)
+    pull = np.full(parameters, programme.scaled_pull)
     quadratic = sparse.diags(np.concatenate([pull, np.ones(equations)]), format="csc")
     linear = np.concatenate([-pull * programme.prior.centre / programme.prior.scale, np.zeros(equations)])
     problem = (quadratic, linear, sparse.csc_matrix(np.vstack(cones.rows)), np.concatenate(cones.right))

@@ -33,7 +33,7 @@ def solve_with_cvxpy(programme: Programme) -> Solution:
     phi = cvxpy.Variable(len(scale))
     misfit, target = programme.scaled_rows
     objective = 0.5 * cvxpy.sum_squares(misfit @ phi - target)
-    objective += 0.5 * programme.pull * cvxpy.sum_squares(phi - programme.prior.centre / scale)
+    objective += 0.5 * programme.scaled_pull * cvxpy.sum_squares(phi - programme.prior.centre / scale)
     if programme.entropy > 0.0:
         objective += programme.entropy / programme.system.rows * _entropy(programme, phi)
     problem = cvxpy.Problem(cvxpy.Minimize(objective), _constraints(programme, phi))

@@ -13,6 +13,8 @@ from core.log.layout import Layout
 
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0
+WHOLE_TURN_TOLERANCE = 0.1
+"""Rad that a joint may move between two samples and still be said to have been wrapped by a turn."""
 LARGEST = 1e15
 FIRST_ROWS = 5
 
@@ -51,6 +53,7 @@ class Contract:
         self._bad: dict[str, tuple[int, list[int]]] = {}
         self._backwards = self._duplicates = 0
         self._first_disorder: tuple[int, float, float] | None = None
+        self._wrapped: dict[int, tuple[int, float]] = {}
         self.low: dict[str, JointVector] = {}
         self.high: dict[str, JointVector] = {}
         self.start = self.stop = np.nan
@@ -58,6 +61,7 @@ class Contract:
     def accepts(self, stretch: Stretch) -> bool:
         """Take the next stretch into account; False once anything was found that must be refused."""
         self._order(stretch)
+        self._wraps(stretch)
         for name, values in stretch.channels().items():
             self._extremes(name, values, stretch.first + stretch.context)
         return not (self._bad or self._backwards or self._duplicates)
@@ -69,6 +73,32 @@ class Contract:
             self._count(self._columns[name][joint], ~(np.abs(values[joint]) < LARGEST), first)
         self.low[name] = np.fmin(self.low.get(name, low), low)
         self.high[name] = np.fmax(self.high.get(name, high), high)
+
+    def _wraps(self, stretch: Stretch) -> None:
+        """Count steps of a whole turn between samples that otherwise move by a fraction of one."""
+        steps = np.abs(np.diff(stretch.position[:, stretch.seam :], axis=1))
+        waits = np.diff(stretch.time[stretch.seam :])
+        prompt = waits < 3.0 * np.median(waits)
+        turns = (np.abs(steps - 2.0 * np.pi) < WHOLE_TURN_TOLERANCE) & prompt
+        if not turns.any():
+            return
+        for joint in np.flatnonzero(turns.any(axis=1)):
+            if np.median(steps[joint]) < WHOLE_TURN_TOLERANCE:
+                count, first = self._wrapped.get(int(joint), (0, float(stretch.time[stretch.seam + 1])))
+                at = float(stretch.time[stretch.seam + int(np.argmax(turns[joint])) + 1])
+                self._wrapped[int(joint)] = (count + int(turns[joint].sum()), first if count else at)
+
+    def _check_wraps(self) -> None:
+        if not self._wrapped:
+            return
+        raise LogError(
+            "a position jumps by a whole turn from one sample to the next: the angle is wrapped",
+            evidence={
+                f"joint_{joint + 1}": {"jumps": count, "first_at_s": at}
+                for joint, (count, at) in sorted(self._wrapped.items())
+            },
+            remedy="unwrap the angles before uploading (numpy.unwrap), so that they follow the joint",
+        )
 
     def _order(self, stretch: Stretch) -> None:
         time = stretch.time[stretch.seam :]
@@ -105,6 +135,7 @@ class Contract:
         """
         self._check_finite()
         self._check_order()
+        self._check_wraps()
         if self.stop - self.start < SHORTEST_SECONDS:
             raise LogError(
                 "the log is too short to study",

@@ -31,13 +31,15 @@ from core.robot.model import RobotModel
 from core.signals.derivative import centred_difference, median
 from core.signals.parallel import ParallelFilter
 from core.signals.recipe import FilterOptions, Recipe, choose_recipe
-from core.signals.resample import is_uniform, on_grid
+from core.signals.resample import dropped, is_uniform, on_grid
 from core.signals.state import MotionState
 from core.signals.zero_phase import kernel, reach_of
 
 TILE_KEPT = 512
 STILL_SECONDS = 0.2
 END_SHARE = 1e-3
+_NEIGHBOURS = 40
+"""Samples on either side of a stretch that its spline is laid through; further ones change nothing."""
 UNUSABLE_SHARE = 0.05
 """A kept instant is left out when more of the parallel filter's mass than this falls on unusable samples."""
 
@@ -211,13 +213,21 @@ class _Segment:
 
     def _read(self, begin: int, end: int) -> tuple[JointSeries, JointSeries]:
         if self.stamps is None:
-            rows = self.log.source.rows(self.start + begin, self.start + end)
-            return rows.position, _effort(rows)
+            return self._read_even(begin, end)
         grid = self.begin_time + np.arange(begin, end) / self.rate_hz
         near = np.searchsorted(self.stamps, grid[[0, -1]])
-        low, high = max(0, int(near[0]) - 40), min(len(self.stamps), int(near[1]) + 40)
+        low, high = max(0, int(near[0]) - _NEIGHBOURS), min(len(self.stamps), int(near[1]) + _NEIGHBOURS)
         rows = self.log.source.rows(self.start + low, self.start + high)
         return on_grid(rows, _effort(rows), grid)
+
+    def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries]:
+        """Take even samples as they are, unless some of them only repeat the one before."""
+        low, high = max(0, begin - _NEIGHBOURS), min(self.samples, end + _NEIGHBOURS)
+        rows = self.log.source.rows(self.start + low, self.start + high)
+        inner = slice(begin - low, end - low)
+        if not dropped(rows).any():
+            return rows.position[inner], _effort(rows)[inner]
+        return on_grid(rows, _effort(rows), rows.time[inner])
 
     def _unusable(self, velocity: JointSeries, begin: int) -> JointMask:
         reach = reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2

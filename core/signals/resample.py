@@ -43,7 +43,7 @@ def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointS
 
 def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[InstantSeries, InstantSeries]:
     """Interpolate position and effort at the instants of a grid inside the rows' time span."""
-    fresh = ~_dropped(rows)
+    fresh = ~dropped(rows)
     time = rows.time[fresh]
     torque = np.column_stack([np.interp(grid, time, column) for column in effort[fresh].T])
     if len(time) < 4:
@@ -51,7 +51,7 @@ def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[Instant
     return np.asarray(CubicSpline(time, rows.position[fresh], axis=0)(grid)), torque
 
 
-def _dropped(rows: LogRows) -> SampleMask:
+def dropped(rows: LogRows) -> SampleMask:
     """Mark the repeats that stand for dropped samples; never the last row, beyond which nothing is known."""
     repeats = repeated(rows)
     starts = np.flatnonzero(np.diff(repeats, prepend=False) & repeats)

@@ -11,6 +11,9 @@ import numpy as np
 
 from core.arrays import Matrix, Vector
 
+_COLLINEAR = 1e-12
+"""Singular values below this share of the largest are rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class ExcitationScore:
@@ -43,9 +46,8 @@ def _condition(matrix: Matrix) -> float:
 
 
 def _own_share(scaled: Matrix) -> Vector:
-    shares = np.zeros(scaled.shape[1])
-    for column in range(len(shares)):
-        others = np.delete(scaled, column, axis=1)
-        explained = others @ np.linalg.lstsq(others, scaled[:, column], rcond=1e-12)[0]
-        shares[column] = np.linalg.norm(scaled[:, column] - explained)
-    return shares
+    """Give each unit column's distance from the span of the others: one over the root of diag (W'W)^-1."""
+    _, values, directions = np.linalg.svd(scaled)
+    floored = np.maximum(values, _COLLINEAR * values[0]) if values[0] > 0.0 else np.ones_like(values)
+    shares = 1.0 / np.sqrt((directions.T / floored) ** 2 @ np.ones(len(floored)))
+    return np.where(np.linalg.norm(scaled, axis=0) > 0.0, np.minimum(shares, 1.0), 0.0)

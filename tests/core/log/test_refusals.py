@@ -196,3 +196,17 @@ def test_parquet_that_is_damaged_behind_a_sound_footer_is_refused(tmp_path):
     path.write_bytes(bytes(damaged))
     with pytest.raises(LogError, match="Parquet file cannot be read"):
         read_log(path)
+
+
+def test_angles_wrapped_at_half_a_turn_are_refused_with_the_joint_and_the_jumps(tmp_path):
+    def change(columns):
+        turning = 4.0 * columns["q_2"]
+        columns["q_2"] = (turning + np.pi) % (2.0 * np.pi) - np.pi
+
+    columns = spoiled(change)
+    jumps = int(np.count_nonzero(np.abs(np.diff(columns["q_2"])) > 6.0))
+    assert jumps > 0
+    error = refusal(columns, tmp_path)
+    assert error.evidence["joint_2"]["jumps"] == jumps
+    assert set(error.evidence) == {"joint_2"}
+    assert "unwrap" in error.remedy

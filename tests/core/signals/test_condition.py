@@ -225,3 +225,19 @@ def test_a_joint_that_its_drive_holds_while_others_move_counts_as_standing():
     _, _, usable = _kept(_conditioned(log_of(time, position)))
     assert usable[:, 0].mean() > 0.9
     assert usable[:, 1].mean() < 0.05
+
+
+def test_samples_that_only_repeat_the_one_before_do_not_bend_an_even_log():
+    time, swing = _swing()
+    position, torque = swing.position(time), np.cos(swing.position(time))
+    held = np.random.default_rng(8).random(len(time)) < 0.05
+    held[0] = False
+    latest = np.maximum.accumulate(np.where(held, 0, np.arange(len(time))))
+    clean = _kept(_conditioned(log_of(time, position, torque), SMOOTH))
+    mended = _kept(_conditioned(log_of(time, position[latest], torque[latest]), SMOOTH))
+    good = clean[2] & mended[2]
+    assert good.mean() > 0.9
+    worst = np.abs(mended[1] - clean[1])[:, good].max(axis=1)
+    size = np.abs(clean[1])[:, good].max(axis=1)
+    assert np.all(worst[:2] < 1e-3 * size[:2])
+    assert worst[2] < 1e-2 * size[2]

@@ -27,7 +27,7 @@ def test_orthogonal_columns_are_known_by_themselves_alone():
 
 def test_collinear_columns_have_nothing_of_their_own():
     found = excitation(np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
-    np.testing.assert_allclose(found.own_share, [0.0, 0.0, 1.0], atol=1e-12)
+    np.testing.assert_allclose(found.own_share, [0.0, 0.0, 1.0], atol=1e-11)  # rounding's floor
     assert found.condition_number == np.inf
 
 
