@@ -27,7 +27,7 @@ def test_no_options_give_the_defaults():
 def test_every_option_is_read():
     options = parse_options(
         {
-            "estimator": "irls",
+            "estimator": "sdp",
             "solver": "cvxpy",
             "robust": True,
             "essential": True,
@@ -53,7 +53,7 @@ def test_every_option_is_read():
         }
     )
     assert (options.estimate.estimator, options.estimate.solver, options.estimate.robust) == (
-        "irls",
+        "sdp",
         "cvxpy",
         True,
     )
@@ -130,6 +130,10 @@ WRONG = [
     {"prior": {"pull": math.nan}},
     {"prior": {"entropy": -1}},
     {"prior": {"entropy": 1}},
+    {"estimator": "wls", "bounds": {"total_mass": [1, 9]}},
+    {"estimator": "ols", "robust": True},
+    {"terms": []},
+    {"terms": ["viscous", "viscous"]},
     {"bounds": {"margin": math.inf}},
     {"bounds": {"margin": -1.0}},
     {"bounds": {"mass": [[1, 2, 1]]}},

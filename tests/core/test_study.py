@@ -11,7 +11,7 @@ from core import study
 from core.dynamics.model import standard_model
 from core.errors import LogError, OptionError, VeritorqueError
 from core.log.model import ArraySource, JointLog, LogRows, whole_rows
-from core.log.reader import log_from_arrays
+from core.log.reader import log_from_arrays, read_log
 from core.robot.builtin import builtin_robot
 from core.robot.model import RobotModel
 from core.signals import condition as conditioning
@@ -276,3 +276,20 @@ def test_sabotage_a_solver_that_ignores_the_links_breaks_feasibility(monkeypatch
 
 def test_the_version_in_the_document_is_that_of_the_package():
     assert identify(_request())["provenance"]["version"] == study._version()
+
+
+def test_a_log_given_twice_is_refused_because_it_is_no_more_data(tmp_path):
+    rows = whole_rows(_log())
+    columns = {"time": rows.time}
+    for joint in range(rows.position.shape[1]):
+        columns |= {f"q_{joint + 1}": rows.position[:, joint], f"tau_{joint + 1}": rows.torque[:, joint]}
+    np.savez(tmp_path / "log.npz", **columns)
+    log = read_log(tmp_path / "log.npz")
+    with pytest.raises(LogError, match="more than once"):
+        identify(_request(log, log))
+
+
+def test_a_reduced_model_is_still_a_robot_that_can_exist():
+    document = identify(_request(_log(noise=2.0), essential=True))
+    assert document["counts"]["essential"] < document["counts"]["base"]
+    assert document["feasibility"]["feasible"]

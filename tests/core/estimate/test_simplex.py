@@ -30,7 +30,7 @@ def _objective(world: World, standard: np.ndarray) -> float:
     system = world.system
     miss = system.target - system.triangle @ world.base.base_of(standard)
     step = (standard - world.prior.centre) / world.prior.scale
-    return float(miss @ miss / (2.0 * system.rows) + PULL * step @ step / 2.0)
+    return float((miss @ miss + PULL * step @ step) / (2.0 * system.rows))
 
 
 @pytest.mark.parametrize("start", ["optimum", "random"])
@@ -53,4 +53,4 @@ def _cost(world: World, standard: np.ndarray) -> float:
     system = world.system
     miss = system.target - system.triangle @ world.base.base_of(standard)
     step = (standard - world.prior.centre) / world.prior.scale
-    return float(miss @ miss / (2.0 * system.rows) + PULL * step @ step / 2.0)
+    return float((miss @ miss + PULL * step @ step) / (2.0 * system.rows))
