@@ -24,7 +24,8 @@ from core.arrays import (
 from core.regressor.columns import ColumnPlan
 from core.regressor.factor import Factor
 from core.regressor.memory import LaggedProducts
-from core.signals.condition import Motion, Tile
+from core.signals.condition import Motion
+from core.signals.tile import Tile
 
 _POSITIONS_PER_TILE = 32
 

@@ -15,6 +15,8 @@ from core.log.reader import log_from_arrays, read_log
 from core.robot.builtin import builtin_robot
 from core.robot.model import RobotModel
 from core.signals import condition as conditioning
+from core.signals import segment
+from core.signals.tile import Tile
 from core.study import IdentifyRequest, base_parameters, identify, identify_in_full
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters, wrist_robot
 
@@ -249,13 +251,13 @@ def test_sabotage_torque_late_by_one_sample_breaks_the_law():
 def test_sabotage_filters_cut_off_four_times_too_low_break_the_law(monkeypatch):
     narrow = {"cutoff_hz": 6.0, "position_cutoff_hz": 6.0}
     assert _error(filter=narrow) < LAW
-    kernel = conditioning.kernel
-    monkeypatch.setattr(conditioning, "kernel", lambda cutoff, rate, order: kernel(cutoff / 4.0, rate, order))
+    kernel = segment.kernel
+    monkeypatch.setattr(segment, "kernel", lambda cutoff, rate, order: kernel(cutoff / 4.0, rate, order))
     assert _error(filter=narrow) > 2.0 * LAW
 
 
 def test_sabotage_a_joint_without_acceleration_breaks_the_law(monkeypatch):
-    def still(tile: conditioning.Tile) -> conditioning.Tile:
+    def still(tile: Tile) -> Tile:
         acceleration = tile.state.acceleration.copy()
         acceleration[:, 1] = 0.0
         return replace(tile, state=replace(tile.state, acceleration=acceleration))

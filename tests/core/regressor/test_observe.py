@@ -17,6 +17,7 @@ from core.regressor.observe import Observation, equations, observe, residuals, t
 from core.signals import condition as conditioning
 from core.signals.condition import Motion, condition
 from core.signals.recipe import FilterOptions
+from core.signals.tile import Tile
 from tests.core.regressor.studies import (
     CUTOFF_HZ,
     DECIMATION,
@@ -186,7 +187,7 @@ def test_memory_is_that_of_the_rows_one_after_another(observation, plan, motion)
         assert np.allclose(observation.memory[joint].products, direct.products, rtol=1e-9, atol=1e-6)
 
 
-def _marked(plan: ColumnPlan, tile: conditioning.Tile) -> list[np.ndarray]:
+def _marked(plan: ColumnPlan, tile: Tile) -> list[np.ndarray]:
     return [rows * usable[:, None] for rows, usable in equations(plan, tile)]
 
 

@@ -1,0 +1,173 @@
+"""Condition one gap-free part of a log, any stretch of it by itself, by the seed's chain.
+
+Running median, zero-phase Butterworth on q, centred differences; what these reach of the ends, and every
+standstill, is marked unusable. Source: the seed paper, section 4.1.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.signal import oaconvolve
+
+from core.arrays import InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
+from core.log.model import JointLog, LogRows
+from core.signals.derivative import centred_difference, median
+from core.signals.parallel import ParallelFilter
+from core.signals.recipe import Recipe
+from core.signals.resample import dropped, is_uniform, on_grid
+from core.signals.state import MotionState
+from core.signals.tile import Tile
+from core.signals.zero_phase import kernel, reach_of
+
+STILL_SECONDS = 0.2
+END_SHARE = 1e-3
+_NEIGHBOURS = 40
+"""Samples on either side of a stretch that its spline is laid through; further ones change nothing."""
+UNUSABLE_SHARE = 0.05
+"""A kept instant is left out when more of the parallel filter's mass than this falls on unusable samples."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """Give conditioned stretches of one gap-free part of a log.
+
+    Attributes
+    ----------
+    start
+        Its first row in the log.
+    begin_time, rate_hz, samples
+        Its uniform clock: first instant in s, mean rate, number of instants.
+    stamps
+        The real stamps in s where they stray from that clock, else None.
+    """
+
+    log: JointLog
+    recipe: Recipe
+    start: int
+    begin_time: float
+    rate_hz: float
+    samples: int
+    stamps: Samples | None
+
+    @cached_property
+    def kept(self) -> int:
+        """Count the kept instants."""
+        return (self.samples - 1) // self.recipe.decimation + 1
+
+    @cached_property
+    def parallel(self) -> ParallelFilter:
+        """Give the parallel filter at this part's rate."""
+        return ParallelFilter(
+            kernel(self.recipe.cutoff_hz, self.rate_hz, self.recipe.order), self.recipe.decimation
+        )
+
+    @property
+    def still_samples(self) -> int:
+        """Count the samples that a joint must be slow for to stand."""
+        return max(3, int(STILL_SECONDS * self.rate_hz))
+
+    @cached_property
+    def low_pass(self) -> Samples:
+        """Give the kernel of the filter on q."""
+        return kernel(self.recipe.position_cutoff_hz, self.rate_hz, self.recipe.order)
+
+    def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
+        """Condition the stretch that the kept instants from first up to, not including, last need."""
+        step, reach = self.recipe.decimation, self.parallel.reach
+        first, last = first_kept * step, (last_kept - 1) * step
+        begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
+        # A standstill is known by its length, so the look for it reaches that much further than the filter.
+        early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
+        wide, torque = self._conditioned(early, late)
+        inner = slice(begin - early, end - early)
+        state = MotionState(wide.position[inner], wide.velocity[inner], wide.acceleration[inner])
+        marks = self._unusable(wide.velocity, early)[inner]
+        influence = self.parallel.influence(marks.T.astype(float), first - begin, last_kept - first_kept)
+        return Tile(
+            state=state,
+            torque=torque[inner] * effort_scale,
+            parallel=self.parallel,
+            first=first - begin,
+            time=self.begin_time + np.arange(first_kept, last_kept) * (step / self.rate_hz),
+            usable=influence.T <= UNUSABLE_SHARE,
+            block=block,
+            follows=first_kept > 0,
+        )
+
+    def _conditioned(self, begin: int, end: int) -> tuple[MotionState, JointSeries]:
+        halo = self.recipe.median_order // 2 + len(self.low_pass) // 2 + 2
+        left, right = max(0, begin - halo), min(self.samples, end + halo)
+        position, torque = self._read(left, right)
+        padded = _extend(position, halo - (begin - left), halo - (right - end))
+        smooth = oaconvolve(
+            median(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0
+        )
+        velocity = centred_difference(smooth, self.rate_hz)
+        acceleration = centred_difference(velocity, self.rate_hz)
+        state = MotionState(smooth[2:-2], velocity[1:-1], acceleration)
+        return state, torque[begin - left : len(torque) - (right - end)]
+
+    def _read(self, begin: int, end: int) -> tuple[JointSeries, JointSeries]:
+        if self.stamps is None:
+            return self._read_even(begin, end)
+        grid = self.begin_time + np.arange(begin, end) / self.rate_hz
+        near = np.searchsorted(self.stamps, grid[[0, -1]])
+        low, high = max(0, int(near[0]) - _NEIGHBOURS), min(len(self.stamps), int(near[1]) + _NEIGHBOURS)
+        rows = self.log.source.rows(self.start + low, self.start + high)
+        return on_grid(rows, _effort(rows), grid)
+
+    def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries]:
+        """Take even samples as they are, unless some of them only repeat the one before."""
+        low, high = max(0, begin - _NEIGHBOURS), min(self.samples, end + _NEIGHBOURS)
+        rows = self.log.source.rows(self.start + low, self.start + high)
+        inner = slice(begin - low, end - low)
+        if not dropped(rows).any():
+            return rows.position[inner], _effort(rows)[inner]
+        return on_grid(rows, _effort(rows), rows.time[inner])
+
+    def _unusable(self, velocity: JointSeries, begin: int) -> JointMask:
+        reach = reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2
+        index = np.arange(begin, begin + len(velocity))
+        ends: SampleMask = (index < reach) | (index >= self.samples - reach)
+        slow = np.abs(velocity) <= self.recipe.still_speed
+        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples))
+
+
+def gap_free(log: JointLog, recipe: Recipe, start: int, stop: int) -> Segment | None:
+    """Look at the stamps of some rows; None where they are too few to be differentiated."""
+    stamps = np.concatenate(
+        [log.source.rows(row, min(row + 65536, stop)).time for row in range(start, stop, 65536)]
+    )
+    if stop - start < 16 or stamps[-1] - stamps[0] < 1.0:
+        return None
+    rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
+    even = is_uniform(stamps, float(rate))
+    return Segment(log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps)
+
+
+def _long_runs(mask: JointMask, run: int) -> JointMask:
+    """Keep the stretches of a mask that last at least `run` samples: those that some full window covers."""
+    if len(mask) < run:
+        return np.asarray(mask & mask.all(axis=0))
+    full = _window_sums(mask, run) == run
+    return np.asarray(_window_sums(np.pad(full, ((run - 1, run - 1), (0, 0))), run) > 0)
+
+
+def _window_sums(mask: JointMask, run: int) -> np.ndarray:
+    """Count the marks in every window of `run` samples."""
+    sums = np.cumsum(np.pad(mask, ((1, 0), (0, 0))), axis=0)
+    return np.asarray(sums[run:] - sums[:-run])
+
+
+def _effort(rows: LogRows) -> JointSeries:
+    effort = rows.torque if rows.torque is not None else rows.current
+    return np.zeros_like(rows.position) if effort is None else effort
+
+
+def _extend(position: JointSeries, before: int, after: int) -> InstantSeries:
+    """Continue a series beyond its ends by turning it about its end points, as far as it is long enough."""
+    pads = ((min(before, len(position) - 1), min(after, len(position) - 1)), (0, 0))
+    turned = np.pad(position, pads, mode="reflect", reflect_type="odd")
+    missing = ((before - pads[0][0], after - pads[0][1]), (0, 0))
+    return np.pad(turned, missing, mode="edge")
