@@ -6,7 +6,7 @@ A programme that ends at an optimum has answered the question it was given; whet
 
 import numpy as np
 
-from core.arrays import JointVector
+from core.arrays import JointVector, Mask
 from core.estimate.estimate import Estimate
 from core.report.identification import Identification
 
@@ -92,9 +92,22 @@ def _unseen(found: Identification) -> list[str]:
 
 
 def _left_open(found: Identification) -> list[str]:
-    rows = np.flatnonzero(~np.isfinite(found.precision.standard_deviation))
-    if not len(rows):
-        return []
-    names = ", ".join(found.base.names[row] for row in rows[:10])
+    is_open = ~np.isfinite(found.precision.standard_deviation)
+    silent = np.diag(found.precision.information) == 0.0
+    sentences = []
+    if silent.any():
+        sentences.append(
+            f"The motion does not excite {_names(found, silent)}: their values come from the prior alone"
+        )
+    if (is_open & ~silent).any():
+        sentences.append(
+            f"The motion cannot tell {_names(found, is_open & ~silent)} apart from each other: "
+            "only combinations of them are known, the prior chooses among these"
+        )
+    return sentences
+
+
+def _names(found: Identification, marked: Mask) -> str:
+    rows = np.flatnonzero(marked)
     more = f" and {len(rows) - 10} more" if len(rows) > 10 else ""
-    return [f"The motion does not excite {names}{more}: their values come from the prior alone"]
+    return ", ".join(found.base.names[row] for row in rows[:10]) + more
