@@ -35,7 +35,7 @@ _SIGNATURE = (
 
 
 @njit(inline="always")
-def _sine_cosine(angle):
+def sine_cosine(angle):
     """Give sine and cosine to rounding, for angles up to a million radians, by series that vectorise."""
     quarters = np.floor(angle * TWO_OVER_PI + 0.5)
     x = (angle - quarters * HALF_PI_HIGH) - quarters * HALF_PI_LOW
@@ -56,7 +56,7 @@ def _place_link(place, position, joint, begin, count, scale, offset, slides, rot
     t0, t1, t2 = translation[0], translation[1], translation[2]
     for s in range(count):
         coordinate = scale * position[joint, begin + s] + offset
-        d, c = _sine_cosine((1.0 - slides) * coordinate)
+        d, c = sine_cosine((1.0 - slides) * coordinate)
         q = slides * coordinate
         place[0, s], place[1, s], place[2, s] = c * r00 + d * r01, c * r01 - d * r00, r02
         place[3, s], place[4, s], place[5, s] = c * r10 + d * r11, c * r11 - d * r10, r12
