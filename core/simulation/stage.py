@@ -1,0 +1,178 @@
+"""Give the accelerations of many states at once: torques of every kind in, rates and what friction holds out.
+
+Terms without a compiled form are evaluated for all states together. A jump that such a term makes where its
+joint's velocity changes sign is friction: its half height adds to the level that can hold the joint.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.signals.state import MotionState
+from core.simulation import forward
+from core.simulation.mechanism import Mechanism, columns
+
+CREEP = 1e-9
+"""Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""
+
+
+@dataclass(frozen=True, eq=False)
+class States:
+    """Hold states side by side; tables are (joints, states), `direction` (frictions, states).
+
+    Attributes
+    ----------
+    acceleration
+        The last one known, for terms that depend on it.
+    direction
+        Way in which each friction slides, 1 or -1; 0 at rest.
+    time
+        Of every state, s.
+    temperature
+        Of every joint, degC; None where none was logged.
+    """
+
+    position: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+    direction: np.ndarray
+    time: np.ndarray
+    temperature: np.ndarray | None = None
+
+    @classmethod
+    def starting(cls, mechanism: Mechanism, state: MotionState) -> Self:
+        """Take over a measured state; what has no speed at all is at rest."""
+        velocity = columns(state.velocity)
+        return cls(
+            position=columns(state.position),
+            velocity=velocity,
+            acceleration=columns(state.acceleration),
+            direction=np.sign(mechanism.weights @ velocity),
+            time=np.zeros(len(state.position)) if state.time is None else state.time,
+            temperature=None if state.temperature is None else columns(state.temperature),
+        )
+
+    def chosen(self, which: np.ndarray) -> Self:
+        """Pick some of the states."""
+        temperature = None if self.temperature is None else self.temperature[:, which]
+        tables = (self.position, self.velocity, self.acceleration, self.direction)
+        position, velocity, acceleration, direction = (table[:, which] for table in tables)
+        return replace(
+            self,
+            position=position,
+            velocity=velocity,
+            acceleration=acceleration,
+            direction=direction,
+            time=self.time[which],
+            temperature=temperature,
+        )
+
+    def put(self, which: np.ndarray, other: Self) -> None:
+        """Overwrite some of the states in place."""
+        self.position[:, which] = other.position
+        self.velocity[:, which] = other.velocity
+        self.acceleration[:, which] = other.acceleration
+        self.direction[:, which] = other.direction
+        self.time[which] = other.time
+
+
+@dataclass(frozen=True, eq=False)
+class Rates:
+    """Hold accelerations (per s2), the directions after friction has decided, and what is held at rest."""
+
+    acceleration: np.ndarray
+    direction: np.ndarray
+    held: np.ndarray
+
+
+def rates(
+    mechanism: Mechanism,
+    states: States,
+    torque: np.ndarray,
+    *,
+    known: np.ndarray | None = None,
+    implicit: np.ndarray | None = None,
+    damping: np.ndarray | None = None,
+) -> Rates:
+    """Solve (M + implicit D) a = torque - all other torques - M known.
+
+    Parameters
+    ----------
+    torque
+        The drives' torque, N m or N, (joints, states).
+    known, implicit
+        A known part of the rate (zero by default), and a time per state, s (zero by default).
+    damping
+        The mechanism's own by default; a controller adds to it.
+    """
+    _, count = torque.shape
+    applied = torque - mechanism.offset[:, None]
+    level = np.repeat(mechanism.levels[:, None], count, axis=1)
+    if mechanism.others.terms:
+        smooth, jump = _other_torques(mechanism, states)
+        applied -= smooth
+        level = _with_jumps(mechanism, level, jump)
+    answer, held = np.empty_like(applied), np.zeros_like(level)
+    forward.accelerations(
+        mechanism.bodies,
+        mechanism.inertia,
+        mechanism.damping if damping is None else damping,
+        mechanism.weights,
+        states.position,
+        states.velocity,
+        applied,
+        np.zeros_like(applied) if known is None else known,
+        np.zeros(count) if implicit is None else implicit,
+        states.direction,
+        level,
+        answer,
+        held,
+    )
+    if not len(level):
+        return Rates(answer, states.direction, np.zeros(level.shape, dtype=bool))
+    resting = states.direction == 0.0
+    stuck = resting & (np.abs(held) < level)
+    # what yields without a level to overcome goes where it is accelerated to
+    way = np.where(held != 0.0, np.sign(held), np.sign(mechanism.weights @ answer))
+    return Rates(answer, np.where(resting & ~stuck, way, states.direction), stuck)
+
+
+def accelerations(mechanism: Mechanism, state: MotionState, torque: JointSeries) -> JointSeries:
+    """Give the acceleration (per s2) that a torque (N m or N) causes at every state.
+
+    A joint that stands still stays so where friction can hold it. The state's own acceleration is only shown
+    to terms that depend on it.
+    """
+    found = rates(mechanism, States.starting(mechanism, state), columns(torque))
+    return np.asarray(found.acceleration.T)
+
+
+def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np.ndarray]:
+    """Give the torque of the other terms, and half of their jump for joints at rest, (joints, states)."""
+    way = np.zeros_like(states.velocity)
+    for row, weights in enumerate(mechanism.weights[: mechanism.joints]):
+        way[np.argmax(weights)] = states.direction[row]
+    against = way * states.velocity < 0.0
+    velocity = np.where(against | (way != 0.0) & (states.velocity == 0.0), CREEP * way, states.velocity)
+    resting = way == 0.0
+    if not resting.any():
+        return _evaluated(mechanism, states, velocity), np.zeros_like(velocity)
+    ahead, behind = (
+        _evaluated(mechanism, states, np.where(resting, sign * CREEP, velocity)) for sign in (1.0, -1.0)
+    )
+    return 0.5 * (ahead + behind), np.where(resting, 0.5 * (ahead - behind), 0.0)
+
+
+def _evaluated(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
+    temperature = None if states.temperature is None else states.temperature.T
+    state = MotionState(states.position.T, velocity.T, states.acceleration.T, states.time, temperature)
+    return mechanism.others.torque(mechanism.other_parameters, state).T
+
+
+def _with_jumps(mechanism: Mechanism, level: np.ndarray, jump: np.ndarray) -> np.ndarray:
+    """Add the jumps to the levels of the joints' own frictions; a level is never negative."""
+    raised = level.copy()
+    raised[: mechanism.joints] += jump
+    return np.maximum(raised, 0.0)
