@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from core.arrays import JointSeries, Parameters
+from core.dynamics.newton_euler import inverse_dynamics
 from core.dynamics.term import Entry, Term
 from core.dynamics.terms.coulomb import Coulomb
 from core.dynamics.terms.coupling import GearCoupling
@@ -61,17 +62,25 @@ class DynamicModel:
         torque = np.zeros_like(state.position, dtype=float)
         start = 0
         for term in self.terms:
-            for (joint, parameter), row in zip(
-                term.entries(self.robot), term.series(self.robot, state), strict=True
-            ):
-                torque[:, joint] += parameters[start + parameter] * row
-            start += len(term.parameters(self.robot))
+            stop = start + len(term.parameters(self.robot))
+            torque += term_torque(term, self.robot, parameters[start:stop], state)
+            start = stop
         return torque
 
     def with_term(self, term: Term) -> "DynamicModel":
         """Extend the model; a term of the same name is replaced."""
         kept = tuple(one for one in self.terms if one.name != term.name)
         return replace(self, terms=(*kept, term))
+
+
+def term_torque(term: Term, robot: RobotModel, parameters: Parameters, state: MotionState) -> JointSeries:
+    """Give the torque of one term, N m or N; bodies take the recursion once, not once per parameter."""
+    if isinstance(term, RigidBody):
+        return inverse_dynamics(robot, parameters.reshape(-1, 10), state)
+    torque = np.zeros_like(state.position, dtype=float)
+    for (joint, parameter), row in zip(term.entries(robot), term.series(robot, state), strict=True):
+        torque[:, joint] += parameters[parameter] * row
+    return torque
 
 
 def standard_model(robot: RobotModel, names: tuple[str, ...] | None = None) -> DynamicModel:

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from scipy.signal import oaconvolve
 
-from core.arrays import InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
+from core.arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
 from core.log.model import JointLog, LogRows
 from core.signals.derivative import centred_difference, median
 from core.signals.parallel import ParallelFilter
@@ -81,7 +81,14 @@ class Segment:
         early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
         wide, torque = self._conditioned(early, late)
         inner = slice(begin - early, end - early)
-        state = MotionState(wide.position[inner], wide.velocity[inner], wide.acceleration[inner])
+        now = self.begin_time + np.arange(begin, end) / self.rate_hz
+        state = MotionState(
+            wide.position[inner],
+            wide.velocity[inner],
+            wide.acceleration[inner],
+            now,
+            self._temperature(now),
+        )
         marks = self._unusable(wide.velocity, early)[inner]
         influence = self.parallel.influence(marks.T.astype(float), first - begin, last_kept - first_kept)
         return Tile(
@@ -125,6 +132,19 @@ class Segment:
         if not dropped(rows).any():
             return rows.position[inner], _effort(rows)[inner]
         return on_grid(rows, _effort(rows), rows.time[inner])
+
+    def _temperature(self, now: Instants) -> InstantSeries | None:
+        if "temperature" not in self.log.channels:
+            return None
+        if self.stamps is None:
+            low, high = np.rint((now[[0, -1]] - self.begin_time) * self.rate_hz).astype(int)
+        else:
+            low, high = np.searchsorted(self.stamps, now[[0, -1]])
+        first, last = max(0, int(low) - 1), min(self.samples, int(high) + 2)
+        rows = self.log.source.rows(self.start + first, self.start + last)
+        if rows.temperature is None:
+            return None
+        return np.column_stack([np.interp(now, rows.time, column) for column in rows.temperature.T])
 
     def _unusable(self, velocity: JointSeries, begin: int) -> JointMask:
         reach = reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2

@@ -1,0 +1,191 @@
+"""Keep the rows, the causes and what is believed on one bench, and try hypotheses on it.
+
+Columns are computed once per candidate and belief; a scan over all causes, joints and scalars is then a few
+matrix products.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from core.arrays import Matrix
+from core.diagnosis.cause import Cause, Scalars
+from core.diagnosis.equations import Columns, Fit, JointRows, extended, fit, joint_rows
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+from core.diagnosis.look import Look
+from core.diagnosis.score import score
+from core.dynamics.prediction import Prediction
+from core.regressor.columns import ColumnPlan
+
+FINER = 9
+"""Points laid between the neighbours of the best grid point, in each of two rounds."""
+
+
+class Bench:
+    """Try hypotheses on the rows of a look.
+
+    Parameters
+    ----------
+    look
+        The rows.
+    plan
+        The model's base columns.
+    causes
+        What is suspected.
+    mask
+        Rows (rows x joints) that a fit may use.
+    """
+
+    def __init__(self, look: Look, plan: ColumnPlan, causes: Sequence[Cause], mask: np.ndarray) -> None:
+        self.look = look
+        self.plan = plan
+        self.causes = tuple(causes)
+        self.base = joint_rows(look, look.observed(plan), mask)
+        self.believed = Prediction(plan.model, np.zeros(len(plan.model.parameters)))
+        self._columns: dict[object, Columns] = {}
+        self._candidates: tuple[Candidate, ...] = ()
+
+    def believe(self, found: Fit) -> None:
+        """Take the base parameters of a fit for what is believed, and forget what was built on others."""
+        standard = np.zeros(len(self.plan.model.parameters))
+        standard[list(self.plan.columns)] = found.values[: len(self.plan.columns)]
+        self.believed = Prediction(self.plan.model, standard)
+        self._columns = {place: one for place, one in self._columns.items() if not place[-1]}  # type: ignore[index]
+        self._candidates = tuple(
+            Candidate(cause, site, scalars, len(grid))
+            for cause in self.causes
+            for site in cause.sites(self.look, self.believed)
+            for grid in [tuple(cause.grid(self.look, self.believed, site))]
+            for scalars in grid
+        )
+
+    def columns(self, candidates: Sequence[Candidate]) -> list[Columns]:
+        """Give the candidates' filtered columns, computing those that are new."""
+        new = [one for one in candidates if not self._known(one)]
+        terms = [one.cause.term(self.look, self.believed, one.site, one.scalars) for one in new]
+        for one, term, columns in zip(new, terms, self.look.columns(terms), strict=True):
+            self._columns[(*one.place, hasattr(term, "believed"))] = columns
+        return [self._found(one) for one in candidates]
+
+    def tried(self, members: tuple[Candidate, ...], start: Hypothesis | None = None) -> Hypothesis:
+        """Fit a hypothesis, learning its noise anew."""
+        columns = self.columns(members)
+        rows = extended(self.base, columns)
+        noise = None if start is None else tuple(one.noise for one in start.fit.joints)
+        return Hypothesis(
+            members,
+            fit(rows, noise),
+            tuple(next(iter(one.values())).shape[1] for one in columns),
+            self.base[0].columns.shape[1],
+        )
+
+    def scanned(self, under: Hypothesis, candidates: Sequence[Candidate] | None = None) -> list[Scored]:
+        """Score candidates (all by default) on top of a hypothesis; the best scalars of each kind only."""
+        asked = self._candidates if candidates is None else tuple(candidates)
+        rows = self._rows(under)
+        found = score(under.fit, rows, self.columns(asked))
+        best: dict[object, Scored] = {}
+        for one, judged in zip(asked, found, strict=True):
+            scored = Scored(one, judged.statistic, len(judged.values), judged.values, judged.clear_share)
+            if one.key not in best or scored.statistic > best[one.key].statistic:
+                best[one.key] = scored
+        return sorted(best.values(), key=lambda one: one.log_p)
+
+    def refined(self, under: Hypothesis, candidate: Candidate) -> Candidate:
+        """Settle a candidate's scalars between its grid points, on top of a hypothesis."""
+        for name in candidate.scalars:
+            candidate = self._refined(under, candidate, name)
+        return candidate
+
+    def residual(self, under: Hypothesis, joint: int) -> Matrix:
+        """Give the residual of one joint's fitted rows (as one column), N m."""
+        rows = self._rows(under)[joint]
+        return np.asarray((rows.torque - rows.columns @ under.fit.values)[:, None])
+
+    def _refined(self, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+        points = sorted({one.scalars[name] for one in self._grid(candidate)})
+        here = candidate.scalars[name]
+        low, high = _neighbours(points, here)
+        for _ in range(2):
+            values = _between(low, high)
+            trials = [
+                replace(candidate, scalars={**candidate.scalars, name: value}) for value in (*values, here)
+            ]
+            found = score(under.fit, self._rows(under), self.columns(trials))
+            statistics = np.array([one.statistic for one in found])
+            best = int(np.argmax(statistics))
+            here = trials[best].scalars[name]
+            order = sorted({*values, here})
+            low, high = _neighbours(order, here)
+        return replace(
+            candidate,
+            scalars={**candidate.scalars, name: here},
+            deviations={
+                **candidate.deviations,
+                name: self._deviation(under, candidate, name, here, (low, high)),
+            },
+        )
+
+    def _deviation(
+        self, under: Hypothesis, candidate: Candidate, name: str, here: float, around: tuple[float, float]
+    ) -> float:
+        """Read a scalar's deviation off the curvature of the profile likelihood."""
+        step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
+        drop = 0.0
+        for _ in range(8):
+            trials = [
+                replace(candidate, scalars={**candidate.scalars, name: here + shift})
+                for shift in (-step, 0.0, step)
+            ]
+            low, middle, high = (
+                one.statistic for one in score(under.fit, self._rows(under), self.columns(trials))
+            )
+            drop = middle - 0.5 * (low + high)
+            if drop > 0.5 or here - 2.0 * step <= 0.0 < here:
+                break
+            step *= 2.0
+        return float(step / np.sqrt(drop)) if drop > 0.0 else float("inf")
+
+    def _grid(self, candidate: Candidate) -> list[Candidate]:
+        return [one for one in self._candidates if one.key == candidate.key] or [candidate]
+
+    def _rows(self, under: Hypothesis) -> tuple[JointRows, ...]:
+        return extended(self.base, self.columns(under.members))
+
+    def _known(self, candidate: Candidate) -> bool:
+        return any((*candidate.place, built) in self._columns for built in (False, True))
+
+    def _found(self, candidate: Candidate) -> Columns:
+        return next(
+            self._columns[(*candidate.place, built)]
+            for built in (False, True)
+            if (*candidate.place, built) in self._columns
+        )
+
+
+def _neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
+    """Give the points on either side; beyond an end, as far as the other neighbour."""
+    place = points.index(here)
+    if len(points) == 1:
+        return 0.5 * here, 2.0 * here
+    low = points[place - 1] if place else _mirrored(here, points[place + 1])
+    high = points[place + 1] if place + 1 < len(points) else _mirrored(here, points[place - 1])
+    return low, high
+
+
+def _mirrored(here: float, other: float) -> float:
+    if here > 0.0 and other > 0.0:
+        return here * here / other
+    return 2.0 * here - other
+
+
+def _between(low: float, high: float) -> list[float]:
+    if low > 0.0:
+        return [float(one) for one in np.geomspace(low, high, FINER + 2)[1:-1]]
+    return [float(one) for one in np.linspace(low, high, FINER + 2)[1:-1]]
+
+
+def scalars_text(scalars: Scalars) -> str:
+    """Write scalars for a statement."""
+    return ", ".join(f"{name} {value:.3g}" for name, value in scalars.items())

@@ -1,0 +1,112 @@
+"""Say what every cause must offer, so that a new cause is one file.
+
+A cause is a hypothesis about the world: where it can act (`sites`), which nonlinear scalars have to be
+scanned there (`grid`), and which torque it adds per unit of its linear parameters (`term`, built on the
+*predicted* torque, never on the measured one). It also says in words what it means, what it is easily
+confused with, and which motion would separate the two.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from core.arrays import SquareMatrix, Vector
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+
+Cure = Literal["term", "signal", "robot"]
+Scalars = Mapping[str, float]
+Site = tuple[int, ...]
+"""Joints that a cause acts on, counted from 1; empty for the whole robot."""
+
+
+@dataclass(frozen=True)
+class Confusion:
+    """Name another cause that leaves much the same trace, why, and the experiment that separates the two."""
+
+    cause: str
+    why: str
+    experiment: str
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Report one number of a finding, with its unit and standard deviation.
+
+    `joint` is counted from 1, or None where the number belongs to the whole robot.
+    """
+
+    name: str
+    joint: int | None
+    unit: str
+    value: float
+    standard_deviation: float
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """Carry what a fit found for one candidate.
+
+    Linear parameters come with their covariance, scanned scalars with their deviations.
+    """
+
+    site: Site
+    values: Vector
+    covariance: SquareMatrix
+    scalars: Scalars
+    deviations: Scalars
+
+
+class Cause(Protocol):
+    """Offer one hypothesis about what a simulation misses.
+
+    Attributes
+    ----------
+    id
+        Its name in results.
+    title
+        What it is, in words that fit a heading.
+    cure
+        Whether a term, a signal or the robot's description is to be mended.
+    confusions
+        What it is mistaken for.
+    experiment
+        The motion that would show it where the present one does not.
+    coordinate
+        What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
+    near_reversals
+        Whether its evidence lies next to velocity reversals, where other causes do not look.
+    """
+
+    id: str
+    title: str
+    cure: Cure
+    confusions: tuple[Confusion, ...]
+    experiment: str
+    coordinate: str
+    near_reversals: bool
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List where it can act."""
+        ...
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """List the values of its nonlinear scalars to be scanned; one empty mapping where it has none."""
+        ...
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give its torque per unit of its linear parameters."""
+        ...
+
+    def possible(self, solved: Solved) -> bool:
+        """Tell whether nature allows the parameters found: signs and sizes."""
+        ...
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Give the numbers a reader wants, under the names of the public enumeration."""
+        ...
+
+    def statement(self, solved: Solved) -> str:
+        """Say in one sentence, with the numbers filled in, what is wrong and what it does."""
+        ...

@@ -1,0 +1,72 @@
+"""Share what most causes have in common, so that a cause's file holds only what is its own."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Cure, Quantity, Scalars, Site, Solved
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+
+NOTHING: tuple[Scalars, ...] = ({},)
+"""The grid of a cause that has nothing to scan."""
+
+
+@dataclass(frozen=True)
+class OwnJointCause:
+    """Share the habits of causes that act on one joint each, and take its linear parameters as they come."""
+
+    id: ClassVar[str]
+    title: ClassVar[str]
+    units: ClassVar[tuple[tuple[str, str], ...]]
+    """Unit of every linear parameter and every scanned scalar, by name, in the order of reporting."""
+    cure: ClassVar[Cure] = "term"
+    confusions: ClassVar[tuple[Confusion, ...]] = ()
+    experiment: ClassVar[str] = ""
+    coordinate: ClassVar[str] = "velocity"
+    near_reversals: ClassVar[bool] = False
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List every joint."""
+        del believed
+        return [(joint,) for joint in range(1, look.joints + 1)]
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan nothing."""
+        del look, believed, site
+        return NOTHING
+
+    def possible(self, solved: Solved) -> bool:
+        """Allow any finite value."""
+        return bool(np.isfinite(solved.values).all())
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Report the linear parameters in order, then the scanned scalars."""
+        joint = solved.site[0] if solved.site else None
+        names = [name for name, _ in self.units if name not in solved.scalars]
+        deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
+        linear = {
+            name: (float(value), float(deviation))
+            for name, value, deviation in zip(names, solved.values, deviations, strict=True)
+        }
+        scanned = {name: (value, solved.deviations.get(name, 0.0)) for name, value in solved.scalars.items()}
+        both = linear | scanned
+        return tuple(Quantity(name, joint, unit, *both[name]) for name, unit in self.units)
+
+
+def spread(low: float, high: float, count: int) -> list[float]:
+    """Give values in equal ratios from low to high."""
+    return [float(value) for value in np.geomspace(low, high, count)]
+
+
+def named(quantities: Sequence[Quantity]) -> dict[str, Quantity]:
+    """Look quantities up by name."""
+    return {one.name: one for one in quantities}
+
+
+def shown(quantity: Quantity) -> str:
+    """Write a quantity with its unit and uncertainty."""
+    unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+    return f"{quantity.value:.3g} ± {quantity.standard_deviation:.1g}{unit}"

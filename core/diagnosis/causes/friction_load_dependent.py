@@ -1,0 +1,45 @@
+"""Suspect that a joint's friction grows with the torque its gear transmits."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.load_friction import LoadFriction
+
+
+@dataclass(frozen=True)
+class FrictionLoadDependent(OwnJointCause):
+    """Suspect load-dependent friction."""
+
+    id = "friction_load_dependent"
+    title = "Friction grows with the transmitted torque"
+    units = (("load_coefficient", "1"),)
+    confusions = (
+        Confusion(
+            "torque_gain",
+            "both are proportional to the load; friction changes its sign with the direction of motion",
+            "pass the same postures slowly in both directions",
+        ),
+    )
+    experiment = "slow moves in both directions through postures of little and of much gravity torque"
+    coordinate = "load"
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, scalars
+        return LoadFriction(site[0], believed)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want friction that brakes, and less than all of the load."""
+        return bool(0.0 < solved.values[0] < 1.0)
+
+    def statement(self, solved: Solved) -> str:
+        """Say which share of the load comes back as friction."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]}'s friction grows by {shown(found['load_coefficient'])} N m per N m of "
+            "transmitted torque"
+        )

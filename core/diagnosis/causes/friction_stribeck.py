@@ -1,0 +1,57 @@
+"""Suspect that friction falls as a joint gets under way (Stribeck): the excess over the Coulomb level."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.stribeck import Stribeck
+
+
+@dataclass(frozen=True)
+class FrictionStribeck(OwnJointCause):
+    """Suspect Stribeck friction."""
+
+    id = "friction_stribeck"
+    title = "Friction falls with speed near standstill"
+    units = (("excess_torque", "N m"), ("stribeck_velocity", "rad/s"))
+    confusions = (
+        Confusion(
+            "friction_viscous_nonlinear",
+            "both bend the friction curve; a Stribeck velocity of the size of the motion's speed is a bend",
+            "move the joint at ten constant speeds from 1 % to 100 % of its limit, both ways",
+        ),
+        Confusion(
+            "friction_presliding",
+            "both act next to reversals; one depends on speed, the other on the distance travelled since",
+            "start from rest with accelerations that differ by a factor of ten: only speed or only distance "
+            "lines the two up",
+        ),
+    )
+    experiment = "slow constant-speed moves, 1 % to 20 % of the joint's speed, in both directions"
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the Stribeck velocity from 2 % of the RMS speed to the RMS speed."""
+        del believed
+        speed = float(look.speed[site[0] - 1])
+        return [{"stribeck_velocity": value} for value in spread(0.03 * speed, 1.0 * speed, 9)]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed
+        return Stribeck(site[0], scalars["stribeck_velocity"])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want an excess, not a lack."""
+        return bool(solved.values[0] > 0.0)
+
+    def statement(self, solved: Solved) -> str:
+        """Say how much friction is lost at which speed."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]} has {shown(found['excess_torque'])} more friction near standstill than "
+            f"its Coulomb level; it is lost over {shown(found['stribeck_velocity'])}"
+        )

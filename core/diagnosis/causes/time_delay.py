@@ -1,0 +1,60 @@
+"""Suspect that the torque channel lags behind or leads the positions, by the same time on all joints."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.delay import Delay
+
+LONGEST_DELAY = 0.05
+
+
+@dataclass(frozen=True)
+class TimeDelay(OwnJointCause):
+    """Suspect a delay of the torque channel."""
+
+    id = "time_delay"
+    title = "The torque channel is late"
+    cure = "signal"
+    units = (("delay", "s"),)
+    confusions = (
+        Confusion(
+            "torque_filter_lag",
+            "a low-pass filter delays slow motion by its time constant; it also weakens quick motion",
+            "excite at several frequencies up to a fifth of the sampling rate: a delay keeps the amplitude",
+        ),
+        Confusion(
+            "joint_elasticity",
+            "a compliant gear also makes the torque seem late, by an amount that depends on joint and load",
+            "repeat the motion with and without a payload: a delay stays the same",
+        ),
+    )
+    experiment = "motion with quick reversals, five times the present frequencies"
+    coordinate = "torque_rate"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """Act on the whole robot."""
+        del look, believed
+        return [()]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, site, scalars
+        return Delay(0, believed)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a delay that a first-order column can stand for."""
+        return bool(abs(solved.values[0]) < LONGEST_DELAY)
+
+    def statement(self, solved: Solved) -> str:
+        """Say how late, in milliseconds."""
+        found = named(self.quantities(solved))["delay"]
+        late = "behind" if found.value > 0.0 else "ahead of"
+        return (
+            f"The torque channel runs {1e3 * abs(found.value):.3g} ± {1e3 * found.standard_deviation:.1g} ms "
+            f"{late} the positions on all joints"
+        )

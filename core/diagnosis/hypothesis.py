@@ -1,0 +1,95 @@
+"""Carry what a diagnosis weighs: candidates, and hypotheses made of them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.stats import chi2
+
+from core.arrays import SquareMatrix, Vector
+from core.diagnosis.cause import Cause, Scalars, Site, Solved
+from core.diagnosis.equations import Fit
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """Name one cause at one site with settled scalars.
+
+    Attributes
+    ----------
+    trials
+        How many grid points its kind was given: what its p-value is corrected for.
+    deviations
+        Standard deviations of the scalars, as far as they were refined.
+    """
+
+    cause: Cause
+    site: Site
+    scalars: Scalars
+    trials: int
+    deviations: Scalars = field(default_factory=dict)
+
+    @property
+    def key(self) -> tuple[str, Site]:
+        """Name the kind: cause and site, whatever the scalars."""
+        return self.cause.id, self.site
+
+    @property
+    def place(self) -> tuple[str, Site, tuple[tuple[str, float], ...]]:
+        """Name it with its scalars."""
+        return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
+
+
+@dataclass(frozen=True, eq=False)
+class Scored:
+    """Carry a candidate with the rise of twice the log-likelihood that it brings.
+
+    Attributes
+    ----------
+    log_p
+        Logarithm of its p-value, corrected for its grid.
+    """
+
+    candidate: Candidate
+    statistic: float
+    width: int
+    values: Vector
+    clear_share: float
+
+    @property
+    def log_p(self) -> float:
+        """Give log of (trials times the chance of so large a rise by luck)."""
+        return float(chi2.logsf(max(self.statistic, 0.0), self.width) + np.log(self.candidate.trials))
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """Hold some candidates with the fit of all of them together."""
+
+    members: tuple[Candidate, ...]
+    fit: Fit
+    widths: tuple[int, ...]
+    base: int
+
+    def columns_of(self, index: int) -> slice:
+        """Say where a member's linear parameters stand among the fit's values."""
+        start = self.base + sum(self.widths[:index])
+        return slice(start, start + self.widths[index])
+
+    def solved(self, index: int) -> Solved:
+        """Give what was found for a member."""
+        member, place = self.members[index], self.columns_of(index)
+        covariance: SquareMatrix = self.fit.covariance[place, place]
+        return Solved(
+            member.site, self.fit.values[place], covariance, member.scalars, dict(member.deviations)
+        )
+
+    @property
+    def possible(self) -> bool:
+        """Tell whether nature allows all members."""
+        return all(one.cause.possible(self.solved(index)) for index, one in enumerate(self.members))
+
+    @property
+    def by_key(self) -> Mapping[tuple[str, Site], int]:
+        """Find members by kind."""
+        return {one.key: index for index, one in enumerate(self.members)}

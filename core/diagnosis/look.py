@@ -1,0 +1,311 @@
+"""Prepare the equations that a diagnosis looks at: a wider band than the fit's, and rows kept in memory.
+
+An identification filters as low as the motion allows; a diagnosis needs what lies above (gear ripple,
+compliance, delays), so its parallel filter passes forty times the motion's band, a twelfth of the rate at
+most. Rows within the filter's main lobe of a velocity reversal are set apart: there the sign of a measured
+velocity is not the direction of friction. Long logs are looked at in evenly spread stretches.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Indices, JointMask, JointSeries, Samples, Series
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import Term
+from core.errors import ExcitationError
+from core.log.model import JointLog
+from core.regressor.columns import ColumnPlan
+from core.regressor.observe import BlockKey
+from core.robot.model import RobotModel
+from core.signals.condition import Motion, condition
+from core.signals.parallel import ParallelFilter
+from core.signals.recipe import FilterOptions, choose_recipe
+from core.signals.segment import Segment
+from core.signals.state import MotionState
+
+BAND_OVER_MOTION = 40.0
+RATE_OVER_BAND = 12.0
+POSITION_OVER_BAND = 3.0
+STATE_OVER_BAND = 8.0
+"""States are thinned to eight times the band: nothing above the position filter is left to alias."""
+REVERSAL_REACH = 1.0
+"""Rows nearer to a reversal than this many periods of the cut-off are set apart."""
+LONGEST_SECONDS = 120.0
+STRETCH_SECONDS = 30.0
+_BATCH = 256
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """Carry one contiguous stretch of motion with the parallel filter at its thinned rate.
+
+    Attributes
+    ----------
+    state
+        The motion at the thinned rate, the filter's reach included.
+    first, rows
+        Where the first kept instant lies in `state`, and which rows of the look the kept instants are.
+    """
+
+    state: MotionState
+    parallel: ParallelFilter
+    first: int
+    rows: slice
+
+    def filtered(self, series: Series) -> Series:
+        """Filter series of this stretch and keep its instants."""
+        return self.parallel.apply(np.ascontiguousarray(series), self.first, self.rows.stop - self.rows.start)
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """Hold the rows of a diagnosis.
+
+    Attributes
+    ----------
+    robot
+        The robot as it is believed.
+    time, log, block
+        Per row: instant in s, number of the log and of its block, from 0.
+    torque
+        Filtered torque, rows x joints.
+    usable
+        Rows that may be used per joint, and those of them clear of reversals (`clear`).
+    held_out
+        Rows that no fit may see.
+    state
+        The motion at the rows.
+    band_hz
+        Cut-off of the parallel filter; `motion_band_hz` that of the motion.
+    """
+
+    robot: RobotModel
+    motions: tuple[Motion, ...]
+    stretches: tuple[Stretch, ...]
+    time: Samples
+    log: Indices
+    block: Indices
+    torque: JointSeries
+    usable: JointMask
+    clear: JointMask
+    held_out: np.ndarray
+    state: MotionState
+    band_hz: float
+    motion_band_hz: float
+
+    @property
+    def joints(self) -> int:
+        """Count the joints."""
+        return int(self.torque.shape[1])
+
+    @cached_property
+    def starts(self) -> np.ndarray:
+        """Mark the rows that do not follow the one before them."""
+        marks = np.zeros(len(self.time), dtype=bool)
+        marks[[stretch.rows.start for stretch in self.stretches]] = True
+        return marks
+
+    @cached_property
+    def speed(self) -> np.ndarray:
+        """Give the RMS speed per joint, rad/s or m/s."""
+        return np.asarray(np.sqrt(np.mean(self.state.velocity**2, axis=0)))
+
+    def observed(self, plan: ColumnPlan) -> tuple[np.ndarray, ...]:
+        """Give, per joint, the filtered rows over all columns of a plan (zeros where none)."""
+        out = [np.zeros((len(self.time), len(plan.columns))) for _ in range(self.joints)]
+        for stretch in self.stretches:
+            filtered = stretch.filtered(plan.series(stretch.state))
+            for joint, (rows, columns) in enumerate(zip(plan.rows_of, plan.columns_of, strict=True)):
+                out[joint][stretch.rows, columns] = filtered[rows].T
+        return tuple(out)
+
+    def columns(self, terms: Sequence[Term]) -> list[dict[int, np.ndarray]]:
+        """Give, per term and joint (from 0), the filtered rows per unit parameter."""
+        shapes = [(term.entries(self.robot), len(term.parameters(self.robot))) for term in terms]
+        out = [
+            {joint: np.zeros((len(self.time), width)) for joint in {entry[0] for entry in entries}}
+            for entries, width in shapes
+        ]
+        for stretch in self.stretches:
+            for batch in _batches(shapes):
+                series = np.vstack([terms[index].series(self.robot, stretch.state) for index in batch])
+                filtered = stretch.filtered(series)
+                row = 0
+                for index in batch:
+                    for joint, parameter in shapes[index][0]:
+                        out[index][joint][stretch.rows, parameter] += filtered[row]
+                        row += 1
+        return out
+
+
+def look_at(
+    model: DynamicModel,
+    logs: tuple[JointLog, ...],
+    *,
+    held_out: frozenset[BlockKey],
+    blocks: int,
+) -> Look:
+    """Condition the logs for a diagnosis.
+
+    Parameters
+    ----------
+    held_out
+        (log, block) pairs that are only predicted, never fitted.
+    blocks
+        Number of blocks each log is divided into.
+
+    Raises
+    ------
+    ExcitationError
+        If no row is left to look at.
+    """
+    motions = tuple(condition(log, model.robot, _options(log), blocks=blocks) for log in logs)
+    share = min(1.0, LONGEST_SECONDS / sum(log.duration for log in logs))
+    pieces = [_pieces(number, motion, share) for number, motion in enumerate(motions)]
+    parts = [piece for one in pieces for piece in one]
+    if not parts:
+        raise ExcitationError(
+            "no stretch of the logs is long enough to be looked at",
+            evidence={"seconds": [log.duration for log in logs]},
+            remedy="record at least ten seconds of motion",
+        )
+    rows = np.cumsum([0] + [len(part.time) for part in parts])
+    stretches = tuple(
+        replace(part.stretch, rows=slice(int(start), int(stop)))
+        for part, start, stop in zip(parts, rows[:-1], rows[1:], strict=True)
+    )
+    log = np.concatenate([np.full(len(part.time), part.log) for part in parts])
+    block = np.concatenate([part.block for part in parts])
+    keys = {number * blocks + one for number, one in held_out}
+    return Look(
+        robot=model.robot,
+        motions=motions,
+        stretches=stretches,
+        time=np.concatenate([part.time for part in parts]),
+        log=log,
+        block=block,
+        torque=np.vstack([part.torque for part in parts]),
+        usable=np.vstack([part.usable for part in parts]),
+        clear=np.vstack([part.usable & part.clear for part in parts]),
+        held_out=np.isin(log * blocks + block, sorted(keys)),
+        state=_joined([part.state for part in parts]),
+        band_hz=max(motion.recipe.cutoff_hz for motion in motions),
+        motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    log: int
+    stretch: Stretch
+    time: np.ndarray
+    block: np.ndarray
+    torque: np.ndarray
+    usable: np.ndarray
+    clear: np.ndarray
+    state: MotionState
+
+
+def _options(log: JointLog) -> FilterOptions:
+    """Choose the band of a diagnosis from the motion's own."""
+    band = choose_recipe(log, FilterOptions()).motion_band_hz
+    cutoff = min(BAND_OVER_MOTION * band, log.rate_hz / RATE_OVER_BAND)
+    return FilterOptions(
+        cutoff_hz=cutoff,
+        position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
+    )
+
+
+def _pieces(number: int, motion: Motion, share: float) -> list[_Piece]:
+    out, done = [], 0
+    for segment in motion.segments:
+        step = segment.rate_hz / motion.recipe.decimation
+        length = max(int(STRETCH_SECONDS * step), 1)
+        wanted = max(1, int(np.ceil(segment.kept * share / length)))
+        size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
+        firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
+        out += [_piece(number, motion, segment, (int(first), int(first) + size), done) for first in firsts]
+        done += segment.kept
+    return out
+
+
+def _piece(number: int, motion: Motion, segment: Segment, kept: tuple[int, int], done: int) -> _Piece:
+    recipe = motion.recipe
+    tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
+    thin = _thinning(recipe.decimation, segment.rate_hz, recipe.cutoff_hz)
+    begin = tile.first % thin
+    state = _thinned(tile.state, slice(begin, None, thin))
+    response = tile.parallel.response
+    middle = len(response) // 2
+    small = response[middle % thin :: thin]
+    parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
+    at = tile.first + recipe.decimation * np.arange(len(tile.time))
+    place = (done + np.arange(*kept)) / motion.kept
+    return _Piece(
+        log=number,
+        stretch=Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time))),
+        time=tile.time,
+        block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
+        torque=tile.filtered(np.ascontiguousarray(tile.torque.T)).T,
+        usable=tile.usable,
+        clear=_clear(tile.state.velocity, at, segment.rate_hz, recipe.cutoff_hz, recipe.still_speed),
+        state=_thinned(tile.state, at),
+    )
+
+
+def _thinning(decimation: int, rate_hz: float, cutoff_hz: float) -> int:
+    lowest = STATE_OVER_BAND * cutoff_hz
+    return max(
+        step
+        for step in range(1, decimation + 1)
+        if decimation % step == 0 and (step == 1 or rate_hz / step >= lowest)
+    )
+
+
+def _clear(
+    velocity: JointSeries, at: Indices, rate_hz: float, cutoff_hz: float, still: np.ndarray
+) -> JointMask:
+    """Tell which kept instants are further from every reversal than the filter's main lobe."""
+    turns = np.abs(velocity) <= still
+    turns[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
+    reach = int(np.ceil(REVERSAL_REACH * rate_hz / cutoff_hz))
+    counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
+    low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(velocity))
+    return np.asarray(counts[high] == counts[low])
+
+
+def _thinned(state: MotionState, rows: slice | Indices) -> MotionState:
+    return MotionState(
+        state.position[rows],
+        state.velocity[rows],
+        state.acceleration[rows],
+        None if state.time is None else state.time[rows],
+        None if state.temperature is None else state.temperature[rows],
+    )
+
+
+def _joined(states: list[MotionState]) -> MotionState:
+    temperature = [state.temperature for state in states if state.temperature is not None]
+    return MotionState(
+        np.vstack([state.position for state in states]),
+        np.vstack([state.velocity for state in states]),
+        np.vstack([state.acceleration for state in states]),
+        np.concatenate([state.time for state in states if state.time is not None]),
+        np.vstack(temperature) if len(temperature) == len(states) else None,
+    )
+
+
+def _batches(shapes: list[tuple[tuple[tuple[int, int], ...], int]]) -> list[list[int]]:
+    """Group terms so that a batch has a few hundred series."""
+    groups: list[list[int]] = [[]]
+    size = 0
+    for index, (entries, _) in enumerate(shapes):
+        if size + len(entries) > _BATCH and groups[-1]:
+            groups.append([])
+            size = 0
+        groups[-1].append(index)
+        size += len(entries)
+    return [group for group in groups if group]

@@ -1,0 +1,85 @@
+"""Score candidates: by how much each would raise the likelihood, given everything that is already explained.
+
+A candidate's columns are whitened like the residual, projected on the complement of the fitted columns, and
+regressed on; all of it on small Gram matrices, so that thousands of candidates cost as much as a few fits.
+Sources: Rao 1948 (score test); Janot, Vandanjon & Gautier, Control Eng. Pract. 48, 2016 (augmented
+regressor).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from core.arrays import Matrix, Vector
+from core.diagnosis.equations import Columns, Fit, JointRows
+
+OPEN_SHARE = 1e-6
+"""A column of which the model already spans all but this share is no evidence for anything."""
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Judge one candidate.
+
+    Attributes
+    ----------
+    statistic
+        Rise of twice the log-likelihood at this noise model.
+    values
+        What its linear parameters would be.
+    clear_share
+        The least share of a column's square that the fitted columns do not span.
+    projected
+        Its columns in the coordinates of the complement (for correlations between candidates).
+    """
+
+    statistic: float
+    values: Vector
+    clear_share: float
+
+
+def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
+    """Score candidates given as columns over all rows of the look."""
+    widths = [next(iter(one.values())).shape[1] for one in candidates]
+    starts = np.concatenate([[0], np.cumsum(widths)]).astype(int)
+    size, total = len(found.values), int(starts[-1])
+    cross, right = np.zeros((size, total)), np.zeros(total)
+    grams = [np.zeros((width, width)) for width in widths]
+    for joint, rows in enumerate(joints):
+        present = [index for index, one in enumerate(candidates) if joint in one]
+        if not present:
+            continue
+        raw = np.hstack([candidates[index][joint][rows.rows] for index in present])
+        white = found.joints[joint].noise.whitened(raw, rows.place)
+        places = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in present])
+        cross[:, places] += found.joints[joint].columns.T @ white
+        right[places] += white.T @ (found.joints[joint].torque - found.joints[joint].columns @ found.values)
+        begin = 0
+        for index in present:
+            part = white[:, begin : begin + widths[index]]
+            grams[index] += part.T @ part
+            begin += widths[index]
+    reduced = solve_triangular(found.factor[0], cross / found.scale[:, None], lower=True)
+    return [
+        _judged(
+            grams[index],
+            reduced[:, starts[index] : starts[index + 1]],
+            right[starts[index] : starts[index + 1]],
+        )
+        for index in range(len(candidates))
+    ]
+
+
+def _judged(gram: Matrix, reduced: Matrix, right: Vector) -> Score:
+    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    left = (gram - reduced.T @ reduced) / np.outer(size, size)
+    clear = np.clip(np.diag(left), 0.0, 1.0)
+    if not np.isfinite(left).all() or clear.max() < OPEN_SHARE:
+        return Score(0.0, np.zeros(len(right)), 0.0)
+    values, vectors = np.linalg.eigh(left)
+    kept = values > OPEN_SHARE
+    turned = vectors[:, kept].T @ (right / size)
+    found = vectors[:, kept] @ (turned / values[kept]) / size
+    return Score(float(np.sum(turned**2 / values[kept])), found, float(clear.max()))

@@ -1,0 +1,138 @@
+"""Choose the causes: forward, with backward elimination and swaps, each step judged under its own noise.
+
+Greedy order is the weak point of forward selection, because the first cause chosen may stand in for two
+others; so after every step each chosen cause has to defend its place against being dropped and against every
+rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.bench import Bench
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+
+LEVEL = 1e-3
+"""Chance of naming anything in a log that hides nothing."""
+TRIED = 8
+"""Candidates of a scan that are fitted in full."""
+MOST = 5
+"""Causes looked for at most."""
+LEAST_SHARE = 0.004
+"""Least share of a joint's whitened residual square that a cause has to explain."""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Record one decision of the search, for the report."""
+
+    action: str
+    candidate: Candidate
+    statistic: float
+
+
+@dataclass(frozen=True, eq=False)
+class Selection:
+    """Hold the hypothesis that was settled on, the empty one, and the way there."""
+
+    none: Hypothesis
+    chosen: Hypothesis
+    steps: tuple[Step, ...]
+
+
+def select(bench: Bench, progress: Callable[[float], None] | None = None) -> Selection:
+    """Search for the causes that explain the rows."""
+    none = bench.tried(())
+    bench.believe(none.fit)
+    now, steps = none, []
+    for number in range(MOST):
+        if progress is not None:
+            progress(number / MOST)
+        better = best_addition(bench, now)
+        if better is None:
+            break
+        steps.append(Step("added", better.members[-1], _rise(now, better)))
+        bench.believe(better.fit)
+        now = bench.tried(better.members, better)
+        now = _defended(bench, now, steps)
+    return Selection(none, now, tuple(steps))
+
+
+def best_addition(bench: Bench, now: Hypothesis) -> Hypothesis | None:
+    """Give the hypothesis with the one more cause that deserves it most; None where none does."""
+    taken = set(now.by_key)
+    scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
+    trials = [trial for one in scans[:TRIED] for trial in [with_candidate(bench, now, one)] if trial.possible]
+    count = len({one.candidate.key for one in scans})
+    worthy = [
+        trial
+        for trial in trials
+        if log_p(now, trial) + np.log(max(count, 1)) < np.log(LEVEL) and _share(now, trial) > LEAST_SHARE
+    ]
+    return max(worthy, key=lambda trial: _merit(now, trial), default=None)
+
+
+def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
+    """Add a candidate with refined scalars, and fit everything anew."""
+    candidate = bench.refined(now, scored.candidate)
+    return bench.tried((*now.members, candidate), now)
+
+
+def log_p(now: Hypothesis, trial: Hypothesis) -> float:
+    """Give the log of the last member's p-value, corrected for its grid."""
+    added = trial.members[-1]
+    rise = _rise(now, trial)
+    return Scored(added, rise, trial.widths[-1], np.zeros(0), 1.0).log_p
+
+
+def _rise(now: Hypothesis, trial: Hypothesis) -> float:
+    return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
+
+
+def _merit(now: Hypothesis, trial: Hypothesis) -> float:
+    """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
+    rows = max(len(one.torque) for one in trial.fit.joints)
+    return _rise(now, trial) - (trial.widths[-1] + len(trial.members[-1].scalars)) * float(np.log(rows))
+
+
+def _share(now: Hypothesis, trial: Hypothesis) -> float:
+    rows = min(len(one.torque) for one in trial.fit.joints)
+    return _rise(now, trial) / rows
+
+
+def _defended(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis:
+    """Let every member defend its place against being dropped and against its rivals."""
+    for _ in range(len(now.members)):
+        changed = _challenged(bench, now, steps)
+        if changed is None:
+            return now
+        bench.believe(changed.fit)
+        now = bench.tried(changed.members, changed)
+    return now
+
+
+def _challenged(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis | None:
+    for index, member in enumerate(now.members[:-1]):
+        without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
+        if 2.0 * (now.fit.log_likelihood - without.fit.log_likelihood) < -2.0 * np.log(LEVEL):
+            steps.append(Step("dropped", member, _rise(without, now)))
+            return without
+        rival = best_addition(bench, without)
+        if rival is None or rival.members[-1].key == member.key:
+            continue
+        if _merit(without, rival) > _merit(without, _last(now, index)) + 6.0:
+            steps.append(Step("swapped", rival.members[-1], _rise(now, rival)))
+            return rival
+    return None
+
+
+def _last(now: Hypothesis, index: int) -> Hypothesis:
+    """Give the same hypothesis as if one member had come last."""
+    order = [*range(index), *range(index + 1, len(now.members)), index]
+    return Hypothesis(
+        tuple(now.members[place] for place in order),
+        now.fit,
+        tuple(now.widths[place] for place in order),
+        now.base,
+    )

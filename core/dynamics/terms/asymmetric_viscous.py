@@ -1,0 +1,28 @@
+"""Give the viscous friction that differs between directions: |v| times half the difference.
+
+FV + delta forwards and FV - delta backwards is FV v + delta |v|. Source: Armstrong-Helouvry, Control of
+Machines with Friction (1991).
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class AsymmetricViscous(OneJointTerm):
+    """Model the half difference of forward and backward viscous friction."""
+
+    symbols: ClassVar[tuple[Symbol, ...]] = (("delta_viscous", "N m s/rad", None),)
+    kind: ClassVar[str] = "friction_asymmetric"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give |v|."""
+        del robot
+        return [np.abs(state.velocity[:, self.joint - 1])]

@@ -1,0 +1,31 @@
+"""Give the torque that a hose or cable takes once it is taut: a spring over part of the range only.
+
+(q - qa)+ where it pulls above the angle qa at which it engages, -(qa - q)+ where it pulls below. Source: the
+one-sided linear spring.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Cable(OneJointTerm):
+    """Model a one-sided spring that engages at `engage_angle`, rad (m): above it if `side` >= 0, else below."""
+
+    engage_angle: float
+    side: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", 0.0),)
+    kind: ClassVar[str] = "cable_force"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give how far the angle is beyond the engagement, signed as the angle."""
+        del robot
+        beyond = state.position[:, self.joint - 1] - self.engage_angle
+        return [np.maximum(beyond, 0.0) if self.side >= 0.0 else np.minimum(beyond, 0.0)]

@@ -1,0 +1,29 @@
+"""Give what a torque constant that varies with current adds to a channel: the predicted torque cubed.
+
+Where the channel reads tau + c tau^3, tau being all of the joint's torque, the column is tau^3; a motor that
+saturates needs more current than it should, and c is positive. Source: the first odd term beyond a constant
+gain; Gautier & Briot 2011 on drive gains.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from core.arrays import Samples
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class CubicGain(OneJointTerm):
+    """Model a channel whose gain changes with the square of the torque."""
+
+    believed: Prediction
+    symbols: ClassVar[tuple[Symbol, ...]] = (("cubic_coefficient", "1/(N m)^2", None),)
+    kind: ClassVar[str] = "torque_gain_nonlinear"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give the predicted torque cubed."""
+        del robot
+        return [self.believed.torque(state)[:, self.joint - 1] ** 3]

@@ -1,0 +1,109 @@
+"""Share what terms of further effects have in common: a few columns on one joint, or on all of them.
+
+A concrete effect names its parameters and gives its columns; joints are counted from 1 as users do.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import JointSeries, Samples, Series
+from core.dynamics.term import Entry
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+from core.signals.state import MotionState
+
+Symbol = tuple[str, str, float | None]
+"""Name, SI unit, and physical lower bound (None where any sign is possible)."""
+
+
+@dataclass(frozen=True, eq=False)
+class OneJointTerm:
+    """Give columns that act on one joint only."""
+
+    joint: int
+    symbols: ClassVar[tuple[Symbol, ...]] = ()
+    kind: ClassVar[str] = ""
+
+    @property
+    def name(self) -> str:
+        """Name the effect together with its joint."""
+        return f"{self.kind}_{self.joint}"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List the effect's parameters."""
+        del robot
+        return tuple(
+            Parameter(symbol, self.joint, self.joint, unit, lower) for symbol, unit, lower in self.symbols
+        )
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Put every parameter on the joint."""
+        return tuple((self.joint - 1, place) for place in range(len(self.parameters(robot))))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter."""
+        return np.array(self.columns(robot, state), dtype=float).reshape(-1, len(state.position))
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give the torque on the joint per unit of each parameter."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class AllJointsTerm:
+    """Give columns that act on every joint.
+
+    Attributes
+    ----------
+    joint
+        The joint the effect is reported under, from 1; 0 for the robot as a whole.
+    """
+
+    joint: int
+    symbols: ClassVar[tuple[Symbol, ...]] = ()
+    kind: ClassVar[str] = ""
+
+    @property
+    def name(self) -> str:
+        """Name the effect together with its joint."""
+        return f"{self.kind}_{self.joint}"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List the effect's parameters."""
+        del robot
+        return tuple(
+            Parameter(symbol, self.joint, max(self.joint, 1), unit, lower)
+            for symbol, unit, lower in self.symbols
+        )
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Put every parameter on every joint."""
+        count = len(self.parameters(robot))
+        return tuple((joint, place) for place in range(count) for joint in range(len(robot.joints)))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter, joint after joint for each parameter."""
+        return np.vstack([torque.T for torque in self.torques(robot, state)])
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the torque of all joints per unit of each parameter."""
+        raise NotImplementedError
+
+
+def step_of(state: MotionState) -> float:
+    """Give the time between samples, s."""
+    if state.time is None or len(state.time) < 2:
+        return 1.0
+    return float((state.time[-1] - state.time[0]) / (len(state.time) - 1))
+
+
+def rates(values: JointSeries, state: MotionState) -> tuple[JointSeries, JointSeries]:
+    """Differentiate columns along time once and twice by centred differences; the ends repeat."""
+    step = step_of(state)
+    first = np.gradient(values, step, axis=0)
+    second = np.empty_like(values)
+    second[1:-1] = (values[2:] - 2.0 * values[1:-1] + values[:-2]) / step**2
+    second[0], second[-1] = second[1], second[-2]
+    return np.asarray(first), second

@@ -1,0 +1,46 @@
+"""Give what a compliant gear adds when the encoder sits on the motor: the link lags by torque over stiffness.
+
+The link's position is q - (load / K), to first order in the compliance 1 / K; what the load changes by is
+linear in 1 / K. A damper beside the spring makes the lag (load - D rate) / K, its column is the rate of the
+same shift. Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+from core.signals.zero_phase import kernel
+
+
+@dataclass(frozen=True, eq=False)
+class Elasticity(AllJointsTerm):
+    """Model a compliant gear; loads are smoothed at `band_hz` before they are differentiated."""
+
+    believed: Prediction
+    band_hz: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
+    kind: ClassVar[str] = "joint_elasticity"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the change of all joints' loads per unit of compliance, by a small shift."""
+        del robot
+        own = self.joint - 1
+        load = smoothed(self.believed.load(state)[:, [own]], state, self.band_hz)
+        size = 1e-4 / max(float(np.abs(load).max()), 1e-12)
+        first, second = rates(load, state)
+        shift = MotionState(-size * load, -size * first, -size * second)
+        return [self.believed.shifted(state, own, shift) / size]
+
+
+def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
+    """Low-pass columns without delay; beyond its ends a series is continued by its end values."""
+    response = kernel(min(band_hz, 0.4 / step_of(state)), 1.0 / step_of(state), 2)
+    reach = len(response) // 2
+    padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
+    return np.column_stack([np.convolve(column, response, mode="valid") for column in padded.T])

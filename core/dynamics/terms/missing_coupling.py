@@ -1,0 +1,41 @@
+"""Give the torque of a motor that turns with two joints although the robot's description does not say so.
+
+The columns are those of a declared coupling, so that declaring it is the cure. Source: Janot, Vandanjon &
+Gautier, IEEE Trans. Control Syst. Technol. 22(1), 2014.
+"""
+
+from dataclasses import dataclass, replace
+
+from core.arrays import Series
+from core.dynamics.term import Entry
+from core.dynamics.terms.coupling import GearCoupling
+from core.robot.model import Coupling, RobotModel
+from core.robot.parameters import Parameter
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class MissingCoupling:
+    """Model one coupled motor, whatever couplings the robot declares."""
+
+    coupling: Coupling
+
+    @property
+    def name(self) -> str:
+        """Name the effect together with its joints."""
+        return "joint_coupling_" + "_".join(str(joint) for joint in self.coupling.joints)
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List IAM, FVM, FCM."""
+        return GearCoupling().parameters(self._declared(robot))
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Pair the three parameters with each of the joints."""
+        return GearCoupling().entries(self._declared(robot))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter."""
+        return GearCoupling().series(self._declared(robot), state)
+
+    def _declared(self, robot: RobotModel) -> RobotModel:
+        return replace(robot, couplings=(self.coupling,))

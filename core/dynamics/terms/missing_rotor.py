@@ -1,0 +1,25 @@
+"""Give the torque of a rotor that the robot's description leaves out: the joint's own acceleration.
+
+Source: Khalil & Dombre, Modeling, Identification and Control of Robots (2002), ch. 9.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class MissingRotor(OneJointTerm):
+    """Model the reflected inertia of one rotor."""
+
+    symbols: ClassVar[tuple[Symbol, ...]] = (("IA", "kg m2", 0.0),)
+    kind: ClassVar[str] = "rotor_inertia_missing"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give the acceleration."""
+        del robot
+        return [state.acceleration[:, self.joint - 1].copy()]

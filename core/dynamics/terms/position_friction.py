@@ -1,0 +1,32 @@
+"""Give the friction whose Coulomb level waves along the joint's angle: sign(v) cos(h q), sign(v) sin(h q).
+
+Eccentric gears and tight bearings brake more at some angles than at others. Source: Armstrong-Helouvry,
+Control of Machines with Friction (1991).
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class PositionFriction(OneJointTerm):
+    """Model a Coulomb level with `harmonic` waves per turn, its phase counted from the angle `centre`, rad."""
+
+    harmonic: float
+    centre: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("cosine", "N m", None), ("sine", "N m", None))
+    kind: ClassVar[str] = "friction_position_dependent"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give cosine and sine of h (q - centre), each times sign(v)."""
+        del robot
+        sign = np.sign(state.velocity[:, self.joint - 1])
+        angle = self.harmonic * (state.position[:, self.joint - 1] - self.centre)
+        return [sign * np.cos(angle), sign * np.sin(angle)]

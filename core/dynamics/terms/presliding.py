@@ -1,0 +1,65 @@
+"""Give what friction lacks after a reversal, while bristles still bend: Dahl's state minus the sign of velocity.
+
+Over the distance x travelled, df/dx = (1 - f sign(v)) / s with s the presliding distance; between reversals it
+has the solution f = sign(v) + (f0 - sign(v)) exp(-x / s), so that also a turn back before friction has built
+up is exact. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1968.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Presliding(OneJointTerm):
+    """Model friction that builds up over `presliding_distance`, rad (m); its parameter is the level it reaches.
+
+    At the start of a stretch, whose past is not known, friction is taken as built up.
+    """
+
+    presliding_distance: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("coulomb_level", "N m", 0.0),)
+    kind: ClassVar[str] = "friction_presliding"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give Dahl's state minus sign(v)."""
+        del robot
+        own = self.joint - 1
+        position, velocity = state.position[:, own], state.velocity[:, own]
+        return [dahl(position, velocity, self.presliding_distance) - np.sign(velocity)]
+
+
+def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
+    """Give Dahl's friction over its level along a motion, from -1 to 1.
+
+    Examples
+    --------
+    Having gone backwards by its distance times ln 2, friction is half way from 1 to -1:
+
+    >>> dahl(np.array([0.0, 0.0, -np.log(2.0)]), np.array([1.0, -1.0, -1.0]), 1.0)
+    array([1., 1., 0.])
+    """
+    sign = _held(np.sign(velocity))
+    travel = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])
+    firsts = np.flatnonzero(np.diff(sign, prepend=0.0))
+    begins = travel[firsts]
+    missing = np.zeros(len(firsts))
+    for turn in range(1, len(firsts)):
+        left = missing[turn - 1] * np.exp(-(begins[turn] - begins[turn - 1]) / distance)
+        missing[turn] = left + sign[firsts[turn - 1]] - sign[firsts[turn]]
+    run = np.searchsorted(firsts, np.arange(len(sign)), side="right") - 1
+    return np.asarray(sign + missing[run] * np.exp(-(travel - begins[run]) / distance))
+
+
+def _held(sign: Samples) -> Samples:
+    """Let a joint that stands keep the direction it last had, forwards where it never moved."""
+    moving = np.where(sign != 0.0, np.arange(len(sign)), -1)
+    last = np.maximum.accumulate(moving)
+    first = sign[moving >= 0][0] if (moving >= 0).any() else 1.0
+    return np.asarray(np.where(last >= 0, sign[last], first))

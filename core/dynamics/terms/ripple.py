@@ -1,0 +1,31 @@
+"""Give the torque that waves along a joint's angle: cos(h q) and sin(h q).
+
+Cogging, wave generators and gear teeth repeat per turn of motor or gear, at h waves per turn of the joint.
+Source: Madsen et al. 2020 (strain-wave gears).
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Ripple(OneJointTerm):
+    """Model a torque with `harmonic` waves per turn, its phase counted from the angle `centre`, rad."""
+
+    harmonic: float
+    centre: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("cosine", "N m", None), ("sine", "N m", None))
+    kind: ClassVar[str] = "torque_ripple"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give cosine and sine of h (q - centre)."""
+        del robot
+        angle = self.harmonic * (state.position[:, self.joint - 1] - self.centre)
+        return [np.cos(angle), np.sin(angle)]

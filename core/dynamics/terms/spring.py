@@ -1,0 +1,26 @@
+"""Give the torque that a spring beside the motor takes: the joint's angle times its stiffness.
+
+Where it rests is an offset, which the model has already. Source: Klimchik, Pashkevich et al. 2013
+(counterbalances).
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Spring(OneJointTerm):
+    """Model a spring about the joint's axis that pulls against its angle."""
+
+    symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", None),)
+    kind: ClassVar[str] = "spring_compensator"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give q."""
+        del robot
+        return [state.position[:, self.joint - 1].copy()]

@@ -1,0 +1,30 @@
+"""Give the friction that a joint loses as it gets under way: Stribeck's excess over the Coulomb level.
+
+sign(v) exp(-(v / vs)^2), with vs the Stribeck velocity. Source: Bo & Pavelescu 1982; Bittencourt &
+Gunnarsson 2012.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Stribeck(OneJointTerm):
+    """Model the excess of friction near standstill; `stribeck_velocity` in rad/s (m/s)."""
+
+    stribeck_velocity: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("excess_torque", "N m", 0.0),)
+    kind: ClassVar[str] = "friction_stribeck"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give sign(v) exp(-(v / vs)^2)."""
+        del robot
+        velocity = state.velocity[:, self.joint - 1]
+        return [np.sign(velocity) * np.exp(-((velocity / self.stribeck_velocity) ** 2))]

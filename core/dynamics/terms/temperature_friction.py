@@ -1,0 +1,61 @@
+"""Give the friction that follows a joint's warmth: logged, or told from the time since the start.
+
+With a sensor the warmth is the temperature above a reference; without one it is 1 - exp(-t / tc), the course
+of a body that is heated evenly, and the parameters are the change over the whole warm-up. Sources: Bittencourt
+& Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012; Simoni et al., Robotics CIM 55, 2019 (no sensor).
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class TemperatureFriction(OneJointTerm):
+    """Model friction over the logged temperature; `reference` in degC; nothing where none was logged."""
+
+    reference: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (
+        ("coulomb_slope", "N m/K", None),
+        ("viscous_slope", "N m s/rad/K", None),
+    )
+    kind: ClassVar[str] = "friction_temperature"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give sign(v) and v, each times the temperature above the reference."""
+        del robot
+        velocity = state.velocity[:, self.joint - 1]
+        if state.temperature is None:
+            return [np.zeros_like(velocity), np.zeros_like(velocity)]
+        return _weighted(velocity, state.temperature[:, self.joint - 1] - self.reference)
+
+
+@dataclass(frozen=True, eq=False)
+class WarmUpFriction(OneJointTerm):
+    """Model friction over the time since `start`, s, with the time constant of the warm-up, s."""
+
+    start: float
+    time_constant: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (
+        ("coulomb_slope", "N m", None),
+        ("viscous_slope", "N m s/rad", None),
+    )
+    kind: ClassVar[str] = "friction_temperature"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give sign(v) and v, each times the share of the warm-up that is over."""
+        del robot
+        velocity = state.velocity[:, self.joint - 1]
+        if state.time is None:
+            return [np.zeros_like(velocity), np.zeros_like(velocity)]
+        return _weighted(velocity, -np.expm1(-(state.time - self.start) / self.time_constant))
+
+
+def _weighted(velocity: Samples, warmth: Samples) -> list[Samples]:
+    return [np.sign(velocity) * warmth, velocity * warmth]
