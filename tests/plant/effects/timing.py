@@ -1,0 +1,114 @@
+"""Hide effects of time: a torque channel that lags or is filtered, stamps that scatter, rows that repeat."""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from scipy import signal
+
+from tests.plant.effects.effect import Effect, Signals
+from tests.plant.engine import STEPS_PER_SECOND, Steering
+from tests.plant.robots import Arm
+
+
+def all_joints(arm: Arm) -> tuple[int, ...]:
+    """List all joints, counted from 1."""
+    return tuple(range(1, arm.joints + 1))
+
+
+@dataclass(frozen=True)
+class TimeDelay(Effect):
+    """Log on all channels the torque of `delay` seconds ago (positive: the torque lags the position)."""
+
+    delay: float
+    cause = "time_delay"
+    units = {"delay": "s"}
+    sizes = ("delay",)
+    largest = 0.03
+    local = False
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
+        """Draw a lag or, more rarely, a lead."""
+        return cls(all_joints(arm), 0.003 * float(rng.choice([-1.0, 1.0, 1.0])))
+
+    def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
+        """Shift the torque, interpolating between the simulation's steps."""
+        fine = np.arange(len(signals.fine_torque)) / STEPS_PER_SECOND
+        shifted = np.column_stack(
+            [np.interp(fine - self.delay, fine, column) for column in signals.fine_torque.T]
+        )
+        return replace(signals, torque=shifted[:: signals.steps], fine_torque=shifted)
+
+
+@dataclass(frozen=True)
+class TorqueFilterLag(Effect):
+    """Log on all channels the torque after a first-order low-pass of `time_constant` seconds."""
+
+    time_constant: float
+    cause = "torque_filter_lag"
+    units = {"time_constant": "s"}
+    sizes = ("time_constant",)
+    largest = 0.05
+    local = False
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
+        """Start from a few milliseconds."""
+        return cls(all_joints(arm), 0.004)
+
+    def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
+        """Filter at the simulation's rate, from a settled start."""
+        pole = np.exp(-1.0 / (STEPS_PER_SECOND * self.time_constant)) if self.time_constant > 0.0 else 0.0
+        start = pole * signals.fine_torque[:1]
+        slow, _ = signal.lfilter([1.0 - pole], [1.0, -pole], signals.fine_torque, axis=0, zi=start)
+        return replace(signals, torque=slow[:: signals.steps], fine_torque=slow)
+
+
+@dataclass(frozen=True)
+class TimestampJitter(Effect):
+    """Sample all channels at instants that scatter by `std` seconds about their even stamps."""
+
+    std: float
+    cause = "timestamp_jitter"
+    units = {"std": "s"}
+    sizes = ("std",)
+    largest = 0.002
+    local = False
+    raw = True
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
+        """Start from a tenth of a millisecond."""
+        return cls(all_joints(arm), 1e-4)
+
+    def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
+        """Read position and torque where the instants really were."""
+        late = self.std * rng.normal(size=(len(signals.time), 1))
+        position = signals.position + late * signals.velocity + 0.5 * late**2 * signals.acceleration
+        slope = np.gradient(signals.torque, signals.time, axis=0)
+        return replace(signals, position=position, torque=signals.torque + late * slope)
+
+
+@dataclass(frozen=True)
+class DroppedSamples(Effect):
+    """Repeat the row before in place of a `fraction` of the rows."""
+
+    fraction: float
+    cause = "dropped_samples"
+    units = {"fraction": "1"}
+    sizes = ("fraction",)
+    largest = 0.4
+    local = False
+    raw = True
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
+        """Start from one row in fifty."""
+        return cls(all_joints(arm), 0.02)
+
+    def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
+        """Mark the rows that repeat; the recorder repeats them, noise and all."""
+        lost = rng.random(len(signals.time)) < self.fraction
+        lost[0] = False
+        return replace(signals, kept=np.maximum.accumulate(np.where(lost, 0, np.arange(len(lost)))))

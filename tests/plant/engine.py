@@ -1,0 +1,251 @@
+"""Move an arm as nature would: MuJoCo's rigid bodies and set-valued friction under a joint controller.
+
+MuJoCo solves bodies and friction at every step; the step itself is a leapfrog (positions at full steps,
+velocities at half steps), which makes the logged torque belong to the logged motion to second order. A joint
+whose effect splits it has a rotor of its own, on which encoder, friction and drive sit.
+"""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from core.robot.inertia import mass_properties
+from tests.plant.effects.effect import Effect, Signals, State, overriding
+from tests.plant.excitation import Excitation
+from tests.plant.robots import Arm
+
+STEPS_PER_SECOND = 2000
+BANDWIDTH = 2.0 * np.pi * 6.0
+"""Bandwidth of the joint controller, rad/s."""
+DAMPING_RATIO = 0.8
+ENCODER_STEP = 1e-5
+"""One count of an encoder at the joint, rad."""
+EASE = 0.02
+"""Speed (rad/s) over which the controller's feed-forward of Coulomb friction turns round."""
+HARDEST = 0.9999
+"""MuJoCo's largest constraint impedance: what is left is the softness of a stuck joint."""
+
+
+def build(arm: Arm, split: tuple[int, ...] = ()) -> mujoco.MjModel:
+    """Build the arm link by link; joints of `split` (from 0) get a rotor of their own, after all links."""
+    spec = mujoco.MjSpec()
+    spec.option.gravity = arm.robot.gravity
+    spec.option.timestep = 1.0 / STEPS_PER_SECOND
+    spec.option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_REFSAFE
+    spec.compiler.degree = False
+    spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+    part = spec.worldbody
+    for link, body in zip(arm.robot.links, arm.bodies, strict=True):
+        part = part.add_body(name=link.name, pos=link.translation, quat=_quaternion(link.rotation))
+        part.add_joint(name=link.name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, 0.0, 1.0])
+        mass, centre, inertia = mass_properties(body)
+        moments, axes = np.linalg.eigh(inertia)
+        axes[:, 0] *= np.sign(np.linalg.det(axes))
+        part.explicitinertial = True
+        part.mass, part.ipos, part.inertia, part.iquat = mass, centre, moments, _quaternion(axes)
+    for joint in split:
+        rotor = spec.worldbody.add_body(name=f"rotor_{joint}")
+        rotor.add_joint(name=f"rotor_{joint}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, 0.0, 1.0])
+        rotor.explicitinertial = True
+        rotor.mass, rotor.inertia = 1e-9, [1e-12, 1e-12, 1e-12]
+    for coupling in arm.robot.couplings:
+        tendon = spec.add_tendon(name=coupling.name)
+        for joint, weight in zip(coupling.joints, coupling.weights, strict=True):
+            tendon.wrap_joint(arm.robot.links[joint - 1].name, weight)
+    return spec.compile()
+
+
+class Plant:
+    """Hold an arm with its effects at one instant and advance it step by step.
+
+    `motor` gives the place of every joint's motor among MuJoCo's coordinates.
+    """
+
+    def __init__(self, arm: Arm, effects: tuple[Effect, ...], position: np.ndarray) -> None:
+        self.split = {one.own: one for one in effects if one.splits}
+        self.model = build(arm, tuple(self.split))
+        self.data = mujoco.MjData(self.model)
+        self.arm, self.step = arm, 1.0 / STEPS_PER_SECOND
+        self.links = np.array(list(self.split), dtype=int)
+        self.motor = np.arange(arm.joints)
+        self.motor[self.links] = arm.joints + np.arange(len(self.links))
+        self.drives, self.frictions, self.torques = (
+            overriding(effects, place) for place in ("drive", "friction", "torque")
+        )
+        self._set_drives()
+        self.data.qpos[: arm.joints] = position
+        self.data.qpos[self.motor] = position
+        self.velocity = np.zeros(self.model.nv)
+        self.acceleration = np.zeros(self.model.nv)
+        self.level = arm.coulomb.copy()
+        self.transmitted = dict.fromkeys(self.split, 0.0)
+        self.state = State(self.step, position.copy(), self.level)
+
+    def _set_drives(self) -> None:
+        model, arm = self.model, self.arm
+        for name, value in (("dof_armature", arm.rotor_inertia), ("dof_damping", arm.viscous)):
+            getattr(model, name)[self.motor] = value
+        model.dof_frictionloss[self.motor] = arm.coulomb
+        model.dof_solref[:] = model.tendon_solref_fri[:] = [2.0 * self.step, 1.0]
+        model.dof_solimp[:] = model.tendon_solimp_fri[:] = [HARDEST, HARDEST, 0.001, 0.5, 2.0]
+        if len(arm.motors):
+            model.tendon_armature[:], damping, model.tendon_frictionloss[:] = arm.motors.T
+            model.tendon_damping[:] = damping
+        mujoco.mj_setConst(model, mujoco.MjData(model))
+
+    def advance(self, command: np.ndarray, gain: np.ndarray, damping: np.ndarray) -> np.ndarray:
+        """Take one step under `command` minus gains times state, N m; give the drive's torque."""
+        data, state = self.data, self.state
+        data.qvel[:] = self.velocity + 0.5 * self.step * self.acceleration
+        state.position, state.velocity = data.qpos[self.motor], data.qvel[self.motor]
+        torque = command - gain * state.position - damping * state.velocity
+        applied = torque
+        for effect in self.drives:
+            applied = effect.drive(applied)
+        if self.frictions:
+            self._set_level()
+        push = applied - self.arm.offset
+        for effect in self.torques:
+            effect.torque(state, push)
+        data.qfrc_applied[self.motor] = push
+        for joint, effect in self.split.items():
+            self._transmit(joint, effect)
+        mujoco.mj_forward(self.model, data)
+        self.before = self.velocity
+        self.acceleration = data.qacc.copy()
+        self.velocity = self.before + self.step * self.acceleration
+        data.qpos += self.step * self.velocity
+        state.time += self.step
+        return torque
+
+    def _set_level(self) -> None:
+        data, motor, state = self.data, self.motor, self.state
+        state.load = data.qfrc_applied[motor] + data.qfrc_constraint[motor] + data.qfrc_passive[motor]
+        for joint in self.split:
+            state.load[joint] += self.transmitted[joint]
+        self.level[:] = self.arm.coulomb
+        for effect in self.frictions:
+            effect.friction(state, self.level)
+        np.maximum(self.level, 0.0, out=self.level)
+        self.model.dof_frictionloss[motor] = self.level
+
+    def _transmit(self, joint: int, effect: Effect) -> None:
+        data, motor = self.data, self.motor[joint]
+        twist = data.qpos[motor] - data.qpos[joint]
+        torque = effect.transmit(twist, data.qvel[motor] - data.qvel[joint])
+        data.qfrc_applied[joint] = torque
+        data.qfrc_applied[motor] -= torque
+        self.transmitted[joint] = torque
+
+    def seen(self) -> tuple[np.ndarray, ...]:
+        """Give velocity, acceleration, and direction of joint and of coupling friction at the step's start."""
+        data, count = self.data, len(self.arm.motors)
+        velocity = 0.5 * (self.before + self.velocity)[self.motor]
+        coupled = data.efc_force[-count:] if count else np.empty(0)
+        friction = data.qfrc_constraint[self.motor].copy()
+        for coupling, force in zip(self.arm.robot.couplings, coupled, strict=True):
+            friction[np.array(coupling.joints) - 1] -= force * np.array(coupling.weights)
+        level = self.level
+        direction = np.where(level > 0.0, -friction / np.where(level > 0.0, level, 1.0), np.sign(velocity))
+        for joint in np.flatnonzero(level == 0.0):
+            direction[joint] = self.state.memory.get(f"direction {joint}", direction[joint])
+        sums = -coupled / self.arm.motors[:, 2] if count else np.empty(0)
+        return velocity, self.acceleration[self.motor], direction, sums
+
+
+@dataclass(frozen=True, eq=False)
+class Steering:
+    """Hold a joint controller: the command is the feed-forward of the arm without effects plus gains times reference.
+
+    `nominal` is the feed-forward alone, N m: the torque that the motion needs where nothing is hidden.
+    """
+
+    centre: np.ndarray
+    command: np.ndarray
+    nominal: np.ndarray
+    gain: np.ndarray
+    damping: np.ndarray
+
+
+def steer(arm: Arm, excitation: Excitation, rate_hz: float = 250.0) -> Steering:
+    """Tune PD gains to the arm's inertia and compute its feed-forward along the motion.
+
+    The rigid-body part is computed at the log's rate and interpolated.
+    """
+    model = build(arm)
+    coarse = np.arange(0.0, excitation.duration + 1.5 / rate_hz, 1.0 / rate_hz)
+    rigid = inverse(model, excitation.at(coarse))
+    fine = np.arange(round(excitation.duration * STEPS_PER_SECOND)) / STEPS_PER_SECOND
+    position, velocity, acceleration = excitation.at(fine)
+    nominal = np.column_stack([np.interp(fine, coarse, column) for column in rigid.T])
+    nominal += arm.rotor_inertia * acceleration + arm.viscous * velocity + arm.offset
+    nominal += arm.coulomb * np.tanh(velocity / EASE)
+    inertia = _inertia(model, excitation.centre) + arm.rotor_inertia
+    for coupling, (rotor, viscous, coulomb) in zip(arm.robot.couplings, arm.motors, strict=True):
+        joints, weights = np.array(coupling.joints) - 1, np.array(coupling.weights)
+        rate = velocity[:, joints] @ weights
+        motor = rotor * acceleration[:, joints] @ weights + viscous * rate + coulomb * np.tanh(rate / EASE)
+        nominal[:, joints] += motor[:, None] * weights
+        inertia[joints] += rotor * weights**2
+    gain, damping = inertia * BANDWIDTH**2, 2.0 * DAMPING_RATIO * inertia * BANDWIDTH
+    command = nominal + gain * position + damping * velocity
+    return Steering(excitation.centre, command, nominal, gain, damping)
+
+
+def simulate(
+    arm: Arm, effects: tuple[Effect, ...], steering: Steering, *, rate_hz: float = 250.0
+) -> Signals:
+    """Let the arm follow the motion; give what ideal sensors on the motors would see."""
+    steps = round(STEPS_PER_SECOND / rate_hz)
+    plant = Plant(arm, effects, steering.centre)
+    fine = np.empty_like(steering.command)
+    rows: list[tuple[np.ndarray, ...]] = []
+    for index, command in enumerate(steering.command):
+        fine[index] = plant.advance(command, steering.gain, steering.damping)
+        if index % steps == 0:
+            rows.append((plant.state.position, *plant.seen()))
+    position, velocity, acceleration, direction, sums = (
+        np.array(column) for column in zip(*rows, strict=True)
+    )
+    return Signals(
+        time=np.arange(len(rows)) / rate_hz,
+        position=position,
+        velocity=velocity,
+        acceleration=acceleration,
+        torque=fine[::steps],
+        direction=direction,
+        motor_direction=sums,
+        fine_torque=fine,
+        steps=steps,
+        encoder_step=np.full(arm.joints, ENCODER_STEP),
+        kept=np.arange(len(rows)),
+    )
+
+
+def inverse(model: mujoco.MjModel, motion: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
+    """Give the torque (N m) that MuJoCo's rigid bodies need along position, velocity and acceleration."""
+    data = mujoco.MjData(model)
+    torque = np.empty_like(motion[0])
+    for row, (position, velocity, acceleration) in enumerate(zip(*motion, strict=True)):
+        data.qpos[:], data.qvel[:], data.qacc[:] = position, velocity, acceleration
+        mujoco.mj_inverse(model, data)
+        torque[row] = data.qfrc_inverse
+    return torque
+
+
+def _inertia(model: mujoco.MjModel, position: np.ndarray) -> np.ndarray:
+    data = mujoco.MjData(model)
+    data.qpos[:] = position
+    mujoco.mj_forward(model, data)
+    full = np.empty((model.nv, model.nv))
+    for column, unit in zip(full, np.eye(model.nv), strict=True):
+        mujoco.mj_mulM(model, data, column, unit)
+    return np.diag(full).copy()
+
+
+def _quaternion(rotation: np.ndarray) -> np.ndarray:
+    """Write a rotation as w, x, y, z."""
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(rotation).ravel())
+    return quaternion

@@ -1,0 +1,156 @@
+"""Measure how strong a hidden effect is: what of it the standard model cannot absorb, over the noise.
+
+The standard model is ten inertial parameters per link, rotor inertia, friction, offset and declared couplings
+of the robot *as believed*, with pinocchio's regressor along the motion as the sensors see it (exact
+derivatives; Coulomb friction enters with the direction that it really had, so that sticking itself is no
+effect). Strength is the RMS of what it leaves of the noise-free torque, over the noise RMS, on the joint where
+that is largest. The oracle's noncentrality is ||(I - P) S^-1/2 e||^2 below 20 Hz, in the frequency domain,
+with S the true spectrum of the noise: what lies above is lost to whoever has to differentiate encoders.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pinocchio as pin
+from scipy import signal
+from scipy.stats import chi2, ncx2
+
+from core.robot.model import RobotModel
+from tests.plant.effects.effect import Signals
+from tests.plant.engine import build, inverse
+from tests.plant.robots import Arm
+from tests.plant.sensors import counted, spectrum
+
+BAND_HZ = 20.0
+"""What a log's user can make use of: derivatives of quantised positions are noise above."""
+LEVEL, POWER = 1e-3, 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class Residue:
+    """Hold what the standard model leaves of one effect.
+
+    Attributes
+    ----------
+    strength
+        RMS over noise RMS per joint, at the log's rate.
+    whitened
+        What is left of the whitened torque below 20 Hz; its squared length is the noncentrality.
+    """
+
+    strength: np.ndarray
+    whitened: np.ndarray
+
+    @property
+    def noncentrality(self) -> float:
+        """Give lambda."""
+        return float(self.whitened @ self.whitened)
+
+
+def residue(robot: RobotModel, signals: Signals, torque: np.ndarray, noise_rms: np.ndarray, kind: str) -> Residue:
+    """Take the standard model of the believed robot out of a torque (N m)."""
+    if not np.isfinite(torque).all():
+        return Residue(np.full(torque.shape[1], np.nan), np.full(1, np.nan))
+    columns = regressor(robot, signals) @ distinguishable(robot)
+    rows = np.concatenate([columns, torque[:, :, None]], axis=2) / noise_rms[:, None]
+    left = _left(rows.reshape(-1, rows.shape[2])).reshape(torque.shape)
+    rate_hz = 1.0 / (signals.time[1] - signals.time[0])
+    frequency = np.fft.rfftfreq(len(torque), 1.0 / rate_hz)
+    inside = frequency <= BAND_HZ
+    scale = np.sqrt(2.0 / len(torque) / spectrum(kind, frequency[inside], rate_hz))
+    waves = np.fft.rfft(rows, axis=0)[inside] * scale[:, None, None]
+    waves[0] /= np.sqrt(2.0)
+    parts = np.concatenate([waves.real, waves.imag]).reshape(-1, rows.shape[2])
+    return Residue(np.sqrt(np.mean(left**2, axis=0)), _left(parts))
+
+
+def nameable(noncentrality: float) -> bool:
+    """Tell whether the test that knows the effect finds it nine times in ten at a level of 1e-3.
+
+    Examples
+    --------
+    >>> nameable(20.0), nameable(22.0)
+    (False, True)
+    """
+    return bool(ncx2.sf(chi2.isf(LEVEL, 1), 1, noncentrality) >= POWER)
+
+
+def given(whitened: np.ndarray, others: list[np.ndarray]) -> float:
+    """Give the noncentrality of one effect where the others' sizes are not known either."""
+    if not others:
+        return float(whitened @ whitened)
+    return float(np.sum(_left(np.column_stack([*others, whitened])) ** 2))
+
+
+def regressor(robot: RobotModel, signals: Signals) -> np.ndarray:
+    """Give the standard model's columns, samples x joints x parameters."""
+    model = _pinocchio(robot)
+    data = model.createData()
+    samples, joints = signals.position.shape
+    rigid = np.empty((samples, joints, 10 * len(robot.links)))
+    motion = zip(signals.position, signals.velocity, signals.acceleration, strict=True)
+    for row, sample in enumerate(motion):
+        rigid[row] = pin.computeJointTorqueRegressor(model, data, *sample)
+    own = [signals.acceleration, signals.velocity, signals.direction, np.ones((samples, joints))]
+    places = np.eye(joints)
+    held = [np.array([joint.rotor_inertia for joint in robot.joints], dtype=float), *np.ones((3, joints))]
+    blocks = [rigid, *(series[:, :, None] * places * on for series, on in zip(own, held, strict=True))]
+    for place, coupling in enumerate(robot.couplings):
+        weights = np.zeros(joints)
+        weights[np.array(coupling.joints) - 1] = coupling.weights
+        sums = [signals.acceleration @ weights, signals.velocity @ weights, signals.motor_direction[:, place]]
+        blocks.append(np.column_stack(sums)[:, None, :] * weights[:, None])
+    return np.concatenate(blocks, axis=2)
+
+
+def differentiation_error(arm: Arm, ideal: Signals, spoilt: Signals) -> np.ndarray:
+    """Give the torque error (N m) that a log with spoilt instants or angles makes below 20 Hz.
+
+    Both logs go through a zero-phase low-pass and central differences; their torques through the true arm
+    differ by the error, less what the logged torque itself changed by.
+    """
+    rate_hz = 1.0 / (ideal.time[1] - ideal.time[0])
+    low = signal.butter(4, BAND_HZ, fs=rate_hz, output="sos")
+    model = build(replace(arm, robot=replace(arm.robot, couplings=())))
+    needed = []
+    for one in (ideal, spoilt):
+        position = signal.sosfiltfilt(low, counted(one), axis=0)
+        velocity = np.gradient(position, 1.0 / rate_hz, axis=0)
+        acceleration = np.gradient(velocity, 1.0 / rate_hz, axis=0)
+        drives = arm.rotor_inertia * acceleration + arm.viscous * velocity
+        needed.append(inverse(model, (position, velocity, acceleration)) + drives)
+    logged = spoilt.torque[spoilt.kept] - ideal.torque
+    return np.asarray(signal.sosfiltfilt(low, logged, axis=0) - (needed[1] - needed[0]))
+
+
+@cache
+def distinguishable(robot: RobotModel) -> np.ndarray:
+    """Span the parameter directions that any motion at all can show (columns orthonormal)."""
+    rng = np.random.default_rng(0)
+    joints = len(robot.joints)
+    q, dq, ddq, direction = rng.uniform(-3.0, 3.0, (4, 100, joints))
+    couplings = rng.uniform(-1.0, 1.0, (100, len(robot.couplings)))
+    random = Signals(np.arange(100.0), q, dq, ddq, q, direction, couplings, q, 1, q[0], np.arange(100))
+    rows = regressor(robot, random)
+    _, singular, directions = np.linalg.svd(rows.reshape(-1, rows.shape[2]), full_matrices=False)
+    return np.asarray(directions[singular > 1e-9 * singular[0]].T)
+
+
+def _left(rows: np.ndarray) -> np.ndarray:
+    """Project the last column on the complement of the others, by the normal equations of scaled columns."""
+    scaled = rows / np.maximum(np.linalg.norm(rows, axis=0), 1e-300)
+    columns = scaled[:, :-1]
+    for_rows = np.linalg.lstsq(columns.T @ columns, columns.T @ scaled[:, -1], rcond=1e-13)[0]
+    return (scaled[:, -1] - columns @ for_rows) * np.linalg.norm(rows[:, -1])
+
+
+@cache
+def _pinocchio(robot: RobotModel) -> pin.Model:
+    model = pin.Model()
+    model.gravity.linear = np.asarray(robot.gravity)
+    carrier = 0
+    for link in robot.links:
+        placement = pin.SE3(link.rotation, link.translation)
+        carrier = model.addJoint(carrier, pin.JointModelRZ(), placement, link.name)
+    return model
