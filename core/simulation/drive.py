@@ -1,0 +1,64 @@
+"""Say what drives the joints: a torque sampled on a clock, and a controller that may correct it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.simulation.stage import States
+
+
+@dataclass(frozen=True, eq=False)
+class Feedback:
+    """Pull joints towards a reference.
+
+    Attributes
+    ----------
+    stiffness, damping
+        Gains per joint, N m/rad and N m s/rad (N/m, N s/m).
+    position, velocity
+        The reference at the drive's instants: (instants, joints, states).
+    """
+
+    stiffness: np.ndarray
+    damping: np.ndarray
+    position: np.ndarray
+    velocity: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """Drive many states at once.
+
+    Attributes
+    ----------
+    step
+        Time between two instants, s.
+    torque
+        N m or N at the instants: (instants, joints, states); linear in between.
+    feedback
+        What corrects it; None where nothing does.
+    """
+
+    step: float
+    torque: np.ndarray
+    feedback: Feedback | None = None
+
+    @property
+    def steps(self) -> int:
+        """Count the steps."""
+        return len(self.torque) - 1
+
+    def at(self, number: int, share: np.ndarray, lanes: np.ndarray | slice, states: States) -> np.ndarray:
+        """Give the torque after a share of a step, less the feedback's damping, which is taken implicitly."""
+        torque = _between(self.torque, number, share, lanes)
+        if self.feedback is None:
+            return torque
+        back = self.feedback
+        error = _between(back.position, number, share, lanes) - states.position
+        wanted = _between(back.velocity, number, share, lanes)
+        return np.asarray(torque + back.stiffness[:, None] * error + back.damping[:, None] * wanted)
+
+
+def _between(table: np.ndarray, number: int, share: np.ndarray, lanes: np.ndarray | slice) -> np.ndarray:
+    before, after = table[number][:, lanes], table[number + 1][:, lanes]
+    return np.asarray(before + share * (after - before))
