@@ -58,7 +58,20 @@ class Drive:
         wanted = _between(back.velocity, number, share, lanes)
         return np.asarray(torque + back.stiffness[:, None] * error + back.damping[:, None] * wanted)
 
+    def played(self, number: int, states: States) -> np.ndarray:
+        """Give the torque at an instant, feedback included, N m or N."""
+        if self.feedback is None:
+            return np.asarray(self.torque[number])
+        back = self.feedback
+        error = back.position[number] - states.position
+        slip = back.velocity[number] - states.velocity
+        return np.asarray(self.torque[number] + back.stiffness[:, None] * error + back.damping[:, None] * slip)
+
 
 def _between(table: np.ndarray, number: int, share: np.ndarray, lanes: np.ndarray | slice) -> np.ndarray:
-    before, after = table[number][:, lanes], table[number + 1][:, lanes]
+    if isinstance(lanes, slice) and (share == share[0]).all() and share[0] in {0.0, 1.0}:
+        return np.asarray(table[number + int(share[0])])
+    before, after = table[number], table[number + 1]
+    if not isinstance(lanes, slice):
+        before, after = np.take(before, lanes, axis=1), np.take(after, lanes, axis=1)
     return np.asarray(before + share * (after - before))

@@ -113,6 +113,14 @@ def _settle(coupled, push, level, held):
             break
 
 
+@njit(inline="always")
+def _something_rests(direction, level, s):
+    for e in range(len(level)):
+        if direction[e, s] == 0.0 and level[e, s] > 0.0:
+            return True
+    return False
+
+
 @njit
 def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
     """Keep at rest what friction can keep at rest in one state: changes its accelerations, fills `held`."""
@@ -166,7 +174,7 @@ def accelerations(  # pragma: no cover  (compiled)
 
     All tables are (rows, states). `weights` has one row per friction element: the speed on which it acts is
     `weights @ velocity`. `direction` says which way it slides; 0 is at rest, held up to its `level`, and what
-    holds it goes to `held`. A mass matrix that is not positive definite leaves nan behind.
+    holds it goes to `held`. An empty `known` is zero. A mass matrix that is not positive definite leaves nan behind.
     """
     joints, states = position.shape
     tables = scratch(len(robot[1]))
@@ -179,7 +187,8 @@ def accelerations(  # pragma: no cover  (compiled)
         count = np.uintp(many)
         _take(q, position, start, count)
         _take(v, velocity, start, count)
-        _take(other, known, start, count)
+        if len(known):
+            _take(other, known, start, count)
         _take(out, torque, start, count)
         move_block(robot, tables, q, v, still, many)
         torque_of_block(robot, tables, bias, many)
@@ -197,7 +206,8 @@ def accelerations(  # pragma: no cover  (compiled)
                     for s in range(count):
                         slide = direction[np.uintp(e), start + s] * level[np.uintp(e), start + s]
                         out[np.uintp(i), s] -= weights[e, i] * slide
-        _apply_mass(out, mass, other, joints, count)
+        if len(known):
+            _apply_mass(out, mass, other, joints, count)
         for i in range(joints):
             for j in range(i + 1):
                 if damping[i, j] != 0.0:
@@ -206,7 +216,7 @@ def accelerations(  # pragma: no cover  (compiled)
         _factorise(mass, scale, joints, count)
         _substitute(out, mass, scale, joints, count)
         for s in range(many):
-            if np.any((direction[:, begin + s] == 0.0) & (level[:, begin + s] > 0.0)):
+            if _something_rests(direction, level, begin + s):
                 _hold(
                     out,
                     mass,
@@ -221,6 +231,29 @@ def accelerations(  # pragma: no cover  (compiled)
         for row in range(joints):
             for s in range(count):
                 rate[row, start + s] = out[row, s]
+
+
+@njit(f"void({_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS)
+def predict(position, velocity, rate, time, ahead, speed):  # pragma: no cover  (compiled)
+    """Write position and velocity a time later at a constant rate of the velocity."""
+    for row in range(len(position)):
+        for s in range(len(time)):
+            ahead[row, s] = position[row, s] + time[s] * velocity[row, s]
+            speed[row, s] = velocity[row, s] + time[s] * rate[row, s]
+
+
+@njit(
+    f"void({_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS
+)
+def correct(  # pragma: no cover  (compiled)
+    position, velocity, first, predicted, second, time, ahead, speed
+):
+    """Write position and velocity a time later from the scheme's two rates; `second` becomes the last one."""
+    for row in range(len(position)):
+        for s in range(len(time)):
+            ahead[row, s] = position[row, s] + 0.5 * time[s] * (velocity[row, s] + predicted[row, s])
+            speed[row, s] = velocity[row, s] + time[s] * (1.5 * first[row, s] + 0.5 * second[row, s])
+            second[row, s] += 2.0 * first[row, s]
 
 
 @njit(f"void({ROBOT}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})", **OPTIONS)

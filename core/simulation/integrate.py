@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from core.errors import SolverError
+from core.simulation import forward as kernel
 from core.simulation.drive import Drive
 from core.simulation.mechanism import Mechanism
 from core.simulation.stage import States, rates
@@ -83,8 +84,8 @@ class Integrator:
             if found is None or cuts == 1:
                 trial.put(left.lanes, after if found is None else self._rested(before, after))
                 break
-            trial.put(left.lanes[found == 1.0], after.chosen(found == 1.0))
-            again = found < 1.0
+            done, again = np.flatnonzero(found == 1.0), np.flatnonzero(found < 1.0)
+            trial.put(left.lanes[done], after.chosen(done))
             before, share = before.chosen(again), found[again]
             left = Stride(left.number, left.passed[again], left.to_go[again], left.lanes[again])
         return trial
@@ -95,23 +96,23 @@ class Integrator:
         damping, implicit = self.damping, GAMMA * time
         torque = self.drive.at(stride.number, stride.passed, stride.lanes, states)
         first = rates(self.mechanism, states, torque, implicit=implicit, damping=damping)
-        ahead = replace(
-            states,
-            position=states.position + time * states.velocity,
-            velocity=states.velocity + time * first.acceleration,
-            acceleration=first.acceleration,
-            direction=first.direction,
-            time=states.time + time,
+        ahead = replace(states.later(time), acceleration=first.acceleration, direction=first.direction)
+        kernel.predict(
+            states.position, states.velocity, first.acceleration, time, ahead.position, ahead.velocity
         )
         torque = self.drive.at(stride.number, stride.passed + stride.to_go, stride.lanes, ahead)
         known = 2.0 * first.acceleration
         second = rates(self.mechanism, ahead, torque, known=known, implicit=implicit, damping=damping)
-        after = replace(
-            ahead,
-            position=states.position + 0.5 * time * (states.velocity + ahead.velocity),
-            velocity=states.velocity + time * (1.5 * first.acceleration + 0.5 * second.acceleration),
-            acceleration=second.acceleration + known,
-            direction=second.direction,
+        after = replace(states.later(time), acceleration=second.acceleration, direction=second.direction)
+        kernel.correct(
+            states.position,
+            states.velocity,
+            first.acceleration,
+            ahead.velocity,
+            second.acceleration,
+            time,
+            after.position,
+            after.velocity,
         )
         return self._released(states, after), first.acceleration
 

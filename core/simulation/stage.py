@@ -17,6 +17,8 @@ from core.simulation.mechanism import Mechanism, columns
 CREEP = 1e-9
 """Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""
 
+_NOTHING = np.zeros((0, 0))
+
 
 @dataclass(frozen=True, eq=False)
 class States:
@@ -55,10 +57,10 @@ class States:
         )
 
     def chosen(self, which: np.ndarray) -> Self:
-        """Pick some of the states."""
-        temperature = None if self.temperature is None else self.temperature[:, which]
+        """Pick some of the states, by their numbers."""
+        temperature = None if self.temperature is None else np.take(self.temperature, which, axis=1)
         tables = (self.position, self.velocity, self.acceleration, self.direction)
-        position, velocity, acceleration, direction = (table[:, which] for table in tables)
+        position, velocity, acceleration, direction = (np.take(table, which, axis=1) for table in tables)
         return replace(
             self,
             position=position,
@@ -68,6 +70,11 @@ class States:
             time=self.time[which],
             temperature=temperature,
         )
+
+    def later(self, time: np.ndarray) -> Self:
+        """Give room for the states a time (s) later: position and velocity are still to be written."""
+        position, velocity = np.empty_like(self.position), np.empty_like(self.velocity)
+        return replace(self, position=position, velocity=velocity, time=self.time + time)
 
     def put(self, which: np.ndarray, other: Self) -> None:
         """Overwrite some of the states in place."""
@@ -123,7 +130,7 @@ def rates(
         states.position,
         states.velocity,
         applied,
-        np.zeros_like(applied) if known is None else known,
+        _NOTHING if known is None else known,
         np.zeros(count) if implicit is None else implicit,
         states.direction,
         level,
