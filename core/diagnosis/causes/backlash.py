@@ -1,0 +1,65 @@
+"""Suspect play in a joint's transmission, between the motor's encoder and the link."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
+from core.diagnosis.causes.sites import revolute_joints
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.backlash import Backlash as BacklashTerm
+
+NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 6
+SMOOTHING_OVER_BAND = 2.0
+
+
+@dataclass(frozen=True)
+class Backlash(OwnJointCause):
+    """Suspect backlash."""
+
+    id = "backlash"
+    title = "The transmission has play"
+    units = (("half_width", "rad"),)
+    confusions = (
+        Confusion(
+            "friction_presliding",
+            "where the load follows the velocity both act after reversals of either",
+            "repeat in a posture where gravity never lets the load change its sign: only presliding stays",
+        ),
+        Confusion(
+            "joint_elasticity",
+            "both shift the link against the motor; a spring does so in proportion to the load",
+            "repeat in a posture where gravity never lets the load change its sign: only the spring stays",
+        ),
+    )
+    experiment = "slow motion through postures where the load on this joint changes its sign"
+    coordinate = "load"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List the joints that turn."""
+        del believed
+        return [(joint,) for joint in revolute_joints(look.robot)]
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the width of the gap, of which the time of crossing is the cube root."""
+        del look, believed, site
+        return [{"around": value} for value in spread(NARROWEST, WIDEST, STEPS)]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        return BacklashTerm(site[0], believed, scalars["around"], SMOOTHING_OVER_BAND * look.band_hz)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a gap, and one of about the width that the crossings were computed for."""
+        around = solved.scalars["around"]
+        return bool(around / 5.0 < solved.values[0] < 5.0 * around)
+
+    def statement(self, solved: Solved) -> str:
+        """Say how wide the gap is."""
+        found = named(self.quantities(solved))["half_width"]
+        return (
+            f"Joint {solved.site[0]}'s transmission has play: the link lags or leads its motor by "
+            f"{shown(found)}, on the side from which the load presses"
+        )

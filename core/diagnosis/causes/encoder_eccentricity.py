@@ -1,0 +1,70 @@
+"""Suspect that a joint's encoder disc sits off its axis: an angle error once per turn."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.causes.sites import revolute_joints
+from core.diagnosis.causes.waves import amplitude_and_angle
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm
+
+LARGEST = 0.3
+
+
+@dataclass(frozen=True)
+class EncoderEccentricity(OwnJointCause):
+    """Suspect an encoder error that repeats with every turn."""
+
+    id = "encoder_eccentricity"
+    title = "The encoder errs once per turn"
+    cure = "signal"
+    units = (("amplitude", "rad"), ("phase", "rad"))
+    confusions = (
+        Confusion(
+            "torque_ripple",
+            "both vary with the joint's angle; an angle error grows with acceleration and load",
+            "pass the same angles slowly and quickly",
+        ),
+        Confusion(
+            "encoder_offset",
+            "over a small part of a turn the error hardly changes",
+            "move the joint through a whole turn, or as much of one as its range allows",
+        ),
+    )
+    experiment = "quick motion through as much of a turn as the joint's range allows"
+    coordinate = "position"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List the joints that turn."""
+        del believed
+        return [(joint,) for joint in revolute_joints(look.robot)]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, scalars
+        return EncoderEccentricityTerm(site[0], believed)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want an error that a first-order column can stand for."""
+        return bool(float(solved.values @ solved.values) < LARGEST**2)
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Report amplitude and phase of the error amplitude sin(q + phase)."""
+        (amplitude, wide), (phase, turned) = amplitude_and_angle(solved.values, solved.covariance)
+        joint = solved.site[0]
+        return (
+            Quantity("amplitude", joint, "rad", amplitude, wide),
+            Quantity("phase", joint, "rad", phase, turned),
+        )
+
+    def statement(self, solved: Solved) -> str:
+        """Say how large the error is and where."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]}'s encoder errs once per turn, by {shown(found['amplitude'])} times "
+            f"sin(q + {found['phase'].value:.2g})"
+        )

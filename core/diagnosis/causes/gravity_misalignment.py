@@ -1,0 +1,56 @@
+"""Suspect that the base is tilted: gravity does not point where the robot's description has it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.tilt import Tilt
+
+LARGEST = 0.5
+
+
+@dataclass(frozen=True)
+class GravityMisalignment(OwnJointCause):
+    """Suspect a tilted base."""
+
+    id = "gravity_misalignment"
+    title = "The base is tilted against the description"
+    cure = "robot"
+    units = (("tilt_x", "rad"), ("tilt_y", "rad"))
+    confusions = (
+        Confusion(
+            "encoder_offset",
+            "joints that carry the arm against gravity see a tilted base like a zero error",
+            "turn the first joint by half a turn: the effect of a tilted base changes its sign",
+        ),
+    )
+    experiment = "the same slow motion with the first joint at four angles, a quarter of a turn apart"
+    coordinate = "position"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """Act on the whole robot, where it has weight."""
+        del believed
+        return [()] if np.any(look.robot.gravity) else []
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, site, scalars
+        return Tilt(0, believed)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a tilt that a first-order column can stand for."""
+        return bool(np.hypot(*solved.values) < LARGEST)
+
+    def statement(self, solved: Solved) -> str:
+        """Say about which axes the base is turned."""
+        found = named(self.quantities(solved))
+        return (
+            f"The base is turned against the description by {shown(found['tilt_x'])} about its x axis and "
+            f"{shown(found['tilt_y'])} about its y axis"
+        )

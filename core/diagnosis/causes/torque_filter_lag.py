@@ -1,0 +1,76 @@
+"""Suspect that the torque channel is low-pass filtered and the positions are not."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.look import Look
+from core.diagnosis.misfit import fitted_rows, misfit, size_of
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.filter_lag import FilterLag
+
+SHORTEST, LONGEST = 2e-4, 0.1
+"""Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""
+ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class TorqueFilterLag(OwnJointCause):
+    """Suspect a filter in the torque channel."""
+
+    id = "torque_filter_lag"
+    title = "The torque channel is low-pass filtered"
+    cure = "signal"
+    units = (("time_constant", "s"),)
+    confusions = (
+        Confusion(
+            "time_delay",
+            "to first order in frequency both are late alike; they differ by its square",
+            "excite at several frequencies up to a fifth of the sampling rate: a filter weakens quick ones",
+        ),
+        Confusion(
+            "joint_elasticity",
+            "a compliant gear also makes the torque seem late, by an amount that depends on joint and load",
+            "repeat the motion with and without a payload: a filter stays the same",
+        ),
+    )
+    experiment = "motion with quick reversals, five times the present frequencies"
+    coordinate = "torque_rate"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """Act on the whole robot."""
+        del look, believed
+        return [()]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns at the time constant that they yield themselves.
+
+        Filter and delay differ by how their second order follows from their first; a scan of the time
+        constant would give that away.
+        """
+        del site, scalars
+        left, mask = misfit(look, believed), fitted_rows(look)
+        weight = mask / size_of(left, mask)
+        around = 0.005
+        for _ in range(ROUNDS):
+            (columns,) = look.columns([FilterLag(0, believed, around)])
+            column = np.column_stack([columns[joint][:, 0] for joint in range(look.joints)]) * weight
+            found = float(np.sum(column * left * weight) / max(np.sum(column**2), 1e-300))
+            around = float(np.clip(found, SHORTEST, LONGEST))
+        return FilterLag(0, believed, around)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a filter that lags."""
+        return bool(0.0 < solved.values[0] < LONGEST)
+
+    def statement(self, solved: Solved) -> str:
+        """Say with which time constant."""
+        found = named(self.quantities(solved))["time_constant"]
+        return (
+            f"The torque channel is low-pass filtered on all joints: time constant {1e3 * found.value:.3g} ± "
+            f"{1e3 * found.standard_deviation:.1g} ms, the positions are not"
+        )

@@ -1,0 +1,59 @@
+"""Suspect that one torque channel's scale is wrong: its torque constant, its gear ratio or its sensor."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
+
+LARGEST = 0.9
+
+
+@dataclass(frozen=True)
+class TorqueGain(OwnJointCause):
+    """Suspect a wrong torque constant."""
+
+    id = "torque_gain"
+    title = "The torque channel's scale is wrong"
+    cure = "signal"
+    units = (("relative_error", "1"),)
+    confusions = (
+        Confusion(
+            "friction_load_dependent",
+            "both are proportional to the load; friction changes its sign with the direction of motion",
+            "pass the same postures slowly in both directions",
+        ),
+        Confusion(
+            "torque_gain_nonlinear",
+            "a curve that is bent looks like another slope where the torque stays of one size",
+            "hold postures of little, half and full gravity torque",
+        ),
+        Confusion(
+            "payload_change",
+            "only ratios between joints show a gain; all joints at once are the same as heavier bodies",
+            "repeat the motion with a weighed payload",
+        ),
+    )
+    experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
+    coordinate = "torque"
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, scalars
+        return TorqueGainTerm(site[0], believed)
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a channel that still has most of its sense."""
+        return bool(abs(solved.values[0]) < LARGEST)
+
+    def statement(self, solved: Solved) -> str:
+        """Say by how many per cent the channel is wrong."""
+        found = named(self.quantities(solved))["relative_error"]
+        way = "much" if found.value > 0.0 else "little"
+        return (
+            f"Joint {solved.site[0]}'s torque channel reads {100.0 * abs(found.value):.3g} ± "
+            f"{100.0 * found.standard_deviation:.1g} % too {way} against the other joints"
+        )

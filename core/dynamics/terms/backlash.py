@@ -1,0 +1,69 @@
+"""Give what play between motor and link adds: the link is left behind, then caught up with at the other side.
+
+While motor and link touch, the link's angle differs from the motor's by the half width, on the side from
+which the load presses. When the load changes its sign the link flies free until it has crossed the gap: the
+twist, motor minus link, follows twist'' = load / inertia, with the load and the link's own inertia as the
+rigid model predicts them. The column is the change of all loads by that twist, per unit of half width.
+Source: Nordin & Gutman, Automatica 38(10), 2002.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import JointSeries, Samples
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
+from core.dynamics.terms.elasticity import smoothed
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+SMALL = 1e-2
+"""The twist is made smaller before it is handed to the robot, so that the column is a derivative."""
+
+
+@dataclass(frozen=True, eq=False)
+class Backlash(AllJointsTerm):
+    """Model play near the half width `around` (rad); the twist is smoothed at `band_hz`."""
+
+    believed: Prediction
+    around: float
+    band_hz: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("half_width", "rad", 0.0),)
+    kind: ClassVar[str] = "backlash"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the change of all joints' loads per rad of half width."""
+        del robot
+        own = self.joint - 1
+        still = np.zeros((len(state.position), 1))
+        inertia = self.believed.shifted(state, own, MotionState(still, still, still + 1.0))[:, own]
+        load = self.believed.load(state)[:, own]
+        free = load / np.maximum(inertia, 1e-9)
+        twist = smoothed(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
+        first, second = rates(twist, state)
+        shift = MotionState(-SMALL * twist, -SMALL * first, -SMALL * second)
+        return [self.believed.shifted(state, own, shift) / (SMALL * self.around)]
+
+
+def twist_of(free: Samples, step: float, half_width: float) -> Samples:
+    """Give motor minus link angle, in rad, along a motion that would tear the two apart at `free` rad/s2.
+
+    Contacts neither bounce nor pull; the first sample lies on the side of its load.
+
+    Examples
+    --------
+    >>> twist_of(np.array([1.0, 1.0, -1.0, -1.0, -1.0, -1.0]), 1.0, 1.5)
+    array([ 1.5,  1.5,  1. , -0.5, -1.5, -1.5])
+    """
+    out = np.empty(len(free))
+    twist, rate = float(np.copysign(half_width, free[0])), 0.0
+    for sample, pull in enumerate(free.tolist()):
+        rate += step * pull
+        after = twist + step * rate - 0.5 * step * step * pull
+        twist = min(max(after, -half_width), half_width)
+        if twist != after:
+            rate = 0.0
+        out[sample] = twist
+    return out

@@ -1,0 +1,64 @@
+"""Give what a lying encoder adds: the model's torque at the true angle, minus that at the measured one.
+
+An encoder reads the true angle plus an error; the true angle is the reading minus the error, to first order
+in the error. A constant error changes gravity and inertia only; one that varies with the angle also changes
+velocity and acceleration, and with them friction and rotor torque. Source: Khalil & Dombre (2002), ch. 11.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.dynamics.prediction import Prediction, moved
+from core.dynamics.terms.effect import AllJointsTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+SMALL = 1e-5
+"""Size of the finite error, rad: its square is nothing, its rounding neither."""
+
+
+@dataclass(frozen=True, eq=False)
+class EncoderOffset(AllJointsTerm):
+    """Model a reading that is the true angle plus `offset`."""
+
+    believed: Prediction
+    symbols: ClassVar[tuple[Symbol, ...]] = (("offset", "rad", None),)
+    kind: ClassVar[str] = "encoder_offset"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give minus the change of load per rad."""
+        del robot
+        still = np.zeros((len(state.position), 1))
+        shift = MotionState(still - SMALL, still, still)
+        return [self.believed.shifted(state, self.joint - 1, shift) / SMALL]
+
+
+@dataclass(frozen=True, eq=False)
+class EncoderEccentricity(AllJointsTerm):
+    """Model a reading that is the true angle plus `sine` sin(q) + `cosine` cos(q)."""
+
+    believed: Prediction
+    symbols: ClassVar[tuple[Symbol, ...]] = (("sine", "rad", None), ("cosine", "rad", None))
+    kind: ClassVar[str] = "encoder_eccentricity"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give minus the change of torque per rad of sin(q), and of cos(q)."""
+        del robot
+        own = self.joint - 1
+        q, dq, ddq = (one[:, [own]] for one in (state.position, state.velocity, state.acceleration))
+        sine, cosine = np.sin(q), np.cos(q)
+        errors = (
+            MotionState(sine, cosine * dq, cosine * ddq - sine * dq**2),
+            MotionState(cosine, -sine * dq, -sine * ddq - cosine * dq**2),
+        )
+        plain = self.believed.torque(state)
+        out = []
+        for error in errors:
+            shift = MotionState(
+                *(-SMALL * one for one in (error.position, error.velocity, error.acceleration))
+            )
+            out.append((self.believed.torque(moved(state, own, shift)) - plain) / SMALL)
+        return out

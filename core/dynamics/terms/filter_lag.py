@@ -1,0 +1,58 @@
+"""Give what a low-pass filter in the torque channel adds: the filtered prediction minus the plain one.
+
+A first-order filter with time constant T leaves tau / (1 + T s); to first order in T it is a delay by T, to
+second order it takes T^2 s^2 where a delay takes half as much. The column is the difference over T, so that
+its linear parameter is the time constant when the two agree. Source: Oppenheim & Willsky, Signals and Systems
+(1997), ch. 6.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from scipy.signal import lfilter
+
+from core.arrays import JointSeries
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import AllJointsTerm, Symbol, step_of
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class FilterLag(AllJointsTerm):
+    """Model a first-order low-pass of all torque channels; `around` is the time constant in s it is near."""
+
+    believed: Prediction
+    around: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("time_constant", "s", 0.0),)
+    kind: ClassVar[str] = "torque_filter_lag"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give (low-passed minus plain predicted torque) / time constant."""
+        del robot
+        torque = self.believed.torque(state)
+        return [(low_passed(torque, step_of(state), self.around) - torque) / self.around]
+
+
+def low_passed(values: JointSeries, step: float, time_constant: float) -> JointSeries:
+    """Pass columns through 1 / (1 + T s), exactly for what runs straight between samples, settled at first.
+
+    Parameters
+    ----------
+    step, time_constant
+        Time between samples and T, both in s.
+
+    Examples
+    --------
+    A ramp comes out late by the time constant, once settled.
+
+    >>> ramp = np.arange(200.0)[:, None]
+    >>> float((ramp - low_passed(ramp, 1.0, 4.0))[-1, 0])
+    4.0
+    """
+    pole = np.exp(-step / time_constant)
+    held = (1.0 - pole) * time_constant / step
+    ahead = (1.0 - held, held - pole)
+    start = (1.0 - ahead[0]) * values[:1]
+    return np.asarray(lfilter(ahead, (1.0, -pole), values, axis=0, zi=start)[0])

@@ -1,0 +1,51 @@
+"""Give what a body adds that is fixed to a link from some instant on: ten columns times a step.
+
+The ten parameters are those of the difference of bodies, in the link's frame; a body that is taken away has
+them negative. A step before the first instant is a body that was there all along. Source: Khalil & Dombre
+(2002), ch. 12.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.dynamics.newton_euler import inverse_dynamics
+from core.dynamics.terms.effect import AllJointsTerm, Symbol
+from core.robot.model import RobotModel
+from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Payload(AllJointsTerm):
+    """Model a body fixed to a link (number from 1) from `begin` on, s; its mass may be of either sign."""
+
+    link: int
+    begin: float
+    symbols: ClassVar[tuple[Symbol, ...]] = tuple(
+        (symbol, INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
+    )
+    kind: ClassVar[str] = "payload_change"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the torque per unit of the body's ten parameters while it is there."""
+        columns = body_torques(robot, self.link, state)
+        if state.time is None:
+            return list(columns)
+        return list(columns * (state.time >= self.begin)[:, None])
+
+
+@lru_cache(maxsize=8)
+def body_torques(robot: RobotModel, link: int, state: MotionState) -> np.ndarray:
+    """Give the torque per unit of each of a link's ten parameters: parameters x samples x joints.
+
+    Kept for the last few stretches, because a scan of the instant asks for the same ones again.
+    """
+    units = np.zeros((10, len(robot.links), 10))
+    units[np.arange(10), link - 1, np.arange(10)] = 1.0
+    torques = np.array([inverse_dynamics(robot, bodies, state) for bodies in units])
+    torques.setflags(write=False)
+    return torques

@@ -1,0 +1,28 @@
+"""Give what a wrong torque constant adds on one joint: its own predicted torque.
+
+The channel reads (1 + e) times the true torque, so that e times the predicted torque is missing. Source:
+Gautier & Briot, IFAC World Congress 2011.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from core.arrays import Samples
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueGain(OneJointTerm):
+    """Model a torque channel whose scale is wrong by a share."""
+
+    believed: Prediction
+    symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
+    kind: ClassVar[str] = "torque_gain"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give the joint's predicted torque."""
+        del robot
+        return [self.believed.torque(state)[:, self.joint - 1]]
