@@ -14,7 +14,7 @@ from core.log.model import JointLog
 from core.robot.model import RobotModel
 from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot
 from tests.plant.effects.registry import EFFECTS
-from tests.plant.engine import Steering, simulate, steer
+from tests.plant.engine import Recording, Steering, simulate, steer
 from tests.plant.excitation import draw_excitation
 from tests.plant.robots import ROBOTS, Arm, draw_arm
 from tests.plant.sensors import NOISES, record
@@ -79,17 +79,17 @@ class World:
     seed: int
 
     @cached_property
-    def clean(self) -> Signals:
-        """Give the signals where nothing is hidden."""
+    def clean(self) -> Recording:
+        """Record the arm where nothing is hidden."""
         return simulate(self.arm, (), self.steering, rate_hz=self.rate_hz)
 
-    def signals(self, effects: tuple[Effect, ...]) -> Signals:
+    def signals(self, effects: tuple[Effect, ...], *, smooth: bool = False) -> Signals:
         """Give what the sensors see under the effects."""
         moving = tuple(one for one in effects if moves_the_robot(one))
         arm = reduce(lambda whole, one: one.true(whole), moving, self.arm)
         seen = simulate(arm, moving, self.steering, rate_hz=self.rate_hz) if moving else self.clean
         rng = np.random.default_rng([self.seed, 1])
-        return reduce(lambda signals, one: one.sense(signals, rng), effects, seen)
+        return reduce(lambda signals, one: one.sense(signals, rng), effects, seen.sampled(smooth=smooth))
 
     def believed(self, effects: tuple[Effect, ...]) -> RobotModel:
         """Give the robot as its user describes it."""
@@ -98,11 +98,12 @@ class World:
 
     def residue(self, effect: Effect) -> Residue:
         """Measure one effect alone."""
-        signals, robot = self.signals((effect,)), self.believed((effect,))
+        robot = self.believed((effect,))
+        signals = self.signals((effect,), smooth=not effect.raw)
         torque = signals.torque
         if effect.raw:
-            torque = differentiation_error(self.arm, self.clean, signals)
-            signals = self.clean
+            torque = differentiation_error(self.arm, self.clean.sampled(), signals)
+            signals = self.clean.sampled(smooth=True)
         return residue(robot, signals, torque, self.noise_rms, self.noise)
 
 

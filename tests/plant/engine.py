@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 
 from core.robot.inertia import mass_properties
 from tests.plant.effects.effect import Effect, Signals, State, overriding
@@ -21,8 +22,8 @@ BANDWIDTH = 2.0 * np.pi * 6.0
 DAMPING_RATIO = 0.8
 ENCODER_STEP = 1e-5
 """One count of an encoder at the joint, rad."""
-EASE = 0.02
-"""Speed (rad/s) over which the controller's feed-forward of Coulomb friction turns round."""
+EASE = 0.05
+"""Share of a joint's top speed over which the controller's feed-forward of Coulomb friction turns round."""
 HARDEST = 0.9999
 """MuJoCo's largest constraint impedance: what is left is the softness of a stuck joint."""
 
@@ -139,19 +140,27 @@ class Plant:
         self.transmitted[joint] = torque
 
     def seen(self) -> tuple[np.ndarray, ...]:
-        """Give velocity, acceleration, and direction of joint and of coupling friction at the step's start."""
-        data, count = self.data, len(self.arm.motors)
-        velocity = 0.5 * (self.before + self.velocity)[self.motor]
+        """Give motor position, half-step velocities, acceleration, direction of own and of coupling friction.
+
+        Those of the step just taken, at its beginning.
+        """
+        data, level, count = self.data, self.level, len(self.arm.motors)
         coupled = data.efc_force[-count:] if count else np.empty(0)
-        friction = data.qfrc_constraint[self.motor].copy()
+        friction = -data.qfrc_constraint[self.motor]
         for coupling, force in zip(self.arm.robot.couplings, coupled, strict=True):
-            friction[np.array(coupling.joints) - 1] -= force * np.array(coupling.weights)
-        level = self.level
-        direction = np.where(level > 0.0, -friction / np.where(level > 0.0, level, 1.0), np.sign(velocity))
-        for joint in np.flatnonzero(level == 0.0):
-            direction[joint] = self.state.memory.get(f"direction {joint}", direction[joint])
-        sums = -coupled / self.arm.motors[:, 2] if count else np.empty(0)
-        return velocity, self.acceleration[self.motor], direction, sums
+            friction[np.array(coupling.joints) - 1] += force * np.array(coupling.weights)
+        if self.frictions:
+            self._own_direction(friction)
+        else:
+            friction /= level
+        sums = -coupled / self.arm.motors[:, 2] if count else coupled
+        return self.state.position, self.before, self.velocity, self.acceleration, friction, sums
+
+    def _own_direction(self, friction: np.ndarray) -> None:
+        """Divide friction by its level; an effect that takes the level away tells the direction itself."""
+        for joint, level in enumerate(self.level):
+            told = self.state.memory.get(f"direction {joint}", np.sign(self.state.velocity[joint]))
+            friction[joint] = friction[joint] / level if level > 0.0 else told
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,12 +189,13 @@ def steer(arm: Arm, excitation: Excitation, rate_hz: float = 250.0) -> Steering:
     position, velocity, acceleration = excitation.at(fine)
     nominal = np.column_stack([np.interp(fine, coarse, column) for column in rigid.T])
     nominal += arm.rotor_inertia * acceleration + arm.viscous * velocity + arm.offset
-    nominal += arm.coulomb * np.tanh(velocity / EASE)
+    nominal += arm.coulomb * np.tanh(velocity / (EASE * arm.speed))
     inertia = _inertia(model, excitation.centre) + arm.rotor_inertia
     for coupling, (rotor, viscous, coulomb) in zip(arm.robot.couplings, arm.motors, strict=True):
         joints, weights = np.array(coupling.joints) - 1, np.array(coupling.weights)
         rate = velocity[:, joints] @ weights
-        motor = rotor * acceleration[:, joints] @ weights + viscous * rate + coulomb * np.tanh(rate / EASE)
+        motor = rotor * acceleration[:, joints] @ weights + viscous * rate
+        motor += coulomb * np.tanh(rate / (EASE * arm.speed[joints].sum()))
         nominal[:, joints] += motor[:, None] * weights
         inertia[joints] += rotor * weights**2
     gain, damping = inertia * BANDWIDTH**2, 2.0 * DAMPING_RATIO * inertia * BANDWIDTH
@@ -193,34 +203,68 @@ def steer(arm: Arm, excitation: Excitation, rate_hz: float = 250.0) -> Steering:
     return Steering(excitation.centre, command, nominal, gain, damping)
 
 
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Hold every step of a simulation, steps x joints in SI; `steps` of them make a row of the log."""
+
+    steps: int
+    position: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+    torque: np.ndarray
+    direction: np.ndarray
+    motor_direction: np.ndarray
+
+    def sampled(self, *, smooth: bool = False) -> Signals:
+        """Give the rows of the log.
+
+        Where `smooth`, all but the angles are averaged twice over a row's time before: what rings or jumps
+        between the rows then does not pass for something slow. A log is not made so, but an effect's strength
+        is judged so.
+        """
+        ease = self._averaged if smooth else _unchanged
+        torque = ease(self.torque)
+        every = slice(None, None, self.steps)
+        rows = len(torque[every])
+        return Signals(
+            time=np.arange(rows) * (self.steps / STEPS_PER_SECOND),
+            position=self.position[every],
+            velocity=ease(self.velocity)[every],
+            acceleration=ease(self.acceleration)[every],
+            torque=torque[every],
+            direction=ease(self.direction)[every],
+            motor_direction=ease(self.motor_direction)[every],
+            fine_torque=torque,
+            steps=self.steps,
+            encoder_step=np.full(torque.shape[1], ENCODER_STEP),
+            kept=np.arange(rows),
+        )
+
+    def _averaged(self, series: np.ndarray) -> np.ndarray:
+        for _ in range(2):
+            series = uniform_filter1d(series, 2 * (self.steps // 2) + 1, axis=0, mode="nearest")
+        return series
+
+
 def simulate(
     arm: Arm, effects: tuple[Effect, ...], steering: Steering, *, rate_hz: float = 250.0
-) -> Signals:
-    """Let the arm follow the motion; give what ideal sensors on the motors would see."""
-    steps = round(STEPS_PER_SECOND / rate_hz)
+) -> Recording:
+    """Let the arm follow the motion and record every step."""
     plant = Plant(arm, effects, steering.centre)
-    fine = np.empty_like(steering.command)
-    rows: list[tuple[np.ndarray, ...]] = []
-    for index, command in enumerate(steering.command):
-        fine[index] = plant.advance(command, steering.gain, steering.damping)
-        if index % steps == 0:
-            rows.append((plant.state.position, *plant.seen()))
-    position, velocity, acceleration, direction, sums = (
+    rows = []
+    for command in steering.command:
+        torque = plant.advance(command, steering.gain, steering.damping)
+        rows.append((torque, *plant.seen()))
+    torque, position, before, after, acceleration, direction, sums = (
         np.array(column) for column in zip(*rows, strict=True)
     )
-    return Signals(
-        time=np.arange(len(rows)) / rate_hz,
-        position=position,
-        velocity=velocity,
-        acceleration=acceleration,
-        torque=fine[::steps],
-        direction=direction,
-        motor_direction=sums,
-        fine_torque=fine,
-        steps=steps,
-        encoder_step=np.full(arm.joints, ENCODER_STEP),
-        kept=np.arange(len(rows)),
-    )
+    velocity = 0.5 * (before + after)[:, plant.motor]
+    series = (position, velocity, acceleration[:, plant.motor], torque, direction, sums)
+    return Recording(round(STEPS_PER_SECOND / rate_hz), *series)
+
+
+def _unchanged(series: np.ndarray) -> np.ndarray:
+    return series
 
 
 def inverse(model: mujoco.MjModel, motion: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:

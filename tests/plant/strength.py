@@ -1,11 +1,12 @@
 """Measure how strong a hidden effect is: what of it the standard model cannot absorb, over the noise.
 
 The standard model is ten inertial parameters per link, rotor inertia, friction, offset and declared couplings
-of the robot *as believed*, with pinocchio's regressor along the motion as the sensors see it (exact
-derivatives; Coulomb friction enters with the direction that it really had, so that sticking itself is no
-effect). Strength is the RMS of what it leaves of the noise-free torque, over the noise RMS, on the joint where
-that is largest. The oracle's noncentrality is ||(I - P) S^-1/2 e||^2 below 20 Hz, in the frequency domain,
-with S the true spectrum of the noise: what lies above is lost to whoever has to differentiate encoders.
+of the robot *as believed*, with pinocchio's regressor along the motion as noise-free sensors see it. Coulomb
+friction enters with the direction that it really had, so that sticking itself is no effect. Torque and columns
+are compared below 20 Hz, in the frequency domain: what lies above is lost to whoever has to differentiate
+encoders. Strength is the RMS
+of what the model leaves of the noise-free torque, over the RMS of the noise, on the joint where that is
+largest; the oracle's noncentrality is ||(I - P) S^-1/2 e||^2 with S the true spectrum of the noise.
 """
 
 from dataclasses import dataclass, replace
@@ -34,7 +35,7 @@ class Residue:
     Attributes
     ----------
     strength
-        RMS over noise RMS per joint, at the log's rate.
+        RMS below 20 Hz over the noise's whole RMS, per joint.
     whitened
         What is left of the whitened torque below 20 Hz; its squared length is the noncentrality.
     """
@@ -52,17 +53,16 @@ def residue(robot: RobotModel, signals: Signals, torque: np.ndarray, noise_rms: 
     """Take the standard model of the believed robot out of a torque (N m)."""
     if not np.isfinite(torque).all():
         return Residue(np.full(torque.shape[1], np.nan), np.full(1, np.nan))
-    columns = regressor(robot, signals) @ distinguishable(robot)
-    rows = np.concatenate([columns, torque[:, :, None]], axis=2) / noise_rms[:, None]
-    left = _left(rows.reshape(-1, rows.shape[2])).reshape(torque.shape)
     rate_hz = 1.0 / (signals.time[1] - signals.time[0])
+    rows = np.concatenate([regressor(robot, signals) @ distinguishable(robot), torque[:, :, None]], axis=2)
     frequency = np.fft.rfftfreq(len(torque), 1.0 / rate_hz)
-    inside = frequency <= BAND_HZ
-    scale = np.sqrt(2.0 / len(torque) / spectrum(kind, frequency[inside], rate_hz))
-    waves = np.fft.rfft(rows, axis=0)[inside] * scale[:, None, None]
+    frequency = frequency[frequency <= BAND_HZ]
+    waves = np.fft.rfft(rows / noise_rms[:, None], axis=0)[: len(frequency)] * np.sqrt(2.0 / len(torque))
     waves[0] /= np.sqrt(2.0)
-    parts = np.concatenate([waves.real, waves.imag]).reshape(-1, rows.shape[2])
-    return Residue(np.sqrt(np.mean(left**2, axis=0)), _left(parts))
+    left = _left(waves)
+    strength = np.sqrt(np.sum(left**2, axis=(0, 1)) / len(torque))
+    whitened = _left(waves / np.sqrt(spectrum(kind, frequency, rate_hz))[:, None, None])
+    return Residue(strength, whitened.ravel())
 
 
 def nameable(noncentrality: float) -> bool:
@@ -80,7 +80,9 @@ def given(whitened: np.ndarray, others: list[np.ndarray]) -> float:
     """Give the noncentrality of one effect where the others' sizes are not known either."""
     if not others:
         return float(whitened @ whitened)
-    return float(np.sum(_left(np.column_stack([*others, whitened])) ** 2))
+    columns = np.column_stack(others)
+    left = whitened - columns @ np.linalg.lstsq(columns, whitened)[0]
+    return float(left @ left)
 
 
 def regressor(robot: RobotModel, signals: Signals) -> np.ndarray:
@@ -89,8 +91,8 @@ def regressor(robot: RobotModel, signals: Signals) -> np.ndarray:
     data = model.createData()
     samples, joints = signals.position.shape
     rigid = np.empty((samples, joints, 10 * len(robot.links)))
-    motion = zip(signals.position, signals.velocity, signals.acceleration, strict=True)
-    for row, sample in enumerate(motion):
+    motion = (signals.position, signals.velocity, signals.acceleration)
+    for row, sample in enumerate(zip(*motion, strict=True)):
         rigid[row] = pin.computeJointTorqueRegressor(model, data, *sample)
     own = [signals.acceleration, signals.velocity, signals.direction, np.ones((samples, joints))]
     places = np.eye(joints)
@@ -137,12 +139,17 @@ def distinguishable(robot: RobotModel) -> np.ndarray:
     return np.asarray(directions[singular > 1e-9 * singular[0]].T)
 
 
-def _left(rows: np.ndarray) -> np.ndarray:
-    """Project the last column on the complement of the others, by the normal equations of scaled columns."""
-    scaled = rows / np.maximum(np.linalg.norm(rows, axis=0), 1e-300)
-    columns = scaled[:, :-1]
-    for_rows = np.linalg.lstsq(columns.T @ columns, columns.T @ scaled[:, -1], rcond=1e-13)[0]
-    return (scaled[:, -1] - columns @ for_rows) * np.linalg.norm(rows[:, -1])
+def _left(waves: np.ndarray) -> np.ndarray:
+    """Project the last column on the complement of the others; give parts x frequencies x joints.
+
+    By the normal equations of scaled columns, whose condition is that of a well excited arm.
+    """
+    parts = np.stack([waves.real, waves.imag])
+    rows = parts.reshape(-1, parts.shape[-1])
+    length = np.maximum(np.linalg.norm(rows, axis=0), np.finfo(float).tiny)
+    columns, last = rows[:, :-1] / length[:-1], rows[:, -1] / length[-1]
+    fitted = columns @ np.linalg.lstsq(columns.T @ columns, columns.T @ last, rcond=1e-13)[0]
+    return np.asarray((last - fitted) * length[-1]).reshape(parts.shape[:-1])
 
 
 @cache

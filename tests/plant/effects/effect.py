@@ -46,7 +46,7 @@ class State:
 class Signals:
     """Hold what the sensors see at the log's rate, before noise, and what is true beside it.
 
-    `position`, `velocity` and `acceleration` are the measured angles and their exact derivatives; `direction`
+    `position`, `velocity` and `acceleration` are the measured angle and its exact derivatives; `direction`
     is the Coulomb friction over its level, in [-1, 1] where the joint sticks; `fine_torque` is the drive's
     torque at every step of the simulation, `steps` of them per row. `encoder_step` is one count in rad per
     joint; `kept` names for every row the row that is logged in its place.

@@ -14,8 +14,10 @@ from tests.plant.engine import Steering
 from tests.plant.robots import Arm
 
 
-STUCK = 1e-5
+STUCK = 3e-5
 """Path in rad within which a joint counts as sticking."""
+SHORTEST = 3e-4
+"""A presliding distance below this (rad) is over before the next row of the log."""
 
 
 def any_joint(rng: np.random.Generator, arm: Arm) -> tuple[int]:
@@ -198,7 +200,11 @@ class Presliding(Effect):
     @classmethod
     def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
         """Draw a joint."""
-        return cls(any_joint(rng, arm), 0.01)
+        return cls(any_joint(rng, arm), 0.003)
+
+    def plausible(self) -> bool:
+        """Keep the distance within what a log can show and a gear can have."""
+        return SHORTEST <= self.presliding_distance <= self.largest
 
     def friction(self, state: State, level: np.ndarray) -> None:
         """Take the set-valued friction away and keep its level for Dahl's."""
