@@ -17,7 +17,7 @@ from core.signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Cable(OneJointTerm):
-    """Model a one-sided spring that engages at `engage_angle`, rad (m): above it if `side` >= 0, else below."""
+    """Model a one-sided spring beyond `engage_angle`, rad (m): above it if `side` >= 0, else below it."""
 
     engage_angle: float
     side: float

@@ -1,8 +1,8 @@
-"""Give what friction lacks after a reversal, while bristles still bend: Dahl's state minus the sign of velocity.
+"""Give what friction lacks after a reversal, while bristles bend: Dahl's state minus the sign of velocity.
 
-Over the distance x travelled, df/dx = (1 - f sign(v)) / s with s the presliding distance; between reversals it
-has the solution f = sign(v) + (f0 - sign(v)) exp(-x / s), so that also a turn back before friction has built
-up is exact. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1968.
+Along the position x, df/dx = (1 - f sign(v)) / s with s the presliding distance; between reversals, over a
+travel |x|, f = sign(v) + (f0 - sign(v)) exp(-|x| / s), so that a turn back before friction has built up is
+exact, too. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1968.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from core.signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Presliding(OneJointTerm):
-    """Model friction that builds up over `presliding_distance`, rad (m); its parameter is the level it reaches.
+    """Model friction that builds up over `presliding_distance`, rad (m), to the level in question.
 
     At the start of a stretch, whose past is not known, friction is taken as built up.
     """

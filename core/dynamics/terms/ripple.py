@@ -17,7 +17,7 @@ from core.signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Ripple(OneJointTerm):
-    """Model a torque with `harmonic` waves per turn, its phase counted from the angle `centre`, rad."""
+    """Model a torque with `harmonic` waves per turn, their phase counted from `centre`, rad."""
 
     harmonic: float
     centre: float

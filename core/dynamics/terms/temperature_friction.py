@@ -1,8 +1,8 @@
 """Give the friction that follows a joint's warmth: logged, or told from the time since the start.
 
 With a sensor the warmth is the temperature above a reference; without one it is 1 - exp(-t / tc), the course
-of a body that is heated evenly, and the parameters are the change over the whole warm-up. Sources: Bittencourt
-& Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012; Simoni et al., Robotics CIM 55, 2019 (no sensor).
+of a body that is heated evenly, and the parameters are the change over the whole warm-up. Sources:
+Bittencourt & Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012; Simoni et al. 2019 (no sensor).
 """
 
 from dataclasses import dataclass

@@ -1,0 +1,75 @@
+"""Suspect that a hose or cable pulls over part of a joint's range."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.cable import Cable
+
+SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.88)
+"""Shares of the samples during which the cable is slack."""
+
+
+@dataclass(frozen=True)
+class CableForce(OwnJointCause):
+    """Suspect a cable or hose."""
+
+    id = "cable_force"
+    title = "A cable or hose pulls over part of the range"
+    units = (("stiffness", "N m/rad"), ("engage_angle", "rad"))
+    confusions = (
+        Confusion(
+            "spring_compensator",
+            "a spring pulls over the whole range",
+            "hold ten postures spread over the whole range of the joint",
+        ),
+    )
+    experiment = "slow moves to both ends of the joint's range"
+    coordinate = "position"
+    settled = ("side",)
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the angle of engagement for pulls above it, then for pulls below it."""
+        del believed
+        angle = look.state.position[:, site[0] - 1]
+        above = [(float(np.quantile(angle, share)), 1.0) for share in SHARES]
+        below = [(float(np.quantile(angle, 1.0 - share)), -1.0) for share in reversed(SHARES)]
+        return [{"engage_angle": engaged, "side": side} for engaged, side in above + below]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed
+        return Cable(site[0], scalars["engage_angle"], scalars["side"])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a cable that pulls back."""
+        return bool(solved.values[0] > 0.0)
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Give stiffness and angle of engagement."""
+        deviation = solved.deviations.get("engage_angle", 0.0)
+        return (
+            Quantity(
+                "stiffness",
+                solved.site[0],
+                "N m/rad",
+                float(solved.values[0]),
+                float(solved.covariance[0, 0] ** 0.5),
+            ),
+            Quantity("engage_angle", solved.site[0], "rad", solved.scalars["engage_angle"], deviation),
+        )
+
+    def statement(self, solved: Solved) -> str:
+        """Say from which angle on the cable pulls, and how strongly."""
+        found = named(self.quantities(solved))
+        side = "above" if solved.scalars["side"] >= 0.0 else "below"
+        return (
+            f"Something pulls on joint {solved.site[0]} {side} {shown(found['engage_angle'])}, with "
+            f"{shown(found['stiffness'])}, as a taut cable or hose does"
+        )

@@ -1,0 +1,41 @@
+"""Suspect that viscous friction differs between the two directions of motion."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
+
+
+@dataclass(frozen=True)
+class FrictionAsymmetric(OwnJointCause):
+    """Suspect viscous friction of two directions."""
+
+    id = "friction_asymmetric"
+    title = "Viscous friction differs between directions"
+    units = (("delta_viscous", "N m s/rad"),)
+    confusions = (
+        Confusion(
+            "friction_viscous_nonlinear",
+            "both bend the friction curve; motion in one direction alone cannot tell them apart",
+            "repeat every constant-speed move in the other direction",
+        ),
+    )
+    experiment = "constant-speed moves at three speeds or more, each in both directions"
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed, scalars
+        return AsymmetricViscous(site[0])
+
+    def statement(self, solved: Solved) -> str:
+        """Say which direction is the harder one, and by how much."""
+        found = named(self.quantities(solved))["delta_viscous"]
+        more, less = ("forwards", "backwards") if found.value > 0.0 else ("backwards", "forwards")
+        return (
+            f"Joint {solved.site[0]} has more viscous friction {more} than {less}: {shown(found)} to "
+            "either side of the mean"
+        )

@@ -1,0 +1,56 @@
+"""Suspect that the Coulomb level of a joint waves along its angle."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.causes.harmonics import harmonics, wave_quantities
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.position_friction import PositionFriction
+
+MOST = 12
+
+
+@dataclass(frozen=True)
+class FrictionPositionDependent(OwnJointCause):
+    """Suspect friction that varies with the angle."""
+
+    id = "friction_position_dependent"
+    title = "Coulomb friction varies with the angle"
+    units = (("amplitude", "N m"), ("harmonic", "1"), ("phase", "rad"))
+    confusions = (
+        Confusion(
+            "torque_ripple",
+            "both wave along the angle; friction's wave changes its sign with the direction of motion",
+            "cover the whole range slowly, once in each direction",
+        ),
+    )
+    experiment = "slow moves at constant speed over the joint's whole range, in both directions"
+    coordinate = "position"
+    settled = ("centre",)
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the waves per turn from one upwards."""
+        del believed
+        angle = look.state.position[:, site[0] - 1]
+        return harmonics(angle, lowest=1.0, highest=float("inf"), most=MOST)
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, believed
+        return PositionFriction(site[0], scalars["harmonic"], scalars["centre"])
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Give the wave: amplitude cos(harmonic q + phase) is added to the Coulomb level."""
+        return wave_quantities(solved, "N m")
+
+    def statement(self, solved: Solved) -> str:
+        """Say how far the level waves, and how often per turn."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]}'s Coulomb friction varies by {shown(found['amplitude'])} to either "
+            f"side, {shown(found['harmonic'])} times per turn"
+        )

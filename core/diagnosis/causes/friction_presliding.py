@@ -1,0 +1,66 @@
+"""Suspect that friction builds up over a distance after each reversal instead of jumping."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.presliding import Presliding
+
+
+@dataclass(frozen=True)
+class FrictionPresliding(OwnJointCause):
+    """Suspect presliding friction (Dahl)."""
+
+    id = "friction_presliding"
+    title = "Friction builds up over a distance after each reversal"
+    units = (("coulomb_level", "N m"), ("presliding_distance", "rad"))
+    confusions = (
+        Confusion(
+            "backlash",
+            "both act just after the motion turns; backlash only where the load changes its sign",
+            "reverse in postures where gravity keeps the load on one side of the gear",
+        ),
+        Confusion(
+            "joint_elasticity",
+            "bristles and a compliant gear both give way; the gear also under load without a reversal",
+            "accelerate hard without changing the direction of motion",
+        ),
+        Confusion(
+            "friction_stribeck",
+            "both act next to reversals; one depends on speed, the other on the distance travelled since",
+            "start from rest with accelerations that differ by a factor of ten: only speed or only distance "
+            "lines the two up",
+        ),
+    )
+    experiment = "many slow reversals, each followed by a move of some degrees"
+    coordinate = "travel"
+    near_reversals = True
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the distance from a thousandth to a sixth of the joint's range of motion."""
+        del believed
+        span = max(float(np.ptp(look.state.position[:, site[0] - 1])), 1e-6)
+        return [{"presliding_distance": value} for value in spread(1e-3 * span, 0.16 * span, 9)]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed
+        return Presliding(site[0], scalars["presliding_distance"])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want friction that builds up, not one that falls."""
+        return bool(solved.values[0] > 0.0)
+
+    def statement(self, solved: Solved) -> str:
+        """Say over which distance how much friction builds up."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]}'s friction of {shown(found['coulomb_level'])} builds up over "
+            f"{shown(found['presliding_distance'])} after each reversal"
+        )

@@ -1,0 +1,50 @@
+"""Suspect that friction bends with speed: a power of it beside the linear viscous friction."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.nonlinear_viscous import NonlinearViscous
+
+EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
+"""A power of zero is Coulomb friction, of one viscous friction: the model has both."""
+
+
+@dataclass(frozen=True)
+class FrictionViscousNonlinear(OwnJointCause):
+    """Suspect friction that is not linear in speed."""
+
+    id = "friction_viscous_nonlinear"
+    title = "Friction is not linear in speed"
+    units = (("coefficient", "N m (s/rad)^p"), ("exponent", "1"))
+    confusions = (
+        Confusion(
+            "friction_stribeck",
+            "both bend the friction curve; Stribeck's bend ends at a speed, a power goes on",
+            "move the joint at ten constant speeds from 1 % to 100 % of its limit, both ways",
+        ),
+    )
+    experiment = "constant-speed moves from 5 % to 100 % of the joint's speed, in both directions"
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the power."""
+        del look, believed, site
+        return [{"exponent": value} for value in EXPONENTS]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed
+        return NonlinearViscous(site[0], scalars["exponent"])
+
+    def statement(self, solved: Solved) -> str:
+        """Say how friction grows with which power."""
+        found = named(self.quantities(solved))
+        grows = "grows" if solved.values[0] > 0.0 else "falls"
+        return (
+            f"Beside its viscous part, joint {solved.site[0]}'s friction {grows} with speed to the power "
+            f"{shown(found['exponent'])}: coefficient {shown(found['coefficient'])}"
+        )

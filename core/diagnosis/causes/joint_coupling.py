@@ -1,0 +1,91 @@
+"""Suspect that a motor turns with two joints although the robot's description does not say so."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.missing_coupling import MissingCoupling
+from core.robot.model import Coupling
+
+FURTHEST = 2
+"""Gears couple a joint with the next or the one after it."""
+NAMES = (("Iam", "kg m2"), ("Fvm", "N m s/rad"), ("Fcm", "N m"))
+DOUBT = 2.0
+"""Deviations by which an estimate may lie on the wrong side of zero."""
+
+
+@dataclass(frozen=True)
+class JointCoupling(OwnJointCause):
+    """Suspect an undeclared gear coupling."""
+
+    id = "joint_coupling"
+    title = "A motor turns with two joints at once"
+    cure = "robot"
+    units = (("Fvm", "N m s/rad"), ("Fcm", "N m"), ("Iam", "kg m2"))
+    confusions = (
+        Confusion(
+            "friction_asymmetric",
+            "while the other joint always moves alike, its friction here looks like this joint's own",
+            "move each of the two joints alone, then both the same way and both against each other",
+        ),
+    )
+    experiment = "move each of the two joints alone, then both the same way and both against each other"
+    coordinate = "other_velocity"
+    settled = ("weight",)
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List pairs of turning joints, at most two apart, that no declared coupling joins."""
+        del believed
+        robot = look.robot
+        turning = {link.joint for link in robot.links if link.kind == "revolute"}
+        declared = [set(coupling.joints) for coupling in robot.couplings]
+        return [
+            (first, second)
+            for second in sorted(turning)
+            for first in range(max(1, second - FURTHEST), second)
+            if first in turning and not any({first, second} <= one for one in declared)
+        ]
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the sense in which the first joint turns the motor."""
+        del look, believed, site
+        return [{"weight": 1.0}, {"weight": -1.0}]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns of the coupling."""
+        del look, believed
+        weights = (scalars["weight"], 1.0)
+        return MissingCoupling(Coupling("undeclared", site[1], (site[0], site[1]), weights))
+
+    def possible(self, solved: Solved) -> bool:
+        """Want inertia and friction that are not negative beyond doubt, and at least one of them positive."""
+        size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
+        return bool(size.min() > -DOUBT and size.max() > DOUBT)
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Give the motor's inertia and friction under the number of the joint that it drives."""
+        deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
+        found = named(
+            [
+                Quantity(name, solved.site[1], unit, float(value), float(deviation))
+                for (name, unit), value, deviation in zip(NAMES, solved.values, deviations, strict=True)
+            ]
+        )
+        return tuple(found[name] for name, _ in self.units)
+
+    def statement(self, solved: Solved) -> str:
+        """Say which two joints the motor turns with, and what its inertia and friction are."""
+        found = named(self.quantities(solved))
+        first, second = solved.site
+        sums = "sum" if solved.scalars["weight"] >= 0.0 else "difference"
+        return (
+            f"The motor of joint {second} turns with the {sums} of joints {first} and {second}, which nobody "
+            f"declared: inertia {shown(found['Iam'])}, viscous friction {shown(found['Fvm'])}, "
+            f"Coulomb friction {shown(found['Fcm'])}"
+        )

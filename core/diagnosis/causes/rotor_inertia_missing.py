@@ -1,0 +1,51 @@
+"""Suspect that a joint has a rotor inertia which the robot's description leaves out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.missing_rotor import MissingRotor
+
+
+@dataclass(frozen=True)
+class RotorInertiaMissing(OwnJointCause):
+    """Suspect a rotor that nobody declared."""
+
+    id = "rotor_inertia_missing"
+    title = "A rotor inertia is missing from the model"
+    cure = "robot"
+    units = (("IA", "kg m2"),)
+    confusions = (
+        Confusion(
+            "joint_elasticity",
+            "a compliant gear changes the torque with the same frequencies squared",
+            "repeat the motion with a payload: a rotor does not feel it",
+        ),
+    )
+    experiment = "large accelerations of this joint in postures of different inertia beyond it"
+    coordinate = "acceleration"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List the joints without a declared rotor."""
+        del believed
+        return [
+            (number,) for number, joint in enumerate(look.robot.joints, start=1) if not joint.rotor_inertia
+        ]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed, scalars
+        return MissingRotor(site[0])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want an inertia."""
+        return bool(solved.values[0] > 0.0)
+
+    def statement(self, solved: Solved) -> str:
+        """Say how much inertia is missing."""
+        found = named(self.quantities(solved))
+        return f"Joint {solved.site[0]}'s rotor is missing from the model: {shown(found['IA'])} at the joint"

@@ -1,0 +1,42 @@
+"""Suspect that a spring or counterbalance acts on a joint beside its motor."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.spring import Spring
+
+
+@dataclass(frozen=True)
+class SpringCompensator(OwnJointCause):
+    """Suspect a spring beside the motor."""
+
+    id = "spring_compensator"
+    title = "A spring acts beside the motor"
+    units = (("stiffness", "N m/rad"),)
+    confusions = (
+        Confusion(
+            "cable_force",
+            "a cable is a spring that is slack over part of the range",
+            "hold ten postures spread over the whole range of the joint",
+        ),
+    )
+    experiment = "hold ten postures spread over the whole range of the joint"
+    coordinate = "position"
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del look, believed, scalars
+        return Spring(site[0])
+
+    def statement(self, solved: Solved) -> str:
+        """Say how stiff the spring is, and whether it pulls back or helps on."""
+        found = named(self.quantities(solved))
+        does = "pulls back to" if solved.values[0] > 0.0 else "pushes away from"
+        return (
+            f"A spring of {shown(found['stiffness'])} acts on joint {solved.site[0]} beside the motor; it "
+            f"{does} its rest angle, which the torque offset hides"
+        )

@@ -1,0 +1,58 @@
+"""Suspect that the zero of a torque channel drifts in the course of the log."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.drift import Drift
+
+SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
+"""Time constants of the drift, as shares of the time looked at; the last is an even drift."""
+
+
+@dataclass(frozen=True)
+class TorqueOffsetDrift(OwnJointCause):
+    """Suspect a drifting torque offset."""
+
+    id = "torque_offset_drift"
+    title = "The zero of the torque channel drifts"
+    cure = "signal"
+    units = (("total_drift", "N m"), ("time_constant", "s"))
+    confusions = (
+        Confusion(
+            "friction_temperature",
+            "both change slowly with time; friction changes its sign with the direction of motion",
+            "repeat a slow move in both directions at the start and at the end",
+        ),
+        Confusion(
+            "payload_change",
+            "a mass that is taken up changes the torque from an instant on, and with the posture",
+            "hold two postures of different gravity torque, early and late",
+        ),
+    )
+    experiment = "hold the same posture at the start and at the end of a log as long as the work"
+    coordinate = "time"
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the time constant."""
+        del believed, site
+        return [{"time_constant": share * float(np.ptp(look.time))} for share in SHARES]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the column."""
+        del believed
+        return Drift(site[0], float(look.time.min()), float(np.ptp(look.time)), scalars["time_constant"])
+
+    def statement(self, solved: Solved) -> str:
+        """Say how far the zero drifts, and in which time."""
+        found = named(self.quantities(solved))
+        return (
+            f"The zero of joint {solved.site[0]}'s torque channel drifts by {shown(found['total_drift'])} "
+            f"over the log, with a time constant of {found['time_constant'].value:.2g} s"
+        )

@@ -1,0 +1,68 @@
+"""Suspect a torque that is periodic in the angle of motor or gear."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.causes.harmonics import harmonics, wave_quantities
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.ripple import Ripple
+
+LOWEST = 2.0
+"""One wave per turn is what gravity does."""
+MOST = 120
+BAND_SHARE = 0.7
+"""At the joint's RMS speed, waves are looked for up to this share of the look's band."""
+
+
+@dataclass(frozen=True)
+class TorqueRipple(OwnJointCause):
+    """Suspect torque ripple."""
+
+    id = "torque_ripple"
+    title = "The torque ripples along the angle"
+    units = (("amplitude", "N m"), ("harmonic", "1"), ("phase", "rad"))
+    confusions = (
+        Confusion(
+            "friction_position_dependent",
+            "both wave along the angle; only friction's wave changes its sign with the direction of motion",
+            "cover the whole range slowly, once in each direction",
+        ),
+        Confusion(
+            "encoder_eccentricity",
+            "an angle error makes small waves of gravity's torque, at one to three per turn",
+            "repeat with a payload: waves that come from gravity grow with it",
+        ),
+    )
+    experiment = "slow moves at constant speed over the joint's whole range"
+    coordinate = "position"
+    settled = ("centre",)
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the waves per turn from two up to what the band shows."""
+        del believed
+        own = site[0] - 1
+        highest = BAND_SHARE * 2.0 * np.pi * look.band_hz / max(float(look.speed[own]), 1e-6)
+        return harmonics(look.state.position[:, own], lowest=LOWEST, highest=highest, most=MOST)
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, believed
+        return Ripple(site[0], scalars["harmonic"], scalars["centre"])
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Give the wave: the drive has to give amplitude cos(harmonic q + phase) more."""
+        return wave_quantities(solved, "N m")
+
+    def statement(self, solved: Solved) -> str:
+        """Say how high the wave is, and how often it comes per turn."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]}'s torque ripples by {shown(found['amplitude'])} to either side, "
+            f"{shown(found['harmonic'])} times per turn of the joint"
+        )
