@@ -95,7 +95,8 @@ class Bench:
     def refined(self, under: Hypothesis, candidate: Candidate) -> Candidate:
         """Settle a candidate's scalars between its grid points, on top of a hypothesis."""
         for name in candidate.scalars:
-            candidate = self._refined(under, candidate, name)
+            if name not in candidate.cause.settled:
+                candidate = self._refined(under, candidate, name)
         return candidate
 
     def residual(self, under: Hypothesis, joint: int) -> Matrix:

@@ -77,6 +77,8 @@ class Cause(Protocol):
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
     near_reversals
         Whether its evidence lies next to velocity reversals, where other causes do not look.
+    settled
+        Scalars that are chosen from the grid as they are (a side, a sense), not refined between its points.
     """
 
     id: str
@@ -86,6 +88,7 @@ class Cause(Protocol):
     experiment: str
     coordinate: str
     near_reversals: bool
+    settled: tuple[str, ...]
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List where it can act."""

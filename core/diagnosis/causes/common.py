@@ -27,6 +27,7 @@ class OwnJointCause:
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
     near_reversals: ClassVar[bool] = False
+    settled: ClassVar[tuple[str, ...]] = ()
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List every joint."""
