@@ -1,0 +1,114 @@
+"""Suspect that the recorder missed samples and wrote the row before once more.
+
+Where torques carry noise, positions and torques of all joints never repeat together by chance; how often they
+would is judged from how often each repeats by itself.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.stats import poisson
+
+from core.arrays import JointSeries
+from core.diagnosis.cause import Confusion, Cure, Quantity
+from core.diagnosis.look import Look
+from core.diagnosis.raw import LEVEL, RawFinding, Spoil, residual_share
+from core.dynamics.prediction import Prediction
+from core.log.model import LogRows
+from core.signals.condition import Motion
+from core.signals.resample import dropped
+
+ROWS = 65_536
+
+
+@dataclass(frozen=True, eq=False)
+class _Count:
+    """Count rows, dropped ones, and the chance of a repeat by luck."""
+
+    rows: int
+    dropped: int
+    expected: float
+
+
+@dataclass(frozen=True)
+class DroppedSamples:
+    """Suspect dropped samples."""
+
+    id: ClassVar[str] = "dropped_samples"
+    title: ClassVar[str] = "Rows repeat the row before"
+    cure: ClassVar[Cure] = "signal"
+    confusions: ClassVar[tuple[Confusion, ...]] = (
+        Confusion(
+            "timestamp_jitter",
+            "a recorder that is quicker than the controller repeats rows regularly, and loses nothing",
+            "record at the controller's own rate",
+        ),
+    )
+    experiment: ClassVar[str] = "any motion, recorded with the controller's own sample counter"
+
+    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+        """Count rows that repeat while the robot moves."""
+        counts = [count for motion in look.motions for count in _counted(motion)]
+        rows, lost = sum(one.rows for one in counts), sum(one.dropped for one in counts)
+        expected = sum(one.expected for one in counts)
+        p_value = float(poisson.sf(lost - 1, expected)) if lost else 1.0
+        if p_value > LEVEL:
+            return ()
+        fraction = lost / rows
+        deviation = float(np.sqrt(fraction * (1.0 - fraction) / rows))
+        return (
+            RawFinding(
+                site=(),
+                quantities=(Quantity("fraction", None, "1", fraction, deviation),),
+                statement=(
+                    f"{lost} of {rows} rows ({100.0 * fraction:.2g} %) repeat all positions and torques of the "
+                    "row before while the robot moves; they are left out and bridged"
+                ),
+                statistic=float(lost),
+                p_value=p_value,
+                residual_share=residual_share(look, believed, _bridged(fraction)),
+            ),
+        )
+
+
+def _counted(motion: Motion) -> list[_Count]:
+    log = motion.log
+    out = []
+    for start, stop in log.segments:
+        for begin in range(start, stop, ROWS):
+            rows = log.source.rows(max(begin - 1, start), min(begin + ROWS, stop))
+            if len(rows.time) > 2:
+                out.append(_count(rows, motion))
+    return out
+
+
+def _count(rows: LogRows, motion: Motion) -> _Count:
+    reach = min(5, len(rows.time) - 1)
+    travel = np.zeros_like(rows.position)
+    travel[reach:] = rows.position[reach:] - rows.position[:-reach]
+    seconds = reach / motion.log.rate_hz
+    moving = np.any(np.abs(travel) > motion.recipe.still_speed * seconds, axis=1)
+    lost = dropped(rows) & moving
+    fresh = moving & ~lost
+    chances = [
+        (np.sum((column[1:] == column[:-1]) & fresh[1:]) + 0.5) / (np.sum(fresh) + 1.0)
+        for channel in (rows.position, rows.current if rows.torque is None else rows.torque)
+        if channel is not None
+        for column in channel.T
+    ]
+    return _Count(int(moving.sum()), int(lost.sum()), float(moving.sum() * np.prod(chances)))
+
+
+def _bridged(fraction: float) -> Spoil:
+    """Leave out as many rows of a smooth motion and bridge them, as the study does."""
+
+    def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
+        del velocity
+        place = np.arange(len(position))
+        kept = rng.random(len(position)) >= fraction
+        kept[[0, -1]] = True
+        return np.asarray(CubicSpline(place[kept], position[kept])(place) - position)
+
+    return spoil

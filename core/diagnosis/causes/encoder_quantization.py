@@ -1,0 +1,79 @@
+"""Suspect that an encoder's step is too coarse for the derivatives that its motion needs."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import JointSeries, JointVector
+from core.diagnosis.cause import Confusion, Cure, Quantity
+from core.diagnosis.look import Look
+from core.diagnosis.raw import RawFinding, Spoil, residual_share
+from core.dynamics.prediction import Prediction
+from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
+from core.log.defects.stretch import stretches
+from core.log.model import JointLog
+
+LEAST_SHARE = 0.05
+"""Share of a joint's residual that rounding must account for to be named."""
+BY_CHANCE = 0.2
+"""Chance of one increment lying within a tenth of a whole number of steps."""
+
+
+@dataclass(frozen=True)
+class EncoderQuantization:
+    """Suspect a coarse encoder."""
+
+    id: ClassVar[str] = "encoder_quantization"
+    title: ClassVar[str] = "The encoder's steps are too coarse"
+    cure: ClassVar[Cure] = "signal"
+    confusions: ClassVar[tuple[Confusion, ...]] = (
+        Confusion(
+            "timestamp_jitter",
+            "both roughen positions; jitter grows with speed and is the same time on all joints",
+            "repeat the motion at half the speed: rounding errors stay",
+        ),
+    )
+    experiment: ClassVar[str] = "slow motion, which passes many samples within one step"
+
+    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+        """Round each joint's smooth motion to its own steps and see what that does."""
+        steps = np.max([_steps(motion.log) for motion in look.motions], axis=0)
+        found = []
+        for joint in np.flatnonzero(steps > 0.0):
+            share = residual_share(look, believed, _rounded(int(joint), float(steps[joint])))
+            if share.max() > LEAST_SHARE:
+                found.append(_finding(int(joint), float(steps[joint]), share))
+        return tuple(found)
+
+
+def _finding(joint: int, step: float, share: JointVector) -> RawFinding:
+    return RawFinding(
+        site=(joint + 1,),
+        quantities=(Quantity("lsb", joint + 1, "rad", step, 0.0),),
+        statement=(
+            f"Joint {joint + 1}'s encoder has steps of {step:.3g} rad; differentiated, their rounding makes "
+            f"{100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s residual"
+        ),
+        statistic=float(share.max()),
+        p_value=BY_CHANCE**FEWEST_INCREMENTS,
+        residual_share=share,
+    )
+
+
+def _steps(log: JointLog) -> JointVector:
+    resolution = Resolution(log.samples)
+    for stretch in stretches(log.source):
+        resolution.see(stretch)
+    return resolution.lsb("position")
+
+
+def _rounded(joint: int, step: float) -> Spoil:
+    def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
+        del velocity
+        error = np.zeros_like(position)
+        column = position[:, joint] + step * rng.random()
+        error[:, joint] = step * np.round(column / step) - column
+        return error
+
+    return spoil

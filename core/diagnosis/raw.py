@@ -1,0 +1,101 @@
+"""Look at raw samples for faults that no torque term can mend: stamps, rows and resolution.
+
+A raw cause shows in the samples themselves. How much of the residual it accounts for is found by doing it to
+the smooth motion once more: the error goes through position filter, differences and predicted torque like the
+first one did. Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for the estimates.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.signal import oaconvolve
+
+from core.arrays import JointSeries, JointVector
+from core.diagnosis.cause import Confusion, Cure, Quantity, Site
+from core.diagnosis.look import Look, Stretch
+from core.diagnosis.misfit import fitted_rows, misfit
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import step_of
+from core.signals.condition import Motion
+from core.signals.state import MotionState
+from core.signals.zero_phase import kernel
+
+LEVEL = 1e-5
+"""Chance with which a raw check may see something in samples that have nothing."""
+
+Spoil = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
+"""Take smooth positions and velocities at the log's rate, give the errors of position."""
+
+
+@dataclass(frozen=True, eq=False)
+class RawFinding:
+    """State what a raw check found.
+
+    Attributes
+    ----------
+    statistic, p_value
+        What decided, and how likely chance reaches it.
+    residual_share
+        Per joint, the share of the residual's mean square that the fault accounts for.
+    """
+
+    site: Site
+    quantities: tuple[Quantity, ...]
+    statement: str
+    statistic: float
+    p_value: float
+    residual_share: JointVector
+
+
+class RawCause(Protocol):
+    """Suspect a fault of the samples; the attributes are those of `Cause`."""
+
+    id: str
+    title: str
+    cure: Cure
+    confusions: tuple[Confusion, ...]
+    experiment: str
+
+    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+        """Look for it in the logs."""
+        ...
+
+
+def residual_share(look: Look, believed: Prediction, spoil: Spoil) -> JointVector:
+    """Spoil the smooth motion and give, per joint, the mean square of what that adds over the residual's."""
+    rng = np.random.default_rng(0)
+    left, mask = misfit(look, believed), fitted_rows(look)
+    gained = np.zeros_like(left)
+    for stretch in look.stretches:
+        state, motion = stretch.state, look.motions[look.log[stretch.rows.start]]
+        spoilt = _spoilt(state, motion, spoil, rng)
+        gained[stretch.rows] = _change(stretch, believed, spoilt)
+    had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
+    return np.asarray((gained**2 * mask).sum(axis=0) / had)
+
+
+def _change(stretch: Stretch, believed: Prediction, spoilt: MotionState) -> JointSeries:
+    change = believed.torque(spoilt) - believed.torque(stretch.state)
+    return stretch.filtered(change.T).T
+
+
+def _spoilt(state: MotionState, motion: Motion, spoil: Spoil, rng: np.random.Generator) -> MotionState:
+    rate_hz, recipe = motion.log.rate_hz, motion.recipe
+    thin = max(1, round(step_of(state) * rate_hz))
+    count = len(state.position)
+    fine = np.arange((count - 1) * thin + 1) / thin
+    smooth = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
+    error = spoil(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
+    low_pass = kernel(recipe.position_cutoff_hz, rate_hz, recipe.order)
+    error = oaconvolve(error, low_pass[:, None], mode="same", axes=0)[: len(fine)]
+    rate = np.gradient(error, 1.0 / rate_hz, axis=0)
+    second = np.gradient(rate, 1.0 / rate_hz, axis=0)
+    return replace(
+        state,
+        position=state.position + error[::thin],
+        velocity=state.velocity + rate[::thin],
+        acceleration=state.acceleration + second[::thin],
+    )
