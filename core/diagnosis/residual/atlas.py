@@ -1,0 +1,156 @@
+"""Average a residual over every coordinate of the motion, with errors that know its memory.
+
+A bin's mean that lies many standard errors from the others says that the residual depends on that coordinate;
+a chi-square over all bins, with the covariance that the noise's memory gives between them, says how surely.
+The fit that left the residual has made its averages smaller than the noise would, so the p-values are
+cautious. Source: Percival & Walden, Spectral Analysis (1993), ch. 6 and 8.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.stats import chi2
+
+from core.arrays import Indices, JointSeries, SquareMatrix, Vector
+from core.diagnosis.look import Look
+from core.diagnosis.noise import JointNoise
+from core.diagnosis.residual.coordinates import coordinate, coordinate_names
+from core.diagnosis.residual.floor import NoiseFloor, noise_floor
+from core.diagnosis.residual.memory import covariance_of_sums
+from core.diagnosis.residual.spectrum import ResidualSpectrum, residual_spectra
+from core.dynamics.prediction import Prediction
+
+BINS = 30
+FEWEST_IN_BIN = 8
+"""A bin of fewer rows is not worth a mean: there are fewer bins instead."""
+_RIDGE = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Dependence:
+    """Show how one joint's residual depends on one coordinate.
+
+    Attributes
+    ----------
+    coordinate, joint, unit
+        What it is shown over, whose residual it is (counted from 1), and the coordinate's unit.
+    centre, mean, standard_error, count
+        Per bin: median of the coordinate, mean residual and its standard error (N m or N), rows.
+    statistic, degrees_of_freedom, p_value
+        Chi-square of the bins' means about their common value, and how likely chance exceeds it.
+    """
+
+    coordinate: str
+    joint: int
+    unit: str
+    centre: Vector
+    mean: Vector
+    standard_error: Vector
+    count: Indices
+    statistic: float
+    degrees_of_freedom: int
+    p_value: float
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """Hold a residual over every coordinate and over frequency, and the noise floor below it."""
+
+    dependences: tuple[Dependence, ...]
+    spectra: tuple[ResidualSpectrum, ...]
+    floor: NoiseFloor
+
+    def over(self, name: str, joint: int) -> Dependence | None:
+        """Give one dependence by coordinate and joint (from 1); None where the joint does not have it."""
+        return next((one for one in self.dependences if (one.coordinate, one.joint) == (name, joint)), None)
+
+
+def atlas(
+    look: Look,
+    residual: JointSeries,
+    believed: Prediction,
+    noise: Sequence[JointNoise],
+    *,
+    near_reversals: bool = False,
+) -> Atlas:
+    """Show a residual over time, angle, speed, load, travel, temperature, the other joints and frequency.
+
+    Parameters
+    ----------
+    residual
+        Measured minus predicted torque at the look's rows, N m or N.
+    noise
+        Noise model per joint, as learned from the rows that were fitted.
+    near_reversals
+        Whether rows next to reversals count: there the sign of velocity is uncertain, and presliding shows.
+    """
+    mask = look.usable if near_reversals else look.clear
+    begins = np.flatnonzero(look.starts)
+    found = []
+    for name in coordinate_names(look):
+        for joint in range(1, look.joints + 1):
+            along = coordinate(look, believed, name, joint)
+            if along is None:
+                continue
+            label = _bins(along.values, mask[:, joint - 1])
+            if label.max(initial=-1) >= 1:
+                binned = _Binned(along.values, residual[:, joint - 1], label, begins)
+                found.append(_dependence(name, joint, along.unit, binned, noise[joint - 1]))
+    floor = noise_floor(look, residual)
+    return Atlas(tuple(found), residual_spectra(look, residual, floor), floor)
+
+
+@dataclass(frozen=True, eq=False)
+class _Binned:
+    """Hold a coordinate, a residual, each row's bin (-1: left out), and where stretches begin."""
+
+    values: Vector
+    residual: Vector
+    label: Indices
+    begins: Indices
+
+
+def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: JointNoise) -> Dependence:
+    label = binned.label
+    rows = np.flatnonzero(label >= 0)
+    count = np.bincount(label[rows])
+    weights = np.zeros((len(label), len(count)))
+    weights[rows, label[rows]] = 1.0 / count[label[rows]]
+    mean = weights.T @ binned.residual
+    covariance = covariance_of_sums(noise, weights, binned.begins)
+    statistic, freedom = _about_common_value(mean, covariance), len(count) - 1
+    return Dependence(
+        coordinate=name,
+        joint=joint,
+        unit=unit,
+        centre=np.array([np.median(binned.values[label == one]) for one in range(len(count))]),
+        mean=mean,
+        standard_error=np.sqrt(np.diag(covariance)),
+        count=count,
+        statistic=statistic,
+        degrees_of_freedom=freedom,
+        p_value=float(chi2.sf(statistic, freedom)),
+    )
+
+
+def _bins(values: Vector, mask: np.ndarray) -> Indices:
+    """Sort rows into bins of nearly equal counts, numbered from 0; -1 where a row is left out."""
+    label = np.full(len(values), -1)
+    rows = np.flatnonzero(mask & np.isfinite(values))
+    bins = min(BINS, len(rows) // FEWEST_IN_BIN)
+    if bins < 2:
+        return label
+    inner = np.quantile(values[rows], np.arange(1, bins) / bins)
+    _, label[rows] = np.unique(np.searchsorted(inner, values[rows]), return_inverse=True)
+    return label
+
+
+def _about_common_value(mean: Vector, covariance: SquareMatrix) -> float:
+    size = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    factor = cho_factor(covariance / np.outer(size, size) + _RIDGE * np.eye(len(mean)), lower=True)
+    both = cho_solve(factor, np.column_stack([mean / size, 1.0 / size]))
+    common = float(mean / size @ both[:, 1] / (1.0 / size @ both[:, 1]))
+    left = (mean - common) / size
+    return float(left @ cho_solve(factor, left))

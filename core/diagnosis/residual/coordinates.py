@@ -1,0 +1,159 @@
+"""Name the coordinates of a motion that a residual can depend on, and give them at the rows of a look.
+
+An effect that a simulation misses is a function of something: of angle (ripple, springs), speed (friction),
+transmitted load (gears), distance since reversal (presliding), time or temperature (drift). Everything here
+comes from the motion and from the *predicted* torque, never from the measured one, whose noise is in the
+residual too.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import JointSeries, Samples
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.errors import OptionError
+
+OTHER_VELOCITY = "velocity_of_joint_"
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinate:
+    """Give one coordinate at every row of a look.
+
+    Attributes
+    ----------
+    joint
+        The joint whose residual is looked at, counted from 1.
+    unit
+        Unit of the values; ``m`` stands for ``rad`` where the joint that moves slides.
+    """
+
+    name: str
+    joint: int
+    unit: str
+    values: Samples
+
+
+@dataclass(frozen=True)
+class _Kind:
+    unit: str
+    series: Callable[[Look, Prediction], JointSeries | None]
+
+
+def coordinate_names(look: Look) -> tuple[str, ...]:
+    """List the names of all coordinates that a joint of this look may have."""
+    others = tuple(f"{OTHER_VELOCITY}{number}" for number in range(1, look.joints + 1))
+    return (*_KINDS, *others)
+
+
+def coordinate(look: Look, believed: Prediction, name: str, joint: int) -> Coordinate | None:
+    """Give one coordinate of one joint; None where the robot or the log does not have it.
+
+    Parameters
+    ----------
+    name
+        One of `coordinate_names`; ``velocity_of_joint_k`` is the velocity of another joint.
+    joint
+        Counted from 1.
+
+    Raises
+    ------
+    OptionError
+        If there is no such coordinate or joint.
+    """
+    if name not in coordinate_names(look) or not 1 <= joint <= look.joints:
+        raise OptionError(
+            "there is no such coordinate",
+            evidence={"name": name, "joint": joint, "joints": look.joints},
+            remedy="ask for one of " + ", ".join(coordinate_names(look)) + " of a joint counted from 1",
+        )
+    series = coordinate_series(look, believed, name)
+    if name.startswith(OTHER_VELOCITY):
+        return _other(look, name, joint, series)
+    if series is None or np.isnan(series[:, joint - 1]).all():
+        return None
+    return Coordinate(name, joint, _unit(look, _KINDS[name].unit, joint), series[:, joint - 1])
+
+
+def coordinate_series(look: Look, believed: Prediction, name: str) -> JointSeries | None:
+    """Give one coordinate for all joints at once: rows x joints, NaN for joints that lack it."""
+    kind = "velocity" if name.startswith(OTHER_VELOCITY) else name
+    return _KINDS[kind].series(look, believed)
+
+
+def travel(position: Samples, velocity: Samples) -> Samples:
+    """Give the distance since the last reversal, rad or m; from the first row on where there was none yet.
+
+    Examples
+    --------
+    >>> travel(np.array([0.0, 1.0, 2.0, 1.5, 0.5]), np.array([1.0, 1.0, 1.0, -1.0, -1.0]))
+    array([0. , 1. , 2. , 0.5, 1.5])
+    """
+    gone = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])
+    turns = np.flatnonzero(velocity[1:] * velocity[:-1] < 0.0)
+    begins = np.zeros(len(position))
+    begins[turns + 1] = gone[turns]
+    return np.asarray(gone - np.maximum.accumulate(begins))
+
+
+def _other(look: Look, name: str, joint: int, velocity: JointSeries | None) -> Coordinate | None:
+    moving = int(name.removeprefix(OTHER_VELOCITY))
+    if moving == joint or velocity is None:
+        return None
+    return Coordinate(name, joint, _unit(look, "rad/s", moving), velocity[:, moving - 1])
+
+
+def _unit(look: Look, unit: str, joint: int) -> str:
+    slides = any(link.joint == joint and link.kind == "prismatic" for link in look.robot.links)
+    if not slides or unit in ("s", "degC"):
+        return unit
+    return unit.replace("N m", "N") if unit.startswith("N m") else unit.replace("rad", "m")
+
+
+def _time(look: Look, believed: Prediction) -> JointSeries:
+    del believed
+    return np.repeat(look.time[:, None], look.joints, axis=1)
+
+
+def _torque_rate(look: Look, believed: Prediction) -> JointSeries:
+    torque, out = believed.load(look.state), np.zeros_like(look.torque)
+    for stretch in look.stretches:
+        rows = stretch.rows
+        if rows.stop - rows.start > 1:
+            out[rows] = np.gradient(torque[rows], look.time[rows], axis=0)
+    return out
+
+
+def _travel(look: Look, believed: Prediction) -> JointSeries:
+    del believed
+    out = np.zeros_like(look.torque)
+    for stretch in look.stretches:
+        for joint in range(look.joints):
+            position, velocity = look.state.position[stretch.rows, joint], look.state.velocity
+            out[stretch.rows, joint] = travel(position, velocity[stretch.rows, joint])
+    return out
+
+
+def _motor_phase(look: Look, believed: Prediction) -> JointSeries | None:
+    del believed
+    ratios = np.array([joint.gear_ratio or np.nan for joint in look.robot.joints])
+    if np.isnan(ratios).all():
+        return None
+    return np.asarray(np.mod(look.state.position * ratios, 2.0 * np.pi))
+
+
+_KINDS: Mapping[str, _Kind] = {
+    "time": _Kind("s", _time),
+    "position": _Kind("rad", lambda look, _: look.state.position),
+    "velocity": _Kind("rad/s", lambda look, _: look.state.velocity),
+    "acceleration": _Kind("rad/s2", lambda look, _: look.state.acceleration),
+    "load": _Kind("N m", lambda look, believed: believed.load(look.state)),
+    "torque": _Kind("N m", lambda look, believed: believed.torque(look.state)),
+    "torque_rate": _Kind("N m/s", _torque_rate),
+    "travel": _Kind("rad", _travel),
+    "motor_phase": _Kind("rad", _motor_phase),
+    "temperature": _Kind("degC", lambda look, _: look.state.temperature),
+}

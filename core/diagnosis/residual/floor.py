@@ -1,0 +1,135 @@
+"""Estimate how low a residual could go, without asking any model.
+
+Where the motion repeats, what does not repeat in the residual is noise: a model's error is a function of the
+motion and cancels between repeats. Elsewhere the torque above everything that the motion and the parallel
+filter leave is noise, and is taken to be as strong per hertz within the look's band. That assumption makes
+the floor too low for noise that grows towards low frequencies; the noise's `tilt` over the high band warns of
+it. Source: Schoukens & Pintelon, System Identification (2012), ch. 2 (periodic excitation).
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.signal import detrend, welch
+
+from core.arrays import JointSeries, JointVector, Vector
+from core.diagnosis.look import Look
+from core.diagnosis.residual.period import Repeats, both_clear, later_by, repeating, repeats
+from core.signals.zero_phase import gain
+
+FloorSource = Literal["repeats", "high_band", "none"]
+HIGH_BAND_OVER_LOOK = 1.5
+HIGH_BAND_END = 0.45
+"""The high band ends below half the rate, where an anti-aliasing filter of the logger may already act."""
+WINDOW_SECONDS = 0.5
+FEWEST_ROWS = 100
+"""Pairs of rows that repeat each other, below which repeats say too little."""
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseFloor:
+    """Hold the noise per joint in the look's band, N m (N) RMS, by every way that was open.
+
+    Attributes
+    ----------
+    rms, source
+        The value to use, and which way it came from: repeats before the high band; NaN and ``none`` where
+        neither was open.
+    from_high_band, from_repeats
+        The values of both ways; NaN where a way was not open.
+    tilt
+        Power density of the high band's lower half over its upper half: 1 for white noise, above where noise
+        grows towards low frequencies, NaN where there is no high band.
+    period
+        Period of the motion, s; None where it does not repeat.
+    """
+
+    rms: JointVector
+    source: tuple[FloorSource, ...]
+    from_high_band: JointVector
+    from_repeats: JointVector
+    tilt: JointVector
+    period: float | None
+
+
+def noise_floor(look: Look, residual: JointSeries) -> NoiseFloor:
+    """Estimate the noise in a look's band from repeats of the motion, and from the raw torque's high band.
+
+    Parameters
+    ----------
+    residual
+        Measured minus predicted torque at the look's rows, N m or N; only its differences between repeats
+        count, so it may come from any model, or be the torque itself.
+    """
+    high, tilt = _from_high_band(look)
+    found = repeats(look)
+    repeated = np.full(look.joints, np.nan) if found is None else _from_repeats(look, residual, found)
+    use = np.isfinite(repeated)
+    source: tuple[FloorSource, ...] = tuple(
+        "repeats" if one else ("high_band" if np.isfinite(other) else "none")
+        for one, other in zip(use, high, strict=True)
+    )
+    return NoiseFloor(
+        rms=np.where(use, repeated, high),
+        source=source,
+        from_high_band=high,
+        from_repeats=repeated,
+        tilt=tilt,
+        period=None if found is None else found.period,
+    )
+
+
+def passed(look: Look, frequency_hz: Vector) -> Vector:
+    """Give the share of white noise's power that the look's parallel filter passes at some frequencies."""
+    motion = look.motions[0]
+    below = np.clip(frequency_hz, 0.0, 0.499 * motion.log.rate_hz)
+    recipe = motion.recipe
+    return gain(below, cutoff_hz=recipe.cutoff_hz, rate_hz=motion.log.rate_hz, order=recipe.order) ** 2
+
+
+def _from_high_band(look: Look) -> tuple[JointVector, JointVector]:
+    """Give RMS in the look's band and tilt per joint, the median over windows, which no reversal moves."""
+    low, high, rows = np.zeros(look.joints), np.zeros(look.joints), 0
+    for motion in look.motions:
+        for segment in motion.segments:
+            last = min(segment.kept, int(60.0 * segment.rate_hz / motion.recipe.decimation))
+            torque = segment.tile(motion.effort_scale, 0, last, 0).torque
+            density = _halves(torque, segment.rate_hz, motion.recipe.cutoff_hz)
+            if density is not None:
+                low, high = low + len(torque) * density[0], high + len(torque) * density[1]
+                rows += len(torque)
+    if not rows:
+        return np.full(look.joints, np.nan), np.full(look.joints, np.nan)
+    low, high = low / rows, high / rows
+    grid = np.linspace(0.0, 0.499 * look.motions[0].log.rate_hz, 4096)
+    width = float(np.trapezoid(passed(look, grid), grid))
+    tilt = np.divide(low, high, out=np.full(look.joints, np.nan), where=high > 0.0)
+    return np.sqrt(0.5 * (low + high) * width), tilt
+
+
+def _halves(torque: JointSeries, rate_hz: float, cutoff_hz: float) -> tuple[JointVector, JointVector] | None:
+    """Give the mean power density of the high band's lower and upper half per joint."""
+    size = int(WINDOW_SECONDS * rate_hz)
+    begin, end = HIGH_BAND_OVER_LOOK * cutoff_hz, HIGH_BAND_END * rate_hz
+    if len(torque) < 4 * size or begin >= 0.8 * end:
+        return None
+    frequency, density = welch(torque.T, rate_hz, nperseg=size, detrend=detrend, average="median")
+    middle = 0.5 * (begin + end)
+    lower = (frequency >= begin) & (frequency < middle)
+    upper = (frequency >= middle) & (frequency <= end)
+    # The median over frequencies too: hum is a line, not a floor.
+    return np.median(density[:, lower], axis=1), np.median(density[:, upper], axis=1)
+
+
+def _from_repeats(look: Look, residual: JointSeries, found: Repeats) -> JointVector:
+    total, count = np.zeros(look.joints), np.zeros(look.joints)
+    for stretch in look.stretches:
+        later = later_by(residual[stretch.rows], found.rows)
+        same = repeating(look, stretch, found)
+        both = both_clear(look, stretch, found, len(later)) & same[:, None]
+        difference = later - residual[stretch.rows][: len(later)]
+        total += np.sum(np.where(both, difference**2, 0.0), axis=0)
+        count += both.sum(axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(count >= FEWEST_ROWS, np.sqrt(0.5 * total / count), np.nan)

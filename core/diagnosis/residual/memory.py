@@ -1,0 +1,69 @@
+"""Read off a noise model how long it remembers, and how uncertain an average of its rows is.
+
+The variance of any weighted sum of stationary noise is the noise's spectrum times the weights' own, summed
+over frequency; so the standard error of a bin takes the memory into account without thinning any rows.
+Source: Brockwell & Davis, Time Series (1991), ch. 4 and 7.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+
+from core.arrays import Indices, Matrix, SquareMatrix, Vector
+from core.diagnosis.noise import JointNoise
+
+FORGOTTEN = 0.1
+"""A noise has forgotten where its correlation with the past stays below this."""
+_LONGEST = 8192
+
+
+def spectrum(noise: JointNoise, size: int) -> Vector:
+    """Give the noise's power at the frequencies of a real transform of `size` rows; its mean is the variance.
+
+    Examples
+    --------
+    White noise of deviation 2 has power 4 at every frequency:
+
+    >>> spectrum(JointNoise((np.zeros(0),), np.array([2.0])), 4)
+    array([4., 4., 4.])
+    """
+    weights = np.concatenate([[1.0], -noise.predictors[noise.order]])
+    response = np.abs(rfft(weights, size)) ** 2
+    return np.asarray(noise.deviations[noise.order] ** 2 / np.maximum(response, 1e-300))
+
+
+def memory(noise: JointNoise) -> int:
+    """Count the rows after which the noise has forgotten where it was.
+
+    Examples
+    --------
+    Correlations 0.5, 0.25, 0.125, 0.0625, ... stay below a tenth from the fourth row on:
+
+    >>> memory(JointNoise((np.zeros(0), np.array([0.5])), np.array([1.0, 1.0])))
+    4
+    """
+    covariance = irfft(spectrum(noise, _LONGEST), _LONGEST)[: _LONGEST // 2]
+    remembered = np.flatnonzero(np.abs(covariance) >= FORGOTTEN * covariance[0])
+    return int(remembered[-1]) + 1
+
+
+def covariance_of_sums(noise: JointNoise, weights: Matrix, begins: Indices) -> SquareMatrix:
+    """Give the covariance of weighted sums of the noise.
+
+    Parameters
+    ----------
+    weights
+        Per row of the look and sum, what the row counts; zero where a row is left out.
+    begins
+        Rows that begin a stretch, ascending from 0; stretches do not know of each other.
+    """
+    total = np.zeros((weights.shape[1], weights.shape[1]))
+    borders = np.append(begins, len(weights)).astype(int)
+    for start, stop in pairwise(borders):
+        size = next_fast_len(2 * int(stop - start), real=True)
+        turned = rfft(weights[start:stop], size, axis=0)
+        power = spectrum(noise, size) / size
+        power[1 : (size + 1) // 2] *= 2.0  # the negative frequencies
+        total += np.real((turned.conj().T * power) @ turned)
+    return total

@@ -1,0 +1,142 @@
+"""Find out from the positions whether a motion repeats itself, and after how long.
+
+What a repeated motion does not repeat in the torque is noise, whatever the robot's model; only instants count
+at which every joint is where it was a period before, and as quick.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+
+from core.arrays import JointMask, JointSeries, Vector
+from core.diagnosis.look import Look, Stretch
+
+SAME = 0.02
+"""A joint is where it was when it misses by less than this share of its RMS swing (and speed)."""
+FEWEST_SECONDS = 2.0
+LEAST_SHARE = 0.3
+"""Of the instants that have one a period later, at least this share must repeat."""
+NEWTON_STEPS = 5
+_TAPS = 24
+_KAISER = 6.0
+
+
+@dataclass(frozen=True, eq=False)
+class Repeats:
+    """Say after how many rows (not a whole number in general) and seconds a motion repeats."""
+
+    rows: float
+    period: float
+
+
+def repeats(look: Look) -> Repeats | None:
+    """Find the shortest period of the longest stretch; None where the motion does not repeat."""
+    stretch = max(look.stretches, key=lambda one: one.rows.stop - one.rows.start)
+    position = look.state.position[stretch.rows]
+    if len(position) < 4 * _TAPS:
+        return None
+    step = float(np.mean(np.diff(look.time[stretch.rows])))
+    moving = np.std(position, axis=0) > 1e-3 * np.std(position, axis=0).max()
+    mismatch = _mismatch(position[:, moving])
+    for valley in _valleys(mismatch):
+        lag = _refined(position[:, moving], look.state.velocity[stretch.rows][:, moving] * step, valley)
+        found = Repeats(lag, lag * step)
+        same = repeating(look, stretch, found)
+        if same.sum() * step >= FEWEST_SECONDS and same.mean() >= LEAST_SHARE:
+            return found
+    return None
+
+
+def repeating(look: Look, stretch: Stretch, found: Repeats) -> np.ndarray:
+    """Mark the instants of a stretch, from its first on, that the motion repeats a period later."""
+    same = None
+    for series in (look.state.position[stretch.rows], look.state.velocity[stretch.rows]):
+        later = later_by(series, found.rows)
+        swing = np.maximum(np.std(series, axis=0), 1e-3 * np.std(series, axis=0).max())
+        near = np.all(np.abs(later - series[: len(later)]) <= SAME * swing, axis=1)
+        same = near if same is None else same & near
+    return np.zeros(0, dtype=bool) if same is None else same
+
+
+def later_by(series: JointSeries, rows: float) -> JointSeries:
+    """Give the series some rows later, whole or not, for as many rows as have a value.
+
+    Between rows it is interpolated by a windowed sinc, which keeps the power of all that lies below the
+    parallel filter's cut-off.
+
+    Examples
+    --------
+    >>> later_by(np.arange(30.0)[:, None], 2.0)[:3, 0]
+    array([2., 3., 4.])
+    """
+    whole = int(np.floor(rows))
+    part = rows - whole
+    if part < 1e-6:
+        return series[whole:]
+    offsets = np.arange(1 - _TAPS // 2, _TAPS // 2 + 1)
+    weights = np.sinc(offsets - part) * _kaiser((offsets - part) / (_TAPS / 2))
+    weights /= weights.sum()
+    padded = np.pad(series, ((max(0, _TAPS // 2 - 1 - whole), 0), (0, 0)), mode="edge")
+    first = max(0, whole - _TAPS // 2 + 1)
+    count = len(padded) - first - _TAPS + 1
+    if count <= 0:
+        return series[:0]
+    windows = np.lib.stride_tricks.sliding_window_view(padded[first:], _TAPS, axis=0)[:count]
+    return np.asarray(windows @ weights)
+
+
+def both_clear(look: Look, stretch: Stretch, found: Repeats, rows: int) -> JointMask:
+    """Mark, for the first rows of a stretch, where row and repeat are clear of reversals and ends."""
+    clear = look.clear[stretch.rows]
+    later = int(np.floor(found.rows))
+    ceiling = min(later + 1, len(clear))
+    second = np.pad(clear[ceiling:], ((0, 1), (0, 0)))[:rows]
+    return np.asarray(clear[:rows] & clear[later : later + rows] & second)
+
+
+def _kaiser(place: Vector) -> Vector:
+    inside = np.clip(1.0 - place**2, 0.0, None)
+    return np.asarray(np.i0(_KAISER * np.sqrt(inside)) / np.i0(_KAISER))
+
+
+def _mismatch(position: JointSeries) -> Vector:
+    """Give, per lag, the mean squared change over twice the variance, over all joints: 0 for a repeat."""
+    count = len(position)
+    centred = (position - position.mean(axis=0)) / np.std(position, axis=0)
+    size = next_fast_len(2 * count, real=True)
+    product = irfft(np.abs(rfft(centred, size, axis=0)) ** 2, size, axis=0)[:count]
+    squares = np.cumsum(np.pad(centred**2, ((1, 0), (0, 0))), axis=0)
+    lags = np.arange(count)
+    both = squares[count - lags] + squares[count] - squares[lags]
+    return np.asarray(np.mean(both - 2.0 * product, axis=1) / (2.0 * (count - lags)))
+
+
+def _valleys(mismatch: Vector) -> list[int]:
+    """List the lags of low minima beyond the first rise, shortest first."""
+    last = int(0.8 * len(mismatch))
+    risen = np.flatnonzero(mismatch[:last] > 0.5)
+    if not len(risen):
+        return []
+    inner = np.arange(max(int(risen[0]), 1), last - 1)
+    here, left, right = mismatch[inner], mismatch[inner - 1], mismatch[inner + 1]
+    low = (here < left) & (here <= right) & (here < 0.3)
+    return [int(one) for one in inner[low]]
+
+
+def _refined(position: JointSeries, slope: JointSeries, lag: float) -> float:
+    """Settle a lag between the rows by Newton's steps on the better half of the instants.
+
+    A motion that grows out of rest does not repeat where it grows; that half decides nothing.
+    """
+    last = 0.9 * (len(position) - 1)
+    scale = np.std(position, axis=0)
+    for _ in range(NEWTON_STEPS):
+        later = later_by(position, lag)
+        missed = (later - position[: len(later)]) / scale
+        size = np.sum(missed**2, axis=1)
+        better = size <= np.median(size)
+        along = slope[: len(missed)][better] / scale
+        lag -= float(np.sum(missed[better] * along) / max(np.sum(along**2), 1e-300))
+        lag = float(np.clip(lag, 1.0, last))
+    return lag
