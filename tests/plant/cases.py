@@ -13,7 +13,7 @@ import numpy as np
 from core.log.model import JointLog
 from core.robot.model import RobotModel
 from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot
-from tests.plant.effects.registry import EFFECTS
+from tests.plant.effects.registry import EFFECTS, FOREIGN
 from tests.plant.engine import Recording, Steering, simulate, steer
 from tests.plant.excitation import draw_excitation
 from tests.plant.robots import ROBOTS, Arm, draw_arm
@@ -152,6 +152,12 @@ def draw_clean(seed: int, *, noise: str | None = None, robot: str | None = None,
     return _case(world, [])
 
 
+def draw_foreign(seed: int, strength: float = 1.0, *, noise: str | None = None, robot: str | None = None) -> Case:
+    """Draw a case with an effect that is in no list."""
+    names = list(FOREIGN)
+    return draw(seed, names[seed % len(names)], strength, noise=noise, robot=robot)
+
+
 def draw_world(
     rng: np.random.Generator, seed: int, *, noise: str | None, robot: str | None, rate_hz: float
 ) -> World:
@@ -169,7 +175,7 @@ def _of_strength(
 ) -> tuple[Effect, Residue] | None:
     """Draw effects of a cause until one can be given the wanted strength."""
     for _ in range(DRAWS):
-        found = _solved(world, EFFECTS[cause].draw(rng, world.arm, world.steering), strength)
+        found = _solved(world, (EFFECTS | FOREIGN)[cause].draw(rng, world.arm, world.steering), strength)
         if found is not None:
             return found
     return None

@@ -22,14 +22,19 @@ BANDWIDTH = 2.0 * np.pi * 6.0
 DAMPING_RATIO = 0.8
 ENCODER_STEP = 1e-5
 """One count of an encoder at the joint, rad."""
+LOAD_RADIUS = 0.03
+"""Radius of gyration of a load, m."""
 EASE = 0.05
 """Share of a joint's top speed over which the controller's feed-forward of Coulomb friction turns round."""
 HARDEST = 0.9999
 """MuJoCo's largest constraint impedance: what is left is the softness of a stuck joint."""
 
 
-def build(arm: Arm, split: tuple[int, ...] = ()) -> mujoco.MjModel:
-    """Build the arm link by link; joints of `split` (from 0) get a rotor of their own, after all links."""
+def build(arm: Arm, split: tuple[int, ...] = (), *, loads: int = 0) -> mujoco.MjModel:
+    """Build the arm link by link.
+
+    Joints of `split` (from 0) get a rotor of their own, after all links; the last link gets bodies for loads.
+    """
     spec = mujoco.MjSpec()
     spec.option.gravity = arm.robot.gravity
     spec.option.timestep = 1.0 / STEPS_PER_SECOND
@@ -45,6 +50,10 @@ def build(arm: Arm, split: tuple[int, ...] = ()) -> mujoco.MjModel:
         axes[:, 0] *= np.sign(np.linalg.det(axes))
         part.explicitinertial = True
         part.mass, part.ipos, part.inertia, part.iquat = mass, centre, moments, _quaternion(axes)
+    for number in range(loads):
+        load = part.add_body(name=f"load_{number}")
+        load.explicitinertial = True
+        load.mass, load.inertia = 1e-9, [1e-12, 1e-12, 1e-12]
     for joint in split:
         rotor = spec.worldbody.add_body(name=f"rotor_{joint}")
         rotor.add_joint(name=f"rotor_{joint}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, 0.0, 1.0])
@@ -65,7 +74,8 @@ class Plant:
 
     def __init__(self, arm: Arm, effects: tuple[Effect, ...], position: np.ndarray) -> None:
         self.split = {one.own: one for one in effects if one.splits}
-        self.model = build(arm, tuple(self.split))
+        self.loads = list(overriding(effects, "carried"))
+        self.model = build(arm, tuple(self.split), loads=len(self.loads))
         self.data = mujoco.MjData(self.model)
         self.arm, self.step = arm, 1.0 / STEPS_PER_SECOND
         self.links = np.array(list(self.split), dtype=int)
@@ -81,7 +91,8 @@ class Plant:
         self.acceleration = np.zeros(self.model.nv)
         self.level = arm.coulomb.copy()
         self.transmitted = dict.fromkeys(self.split, 0.0)
-        self.state = State(self.step, position.copy(), self.level)
+        self.state = State(self.step, position.copy(), self.level, jacobian=self._jacobian)
+        self.tip = self.model.body(arm.robot.links[-1].name).id
 
     def _set_drives(self) -> None:
         model, arm = self.model, self.arm
@@ -112,6 +123,8 @@ class Plant:
         data.qfrc_applied[self.motor] = push
         for joint, effect in self.split.items():
             self._transmit(joint, effect)
+        if self.loads:
+            self._take_up()
         mujoco.mj_forward(self.model, data)
         self.before = self.velocity
         self.acceleration = data.qacc.copy()
@@ -138,6 +151,23 @@ class Plant:
         data.qfrc_applied[joint] = torque
         data.qfrc_applied[motor] -= torque
         self.transmitted[joint] = torque
+
+    def _take_up(self) -> None:
+        for number, effect in enumerate(self.loads):
+            body = self.model.body(f"load_{number}").id
+            if self.state.time >= effect.time and self.model.body_mass[body] < 1e-6:
+                mass, centre = effect.carried()
+                self.model.body_mass[body], self.model.body_ipos[body] = mass, centre
+                self.model.body_inertia[body] = mass * LOAD_RADIUS**2
+                mujoco.mj_setConst(self.model, mujoco.MjData(self.model))
+
+    def _jacobian(self) -> np.ndarray:
+        """Give how the point 10 cm along z and x of the last frame moves with the joints, 3 x joints."""
+        jacobian = np.zeros((3, self.model.nv))
+        frame = self.data.xmat[self.tip].reshape(3, 3)
+        point = self.data.xpos[self.tip] + frame @ np.array([0.1, 0.0, 0.1])
+        mujoco.mj_jac(self.model, self.data, jacobian, None, point, self.tip)
+        return jacobian[:, : self.arm.joints]
 
     def seen(self) -> tuple[np.ndarray, ...]:
         """Give motor position, half-step velocities, acceleration, direction of own and of coupling friction.

@@ -4,7 +4,7 @@ An effect is a frozen record of its physical parameters; the engine asks it at e
 default it changes nothing there.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import ClassVar, Self
 
@@ -30,7 +30,7 @@ class State:
 
     Positions and velocities are the motors', in rad and rad/s. `level` is the friction level in N m and
     `load` the torque in N m that moved the robot at the step before, rotor inertia included: what remains of
-    the drive's torque after friction and offset.
+    the drive's torque after friction and offset. `jacobian` gives, 3 x joints, how a point on the last link moves.
     """
 
     step: float
@@ -40,6 +40,7 @@ class State:
     velocity: np.ndarray = field(default_factory=lambda: np.zeros(0))
     load: np.ndarray = field(default_factory=lambda: np.zeros(0))
     memory: dict[str, float] = field(default_factory=dict)
+    jacobian: Callable[[], np.ndarray] = lambda: np.zeros((3, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +137,10 @@ class Effect:
         """Give the torque in N m from motor to link, from motor minus link angle (rad) and its rate."""
         raise NotImplementedError
 
+    def carried(self) -> tuple[float, tuple[float, float, float]]:
+        """Give mass (kg) and mass centre (m, last link's frame) of a body taken up at the effect's `time`."""
+        raise NotImplementedError
+
     def drive(self, command: np.ndarray) -> np.ndarray:
         """Turn the commanded torque (N m) into the applied one; the log keeps the command."""
         return command
@@ -147,7 +152,7 @@ class Effect:
 
 def moves_the_robot(effect: Effect) -> bool:
     """Tell whether an effect changes what happens, not only what is logged or believed."""
-    places = ("true", "friction", "torque", "transmit", "drive")
+    places = ("true", "friction", "torque", "transmit", "carried", "drive")
     return any(overriding((effect,), place) for place in places)
 
 
