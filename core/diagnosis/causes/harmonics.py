@@ -35,7 +35,7 @@ def harmonics(angle: Samples, *, lowest: float, highest: float, most: int) -> Se
     """
     low, high = float(angle.min()), float(angle.max())
     step = max(1.0, DISTINCT / max(high - low, 1e-6))
-    count = int(np.clip((highest - lowest) // step + 1, 1, most))
+    count = int(np.clip((highest - lowest) / step + 1.0, 1.0, most))
     centre = 0.5 * (low + high)
     return [{"harmonic": lowest + step * number, "centre": centre} for number in range(count)]
 
