@@ -24,7 +24,7 @@ from core.simulation.stage import States
 STEP = 1e-3
 STEPS = 200
 """A window of 200 ms at 1 kHz."""
-WINDOWS = 512
+WINDOWS = 1500
 
 
 def run(*, quick: bool) -> list[Figure]:

@@ -44,6 +44,27 @@ def _less_product(out, row, one, left, other, right, count):
 
 
 @njit(inline="always")
+def _raise(out, row, value, count):
+    """Add a number to a row."""
+    for s in range(count):
+        out[row, s] += value
+
+
+@njit(inline="always")
+def _raise_by(out, row, times, factor, begin, count):
+    """Add a multiple of a time per state."""
+    for s in range(count):
+        out[row, s] += times[begin + s] * factor
+
+
+@njit(inline="always")
+def _slide(out, row, direction, level, weight, begin, count):
+    """Subtract the friction of what slides."""
+    for s in range(count):
+        out[row, s] -= weight * (direction[begin + s] * level[begin + s])
+
+
+@njit(inline="always")
 def _apply_mass(out, mass, vector, joints, count):
     """Subtract the mass matrix times a vector."""
     for i in range(joints):
@@ -199,20 +220,16 @@ def accelerations(  # pragma: no cover  (compiled)
                 if damping[i, j] != 0.0:
                     _less(out, np.uintp(i), v, np.uintp(j), damping[i, j], count)
                 if j <= i and inertia[i, j] != 0.0:
-                    for s in range(count):
-                        mass[np.uintp(i * joints + j), s] += inertia[i, j]
+                    _raise(mass, np.uintp(i * joints + j), inertia[i, j], count)
             for e in range(len(weights)):
                 if weights[e, i] != 0.0:
-                    for s in range(count):
-                        slide = direction[np.uintp(e), start + s] * level[np.uintp(e), start + s]
-                        out[np.uintp(i), s] -= weights[e, i] * slide
+                    _slide(out, np.uintp(i), direction[e], level[e], weights[e, i], start, count)
         if len(known):
             _apply_mass(out, mass, other, joints, count)
         for i in range(joints):
             for j in range(i + 1):
                 if damping[i, j] != 0.0:
-                    for s in range(count):
-                        mass[np.uintp(i * joints + j), s] += implicit[start + s] * damping[i, j]
+                    _raise_by(mass, np.uintp(i * joints + j), implicit, damping[i, j], start, count)
         _factorise(mass, scale, joints, count)
         _substitute(out, mass, scale, joints, count)
         for s in range(many):

@@ -1,0 +1,204 @@
+"""Play a log again with the simulated robot in the loop of a joint controller, beside the measured motion.
+
+The drive plays a feed-forward torque, and proportional and derivative gains pull the joints to the reference:
+by default the measured torque and the measured motion, so that what the controller adds is what the model
+lacks. Every block of the log is played from its own measured start, all blocks at once.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from itertools import takewhile
+from typing import Literal
+
+import numpy as np
+
+from core.arrays import JointSeries, JointVector, Samples
+from core.errors import OptionError
+from core.regressor.observe import BlockKey
+from core.signals.condition import Motion
+from core.signals.state import MotionState
+from core.simulation.drive import Drive, Feedback
+from core.simulation.integrate import LONGEST_STEP
+from core.simulation.mechanism import Mechanism
+from core.simulation.rollout import rollout
+from core.simulation.stage import States
+from core.simulation.windows import Stretch, same_clock, stretches
+
+FeedForward = Literal["measured", "model", "none"]
+
+
+@dataclass(frozen=True, eq=False)
+class Gains:
+    """Hold proportional and derivative gains per joint, N m/rad and N m s/rad (N/m, N s/m)."""
+
+    stiffness: JointVector
+    damping: JointVector
+
+
+@dataclass(frozen=True)
+class ReplayOptions:
+    """Choose the feed-forward torque, and the bandwidth (Hz) of gains that are not declared."""
+
+    feed_forward: FeedForward = "measured"
+    bandwidth_hz: float = 5.0
+    longest_step: float = LONGEST_STEP
+
+    def __post_init__(self) -> None:
+        """Refuse controllers that are none."""
+        if self.feed_forward not in {"measured", "model", "none"} or not 0.01 <= self.bandwidth_hz <= 100.0:
+            raise OptionError(
+                "the controller of the replay makes no sense",
+                evidence={"feed_forward": self.feed_forward, "bandwidth_hz": self.bandwidth_hz},
+                remedy="feed forward measured, model or none, with a bandwidth from 0.01 to 100 Hz",
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Replayed:
+    """Hold one block played again: measured and simulated motion (rad, m; per s) and torque (N m, N)."""
+
+    key: BlockKey
+    time: Samples
+    measured: MotionState
+    measured_torque: JointSeries
+    position: JointSeries
+    velocity: JointSeries
+    torque: JointSeries
+
+
+@dataclass(frozen=True, eq=False)
+class Replay:
+    """Hold all blocks, the gains they were played with, and the RMS errors per joint."""
+
+    blocks: tuple[Replayed, ...]
+    gains: Gains
+    position_rms: JointVector
+    velocity_rms: JointVector
+    torque_rms: JointVector
+
+
+def default_gains(mechanism: Mechanism, position: JointSeries, bandwidth_hz: float) -> Gains:
+    """Damp every joint critically at a bandwidth, for the median inertia it sees on its way.
+
+    Without a reference apart from the measured motion no gain can be fitted, since the error is zero.
+    """
+    inertia = np.median(np.diagonal(mechanism.mass_matrices(position), axis1=1, axis2=2), axis=0)
+    rate = 2.0 * np.pi * bandwidth_hz
+    return Gains(inertia * rate**2, 2.0 * inertia * rate)
+
+
+def fitted_gains(mechanism: Mechanism, reference: MotionState, measured: MotionState, torque: JointSeries) -> Gains:
+    """Fit gains to a log with a reference: measured torque less the model's along the reference.
+
+    Raises
+    ------
+    OptionError
+        If the reference is the measured motion, which fits any gain, or a fitted gain is negative.
+    """
+    left = torque - mechanism.torque(reference)
+    pairs = []
+    for joint in range(mechanism.joints):
+        errors = np.column_stack(
+            [(reference.position - measured.position)[:, joint], (reference.velocity - measured.velocity)[:, joint]]
+        )
+        found, _, rank, _ = np.linalg.lstsq(errors, left[:, joint], rcond=1e-10)
+        if rank < 2 or (found < 0.0).any():
+            raise OptionError(
+                "the joint's gains cannot be fitted",
+                evidence={"joint": joint + 1, "rank": int(rank), "fitted": [float(one) for one in found]},
+                remedy="declare the gains, or give the reference that the controller tracked",
+            )
+        pairs.append(found)
+    stiffness, damping = np.array(pairs).T
+    return Gains(stiffness, damping)
+
+
+def replay(
+    mechanism: Mechanism,
+    motions: tuple[Motion, ...],
+    options: ReplayOptions | None = None,
+    *,
+    gains: Gains | None = None,
+    chosen: frozenset[BlockKey] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Replay:
+    """Play the chosen blocks (all by default) again with the measured motion as reference.
+
+    Raises
+    ------
+    SolverError
+        If the simulated motion diverges.
+    """
+    asked = options or ReplayOptions()
+    measured = tuple(stretches(motions, chosen))
+    if not measured:
+        raise OptionError(
+            "there is no block to play again",
+            evidence={"chosen": sorted(chosen or ())},
+            remedy="choose blocks that the logs have",
+        )
+    if gains is None:
+        positions = np.vstack([one.state.position[:: one.every] for one in measured])
+        gains = default_gains(mechanism, positions, asked.bandwidth_hz)
+    blocks: list[Replayed] = []
+    while len(blocks) < len(measured):
+        left = measured[len(blocks) :]
+        group = list(takewhile(partial(_clocked, left[0]), left))
+        blocks += _played(mechanism, group, gains, asked)
+        if progress is not None:
+            progress(len(blocks) / len(measured))
+    moved = (
+        [one.position - one.measured.position for one in blocks],
+        [one.velocity - one.measured.velocity for one in blocks],
+        [one.torque - one.measured_torque for one in blocks],
+    )
+    errors = (np.sqrt(np.mean(np.vstack(one) ** 2, axis=0)) for one in moved)
+    return Replay(tuple(blocks), gains, *errors)
+
+
+def _clocked(first: Stretch, other: Stretch) -> bool:
+    return same_clock(first.step, other.step)
+
+
+def _played(
+    mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions
+) -> list[Replayed]:
+    """Play stretches of one clock side by side; shorter ones wait at their end until the longest is done."""
+    longest = max(len(one.time) for one in group)
+    position = _padded([one.state.position for one in group], longest)
+    velocity = _padded([one.state.velocity for one in group], longest)
+    torque = _padded([_feed_forward(mechanism, one, asked.feed_forward) for one in group], longest)
+    drive = Drive(group[0].step, torque, Feedback(gains.stiffness, gains.damping, position, velocity))
+    warm = [one.state.temperature for one in group]
+    start = MotionState(
+        position[0].T,
+        velocity[0].T,
+        np.array([one.state.acceleration[0] for one in group]),
+        np.array([one.time[0] for one in group]),
+        None if any(one is None for one in warm) else np.array([one[0] for one in warm if one is not None]),
+    )
+    moved = rollout(mechanism, States.starting(mechanism, start), drive, longest_step=asked.longest_step)
+    return [
+        Replayed(
+            key=one.key,
+            time=one.time,
+            measured=one.state,
+            measured_torque=one.torque,
+            position=moved.position[: len(one.time), :, lane],
+            velocity=moved.velocity[: len(one.time), :, lane],
+            torque=moved.torque[: len(one.time), :, lane],
+        )
+        for lane, one in enumerate(group)
+    ]
+
+
+def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> JointSeries:
+    if kind == "measured":
+        return stretch.torque
+    return mechanism.torque(stretch.state) if kind == "model" else np.zeros_like(stretch.torque)
+
+
+def _padded(series: list[JointSeries], longest: int) -> np.ndarray:
+    padded = [np.pad(one, ((0, longest - len(one)), (0, 0)), mode="edge") for one in series]
+    return np.ascontiguousarray(np.stack(padded, axis=2))
