@@ -30,17 +30,14 @@ class Candidate:
     deviations: Scalars = field(default_factory=dict)
 
     @property
-    def key(self) -> tuple[Cause, Site]:
-        """Name the kind: cause and site, whatever the scalars.
-
-        The cause itself and not its id, because some ids have several (one per entry of a kinematic table).
-        """
-        return self.cause, self.site
+    def key(self) -> tuple[str, Site]:
+        """Name the kind: cause and site, whatever the scalars."""
+        return self.cause.id, self.site
 
     @property
-    def place(self) -> tuple[Cause, Site, tuple[tuple[str, float], ...]]:
+    def place(self) -> tuple[str, Site, tuple[tuple[str, float], ...]]:
         """Name it with its scalars."""
-        return self.cause, self.site, tuple(sorted(self.scalars.items()))
+        return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +90,6 @@ class Hypothesis:
         return all(one.cause.possible(self.solved(index)) for index, one in enumerate(self.members))
 
     @property
-    def by_key(self) -> Mapping[tuple[Cause, Site], int]:
+    def by_key(self) -> Mapping[tuple[str, Site], int]:
         """Find members by kind."""
         return {one.key: index for index, one in enumerate(self.members)}

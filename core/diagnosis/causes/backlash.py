@@ -11,7 +11,7 @@ from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.backlash import Backlash as BacklashTerm
 
-NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 6
+NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 7
 SMOOTHING_OVER_BAND = 2.0
 
 
@@ -36,6 +36,7 @@ class Backlash(OwnJointCause):
     )
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
+    settled = ("around",)
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List the joints that turn."""

@@ -63,8 +63,8 @@ class DroppedSamples:
                 site=(),
                 quantities=(Quantity("fraction", None, "1", fraction, deviation),),
                 statement=(
-                    f"{lost} of {rows} rows ({100.0 * fraction:.2g} %) repeat all positions and torques of the "
-                    "row before while the robot moves; they are left out and bridged"
+                    f"{lost} of {rows} rows ({100.0 * fraction:.2g} %) repeat all positions and torques of "
+                    "the row before while the robot moves; they are left out and bridged"
                 ),
                 statistic=float(lost),
                 p_value=p_value,

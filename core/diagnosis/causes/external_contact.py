@@ -1,4 +1,4 @@
-"""Suspect that something pushed against the last link for a while."""
+"""Suspect that something pushed against the last link for a while, once or several times."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,18 +7,19 @@ import numpy as np
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.causes.events import find_events
 from core.diagnosis.causes.sites import end_links
 from core.diagnosis.look import Look
 from core.diagnosis.misfit import fitted_rows, misfit, size_of
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
-from core.dynamics.terms.contact import Contact, push_torques
+from core.dynamics.terms.contact import WRENCH, Contact, Span, pushed
 
-SHORTEST, LONGEST = 0.1, 3.2
-"""Lengths in s: shorter ones are outliers, longer ones weights."""
-KEPT = 4
-"""Windows that are handed on of all that were looked at."""
+MOST = 5
+"""Contacts that are told apart."""
 STRONGEST = 1e4
+LONGEST_LEVER = 0.5
+"""Distance in m of a point of contact from the origin of the last link's frame."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class ExternalContact(OwnJointCause):
 
     id = "external_contact"
     title = "Something pushed against the robot"
+    settled = tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end"))
     confusions = (
         Confusion(
             "payload_change",
@@ -43,78 +45,69 @@ class ExternalContact(OwnJointCause):
         return [(joint,) for joint in end_links(look.robot)] if len(look.motions) == 1 else []
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
-        """Look at windows of doubling length, half a length apart, and keep the best that do not overlap."""
-        left, mask = misfit(look, believed), look.clear
-        weight = mask / size_of(left, fitted_rows(look))
-        push = push_torques(look.robot, end_links(look.robot)[site[0]], look.state) * weight
-        gain = np.einsum("arj,rj->ra", push, left * weight)
-        gram = np.einsum("arj,brj->rab", push, push)
-        windows = _windows(look)
-        inside = [(look.time >= begin) & (look.time < begin + length) for begin, length in windows]
-        worth = [_worth(gram[rows].sum(axis=0), gain[rows].sum(axis=0)) for rows in inside]
-        kept: list[tuple[float, float]] = []
-        for index in np.argsort(worth)[::-1]:
-            begin, length = windows[index]
-            if all(begin >= one + width or begin + length <= one for one, width in kept):
-                kept.append((begin, length))
-            if len(kept) == KEPT:
-                break
-        return [{"begin": begin, "length": length} for begin, length in kept]
-
-    def trials(self, look: Look) -> int:
-        """Count the windows that were looked at."""
-        return len(_windows(look))
+        """Find when the residual is a wrench on the link for a while."""
+        left, mask = misfit(look, believed), fitted_rows(look)
+        weight = mask / size_of(left, mask)
+        push = pushed(look.robot, end_links(look.robot)[site[0]], look.state) * weight[:, None, :]
+        spans = sorted(find_events(look.time, push, left * weight, most=MOST))
+        if not spans:
+            return []
+        return [
+            {
+                f"{name}_{number}": value
+                for number, span in enumerate(spans, start=1)
+                for name, value in zip(("start", "end"), span, strict=True)
+            }
+        ]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         del believed
-        return Contact(site[0], end_links(look.robot)[site[0]], scalars["begin"], scalars["length"])
+        return Contact(site[0], end_links(look.robot)[site[0]], _spans(scalars))
 
     def possible(self, solved: Solved) -> bool:
-        """Want a force that leaves the robot whole, for a time that can be told from an outlier."""
-        force = float(np.linalg.norm(solved.values))
-        return bool(force < STRONGEST and solved.scalars["length"] >= 0.5 * SHORTEST)
+        """Want a force that leaves the robot whole, and a moment that its lever explains."""
+        wrenches = solved.values.reshape(-1, len(WRENCH))
+        deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0)).reshape(-1, len(WRENCH))
+        force = np.linalg.norm(wrenches[:, :3], axis=1)
+        moment = np.linalg.norm(wrenches[:, 3:], axis=1)
+        doubt = 3.0 * np.linalg.norm(deviations, axis=1)
+        return bool(np.all(force < STRONGEST) and np.all(moment < LONGEST_LEVER * force + doubt))
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report the interval, the force on the robot in the base frame, and its size."""
-        joint, size = solved.site[0], float(np.linalg.norm(solved.values))
-        deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
-        along = solved.values / max(size, 1e-300)
-        begin, length = solved.scalars["begin"], solved.scalars["length"]
-        early, long = (solved.deviations.get(name, 0.0) for name in ("begin", "length"))
-        return (
-            Quantity("begin", None, "s", begin, early),
-            Quantity("end", None, "s", begin + length, float(np.hypot(early, long))),
-            Quantity("force", joint, "N", size, float(np.sqrt(max(along @ solved.covariance @ along, 0.0)))),
-            *(
-                Quantity(f"force_{axis}", joint, "N", float(value), float(deviation))
-                for axis, value, deviation in zip("xyz", solved.values, deviations, strict=True)
-            ),
-        )
+        """Report the strongest force in N, at its peak, and where each contact begins and ends."""
+        forces = solved.values.reshape(-1, len(WRENCH))[:, :3]
+        sizes = np.linalg.norm(forces, axis=1)
+        best = int(np.argmax(sizes))
+        found = [Quantity("force", solved.site[0], "N", float(sizes[best]), _deviation(solved, best))]
+        for number, span in enumerate(_spans(solved.scalars)):
+            # An edge of half a sine is known as well as its height, times a bit more than half its length.
+            share = _deviation(solved, number) / max(float(sizes[number]), 1e-12)
+            doubt = 0.6 * min(share, 1.0) * (span[1] - span[0])
+            found += [
+                Quantity(f"{name}_{number + 1}", None, "s", value, doubt)
+                for name, value in zip(("start", "end"), span, strict=True)
+            ]
+        return tuple(found)
 
     def statement(self, solved: Solved) -> str:
         """Say when and how hard."""
         found = named(self.quantities(solved))
+        when = ", ".join(f"{start:.3g} s to {end:.3g} s" for start, end in _spans(solved.scalars))
         return (
-            f"From {found['begin'].value:.3g} s to {found['end'].value:.3g} s something pushed with "
-            f"{found['force'].value:.3g} ± {found['force'].standard_deviation:.1g} N against "
-            f"joint {solved.site[0]}'s link"
+            f"Something pushed against joint {solved.site[0]}'s link with up to {found['force'].value:.3g} ± "
+            f"{found['force'].standard_deviation:.1g} N, from {when}"
         )
 
 
-def _windows(look: Look) -> list[tuple[float, float]]:
-    first, last = float(look.time.min()), float(look.time.max())
-    lengths = SHORTEST * 2.0 ** np.arange(int(np.log2(LONGEST / SHORTEST)) + 1)
-    return [
-        (float(begin), float(length))
-        for length in lengths
-        for begin in np.arange(first, last - 0.5 * length, 0.5 * length)
-    ]
+def _spans(scalars: Scalars) -> tuple[Span, ...]:
+    count = len(scalars) // 2
+    return tuple((scalars[f"start_{number}"], scalars[f"end_{number}"]) for number in range(1, count + 1))
 
 
-def _worth(gram: np.ndarray, gain: np.ndarray) -> float:
-    """Give how much of the weighted square a force explains; directions without leverage explain nothing."""
-    scale = float(np.trace(gram))
-    if scale <= 0.0:
-        return 0.0
-    return float(gain @ np.linalg.solve(gram + 1e-9 * scale * np.eye(3), gain))
+def _deviation(solved: Solved, number: int) -> float:
+    """Give the deviation of the size of one contact's force, N."""
+    place = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
+    force = solved.values[place]
+    along = force / max(float(np.linalg.norm(force)), 1e-300)
+    return float(np.sqrt(max(along @ solved.covariance[place, place] @ along, 0.0)))

@@ -48,9 +48,9 @@ class GravityMisalignment(OwnJointCause):
         return bool(np.hypot(*solved.values) < LARGEST)
 
     def statement(self, solved: Solved) -> str:
-        """Say about which axes the base is turned."""
+        """Say about which axes gravity is turned."""
         found = named(self.quantities(solved))
         return (
-            f"The base is turned against the description by {shown(found['tilt_x'])} about its x axis and "
-            f"{shown(found['tilt_y'])} about its y axis"
+            f"Gravity is turned against the description by {shown(found['tilt_x'])} about the base's x axis "
+            f"and by {shown(found['tilt_y'])} about its y axis, as if the base were tilted the other way"
         )

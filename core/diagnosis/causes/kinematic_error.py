@@ -1,28 +1,29 @@
-"""Suspect that one entry of the robot's table is wrong; one cause per entry, all under one name."""
+"""Suspect that one entry of the robot's table is wrong."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, shown
+from core.diagnosis.causes.common import OwnJointCause, named, shown
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of
 from core.dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
 
+ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 LARGEST = 0.3
 """In rad and in m: beyond it the table is another robot's."""
 
 
 @dataclass(frozen=True)
 class KinematicError(OwnJointCause):
-    """Suspect one entry (alpha, d or r) of a link's modified DH row."""
+    """Suspect one entry (alpha, d or r) of a link's modified DH row, by its place in `ENTRIES`."""
 
-    entry: EntryName = "alpha"
     id = "kinematic_error"
     title = "An entry of the kinematic table is wrong"
     cure = "robot"
+    settled = ("entry",)
     confusions = (
         Confusion(
             "encoder_offset",
@@ -39,36 +40,44 @@ class KinematicError(OwnJointCause):
     coordinate = "position"
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
-        """List the joints whose link has a row, where the entry is not its own stroke or a shift of all."""
+        """List the joints whose link has a row."""
         del believed
-        found = []
-        for joint in range(1, look.joints + 1):
-            link = link_of(look.robot, joint)
-            shifts_all = link.antecedent == 0 and self.entry != "alpha"
-            own_stroke = link.kind == "prismatic" and self.entry == "r"
-            if link.row is not None and not shifts_all and not own_stroke:
-                found.append((joint,))
-        return found
+        joints = range(1, look.joints + 1)
+        return [(joint,) for joint in joints if link_of(look.robot, joint).row is not None]
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """List the entries that are neither the joint's own stroke nor a shift of the whole robot."""
+        del believed
+        link = link_of(look.robot, site[0])
+        kept = {
+            "alpha": True,
+            "d": link.antecedent > 0,
+            "r": link.antecedent > 0 and link.kind == "revolute",
+        }
+        return [{"entry": float(code)} for code, entry in enumerate(ENTRIES) if kept[entry]]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, scalars
-        return KinematicErrorTerm(site[0], believed, self.entry)
+        del look
+        return KinematicErrorTerm(site[0], believed, _entry(scalars))
 
     def possible(self, solved: Solved) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LARGEST)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report the error under its entry's name."""
+        """Report the error, and once more under the name of its entry."""
+        entry = _entry(solved.scalars)
         value, deviation = float(solved.values[0]), float(solved.covariance[0, 0]) ** 0.5
-        return (Quantity(f"error_{self.entry}", solved.site[0], ENTRY_UNITS[self.entry], value, deviation),)
+        return tuple(
+            Quantity(name, solved.site[0], ENTRY_UNITS[entry], value, deviation) for name in ("error", entry)
+        )
 
     def statement(self, solved: Solved) -> str:
         """Say which entry is off by how much."""
-        (found,) = self.quantities(solved)
-        return f"Joint {solved.site[0]}'s {self.entry} in the kinematic table is too small by {shown(found)}"
+        found = named(self.quantities(solved))["error"]
+        return f"Joint {solved.site[0]}'s {_entry(solved.scalars)} in the kinematic table has to grow by {shown(found)}"
 
 
-ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
-"""The entries that are suspected, each by a cause of its own."""
+def _entry(scalars: Scalars) -> EntryName:
+    return ENTRIES[round(scalars["entry"])]

@@ -1,52 +1,70 @@
-"""Give what something that pushes against a link adds while it pushes: minus J(q)'F in a window of time.
+"""Give what something that pushes against a link adds while it pushes: minus J(q)' times a wrench.
 
-The force is constant in the base frame and acts on the robot at the origin of the link's frame; what helps
-the drives is missing from their torque. Source: De Luca & Mattone, ICRA 2005; Khalil & Dombre (2002), ch. 5.
+Every contact has a wrench of its own, constant in the base's axes, that swells and fades as half a sine; its
+force acts at the origin of the link's frame, its moment stands for the lever of the point of contact. What
+helps the drives is missing from their torque. Source: De Luca & Mattone, ICRA 2005; Khalil & Dombre (2002),
+ch. 5.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.dynamics.newton_euler import inverse_dynamics
+from core.arrays import JointSeries, Samples
+from core.dynamics.jacobian import Jacobian, jacobian
 from core.dynamics.terms.effect import AllJointsTerm, Symbol
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
+Span = tuple[float, float]
+"""Start and end of a contact, s."""
+WRENCH = (*((f"force_{axis}", "N") for axis in "xyz"), *((f"moment_{axis}", "N m") for axis in "xyz"))
+
 
 @dataclass(frozen=True, eq=False)
 class Contact(AllJointsTerm):
-    """Model a force on a link (number from 1) from `begin` on for `length`, both in s."""
+    """Model contacts of a link (number from 1) over spans of time."""
 
     link: int
-    begin: float
-    length: float
-    symbols: ClassVar[tuple[Symbol, ...]] = tuple((f"force_{axis}", "N", None) for axis in "xyz")
+    spans: tuple[Span, ...]
     kind: ClassVar[str] = "external_contact"
 
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]
+        """Name the peaks of every contact's wrench."""
+        return tuple(
+            (f"{name}_{number}_", unit, None)
+            for number in range(1, len(self.spans) + 1)
+            for name, unit in WRENCH
+        )
+
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
-        """Give the torque per newton along the base's axes while there is contact."""
-        columns = push_torques(robot, self.link, state)
-        if state.time is None:
-            return list(columns)
-        inside = (state.time >= self.begin) & (state.time < self.begin + self.length)
-        return list(columns * inside[:, None])
+        """Give the torque per unit of every contact's peak wrench, N and N m."""
+        push = pushed(robot, self.link, state)
+        time = np.zeros(len(push)) if state.time is None else state.time
+        return [
+            -swell(time, span)[:, None] * push[:, axis] for span in self.spans for axis in range(len(WRENCH))
+        ]
 
 
-@lru_cache(maxsize=8)
-def push_torques(robot: RobotModel, link: int, state: MotionState) -> np.ndarray:
-    """Give what the drives need more per newton on a link's frame: 3 x samples x joints.
+def swell(time: Samples, span: Span) -> Samples:
+    """Rise and fall as half a sine of height one within a span.
 
-    A force F in the base frame on the origin of the link's frame puts J'F on the joints, so that the drives
-    need -J'F more. That is the weight of a kilogram there under a gravity of F, with the posture at rest.
+    Examples
+    --------
+    >>> swell(np.array([0.0, 1.0, 2.0, 3.0, 4.0]), (1.0, 3.0)).round(12)
+    array([0., 0., 1., 0., 0.])
     """
-    still = np.zeros_like(state.velocity)
-    rest = replace(state, velocity=still, acceleration=still)
-    bodies = np.zeros((len(robot.links), 10))
-    bodies[link - 1, 9] = 1.0
-    torques = np.array([inverse_dynamics(replace(robot, gravity=axis), bodies, rest) for axis in np.eye(3)])
-    torques.setflags(write=False)
-    return torques
+    start, end = span
+    inside = (time > start) & (time < end)
+    return np.where(inside, np.sin(np.pi * (time - start) / max(end - start, 1e-9)), 0.0)
+
+
+@lru_cache(maxsize=16)
+def pushed(robot: RobotModel, link: int, state: MotionState) -> Jacobian:
+    """Give the Jacobian along a stretch; kept for the last few, because many spans are tried on the same ones."""
+    found = jacobian(robot, link, state.position)
+    found.setflags(write=False)
+    return found

@@ -1,7 +1,7 @@
 """Give what a tilted base adds: the bodies' weight along the directions into which gravity turns.
 
-A base that is turned by a small angle about a horizontal axis u sees gravity g turned the other way, by
--u x g. Loads are linear in gravity, so that a column is the weight of the bodies under that vector, at rest.
+Gravity g that is turned by a small angle about an axis u changes by u x g; a base that is tilted the other way
+sees the same. Loads are linear in gravity, so that a column is the weight of the bodies under that vector.
 Source: Khalil & Dombre (2002), ch. 9.
 """
 
@@ -19,7 +19,7 @@ from core.signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Tilt(AllJointsTerm):
-    """Model a base turned by `tilt_x` and `tilt_y` about its horizontal axes."""
+    """Model gravity turned by `tilt_x` and `tilt_y` about the base's axes."""
 
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("tilt_x", "rad", None), ("tilt_y", "rad", None))
@@ -30,24 +30,22 @@ class Tilt(AllJointsTerm):
         rest = at_rest(state)
         gravity = np.asarray(robot.gravity, dtype=float)
         return [
-            self.believed.load(rest, replace(robot, gravity=-np.cross(axis, gravity)))
-            for axis in horizontal_axes(gravity)
+            self.believed.load(rest, replace(robot, gravity=np.cross(axis, gravity)))
+            for axis in tilt_axes(gravity)
         ]
 
 
-def horizontal_axes(gravity: Vector3) -> tuple[Vector3, Vector3]:
-    """Give the base's level unit axes: x made level (y where x is nearly upright), and up times it.
+def tilt_axes(gravity: Vector3) -> tuple[Vector3, Vector3]:
+    """Give the base's x and y axes; z in place of one that is within 30 degrees of upright.
 
     Examples
     --------
-    >>> horizontal_axes(np.array([0.0, 0.0, -9.81]))
-    (array([1., 0., 0.]), array([0., 1., 0.]))
+    >>> tilt_axes(np.array([9.81, 0.0, 0.0]))
+    (array([0., 0., 1.]), array([0., 1., 0.]))
     """
-    up = -gravity / max(float(np.linalg.norm(gravity)), 1e-12)
-    first = np.eye(3)[int(abs(up[0]) > abs(up[1]) and abs(up[0]) > 0.5)]
-    level = first - (first @ up) * up
-    level /= np.linalg.norm(level)
-    return level + 0.0, np.cross(up, level) + 0.0
+    upright = np.abs(gravity) > np.cos(np.pi / 6.0) * np.linalg.norm(gravity)
+    x, y, z = np.eye(3)
+    return (z if upright[0] else x), (z if upright[1] else y)
 
 
 def at_rest(state: MotionState) -> MotionState:

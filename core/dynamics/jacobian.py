@@ -1,0 +1,61 @@
+"""Give how fast a link's frame moves per unit of joint speed, and with it what a wrench on the link puts on the
+joints.
+
+Source: Khalil & Dombre (2002), ch. 5: by virtual work the joint torque of a wrench is J(q)' times it.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+from core.arrays import JointSeries
+from core.robot.model import Link, RobotModel
+
+Jacobian = Float[np.ndarray, "samples 6 joints"]
+
+
+def jacobian(robot: RobotModel, link: int, position: JointSeries) -> Jacobian:
+    """Give velocity (m/s, first three rows) and spin (rad/s) of a link's frame per unit of joint speed.
+
+    Parameters
+    ----------
+    link
+        Number of the link, from 1.
+
+    Returns
+    -------
+    Jacobian
+        In the axes of the base.
+    """
+    samples = len(position)
+    rotation, place = np.tile(np.eye(3), (samples, 1, 1)), np.zeros((samples, 3))
+    chain = [robot.links[index] for index in robot.supports[link - 1]]
+    axes, places = [], []
+    for one in chain:
+        place = place + rotation @ one.translation
+        rotation = rotation @ one.rotation
+        coordinate = one.ratio * position[:, one.joint - 1] + one.offset
+        if one.kind == "prismatic":
+            place = place + coordinate[:, None] * rotation[:, :, 2]
+        axes.append(rotation[:, :, 2])
+        places.append(place)
+        if one.kind == "revolute":
+            rotation = rotation @ _turn(coordinate)
+    out = np.zeros((samples, 6, position.shape[1]))
+    for one, axis, origin in zip(chain, axes, places, strict=True):
+        out[:, :, one.joint - 1] += one.ratio * _column(one, axis, place - origin)
+    return out
+
+
+def _column(link: Link, axis: np.ndarray, lever: np.ndarray) -> np.ndarray:
+    if link.kind == "prismatic":
+        return np.hstack([axis, np.zeros_like(axis)])
+    return np.hstack([np.cross(axis, lever), axis])
+
+
+def _turn(angle: np.ndarray) -> np.ndarray:
+    turn = np.zeros((len(angle), 3, 3))
+    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angle)
+    turn[:, 1, 0] = np.sin(angle)
+    turn[:, 0, 1] = -turn[:, 1, 0]
+    turn[:, 2, 2] = 1.0
+    return turn
