@@ -1,7 +1,7 @@
-"""Give how fast a link's frame moves per unit of joint speed, and with it what a wrench on the link puts on the
-joints.
+"""Give how fast a link's frame moves per unit of joint speed.
 
-Source: Khalil & Dombre (2002), ch. 5: by virtual work the joint torque of a wrench is J(q)' times it.
+By virtual work its transpose gives what a wrench on the link puts on the joints. Source: Khalil & Dombre
+(2002), ch. 5.
 """
 
 import numpy as np

@@ -76,7 +76,8 @@ class KinematicError(OwnJointCause):
     def statement(self, solved: Solved) -> str:
         """Say which entry is off by how much."""
         found = named(self.quantities(solved))["error"]
-        return f"Joint {solved.site[0]}'s {_entry(solved.scalars)} in the kinematic table has to grow by {shown(found)}"
+        entry = _entry(solved.scalars)
+        return f"Joint {solved.site[0]}'s {entry} in the kinematic table has to grow by {shown(found)}"
 
 
 def _entry(scalars: Scalars) -> EntryName:

@@ -64,7 +64,7 @@ def swell(time: Samples, span: Span) -> Samples:
 
 @lru_cache(maxsize=16)
 def pushed(robot: RobotModel, link: int, state: MotionState) -> Jacobian:
-    """Give the Jacobian along a stretch; kept for the last few, because many spans are tried on the same ones."""
+    """Give the Jacobian along a stretch; kept for the last few, because many spans are tried on them."""
     found = jacobian(robot, link, state.position)
     found.setflags(write=False)
     return found

@@ -1,8 +1,8 @@
 """Give what a tilted base adds: the bodies' weight along the directions into which gravity turns.
 
-Gravity g that is turned by a small angle about an axis u changes by u x g; a base that is tilted the other way
-sees the same. Loads are linear in gravity, so that a column is the weight of the bodies under that vector.
-Source: Khalil & Dombre (2002), ch. 9.
+Gravity g that is turned by a small angle about an axis u changes by u x g; a base that is tilted the other
+way sees the same. Loads are linear in gravity, so that a column is the weight of the bodies under that
+vector, at rest. Source: Khalil & Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass, replace
