@@ -1,0 +1,67 @@
+"""Suspect that the applied torque is clipped while the log keeps the command."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.saturation import Saturation
+
+SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
+"""Limits, as shares of the largest torque that the motion shows."""
+
+
+@dataclass(frozen=True)
+class TorqueSaturation(OwnJointCause):
+    """Suspect a clipped torque."""
+
+    id = "torque_saturation"
+    title = "The applied torque is clipped, the log keeps the command"
+    cure = "signal"
+    units = (("limit", "N m"),)
+    confusions = (
+        Confusion(
+            "torque_gain_nonlinear",
+            "both act at large torques; a clipped torque ends at one level, a bent gain goes on",
+            "repeat the motion a tenth slower: what is clipped then stays below the limit",
+        ),
+        Confusion(
+            "external_contact",
+            "both act in short intervals; a contact does not wait for large torques",
+            "repeat the motion a tenth slower in free space",
+        ),
+    )
+    experiment = "the same motion a tenth slower, which keeps the command below the limit"
+    coordinate = "torque"
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the limit below the largest torque of the motion."""
+        largest = float(np.abs(believed.torque(look.state)[:, site[0] - 1]).max())
+        return [{"limit": share * largest} for share in SHARES]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look
+        return Saturation(site[0], believed, scalars["limit"])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want commands that are larger than what is applied."""
+        return bool(solved.values[0] > 0.0)
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Give the limit."""
+        deviation = solved.deviations.get("limit", 0.0)
+        return (Quantity("limit", solved.site[0], "N m", solved.scalars["limit"], deviation),)
+
+    def statement(self, solved: Solved) -> str:
+        """Say where the torque ends."""
+        found = named(self.quantities(solved))
+        return (
+            f"Joint {solved.site[0]}'s applied torque ends at {shown(found['limit'])}, while the log "
+            "keeps the larger command"
+        )

@@ -1,0 +1,59 @@
+"""Give by how much a logged command exceeds the torque that a drive with a limit applies.
+
+The motion shows the applied torque only: it stays at the limit while the command passes above. The excess
+vanishes where the limit is reached and left again; between these instants a and b it is taken as a parabola,
+(t - a)(b - t) / 2, and its skew, for a controller first gathers an error and then works it off. Source: the
+least polynomials with these zeros.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class Saturation(OneJointTerm):
+    """Model the excess of a command over `limit`, N m (N)."""
+
+    believed: Prediction
+    limit: float
+    symbols: ClassVar[tuple[Symbol, ...]] = (("bulge", "N m/s2", 0.0), ("skew", "N m/s3", None))
+    kind: ClassVar[str] = "torque_saturation"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give parabola and skew over every interval in which the predicted torque is beyond the limit."""
+        del robot
+        torque = self.believed.torque(state)[:, self.joint - 1]
+        bulge, skew = np.zeros_like(torque), np.zeros_like(torque)
+        if state.time is None:
+            return [bulge, skew]
+        excess = np.abs(torque) - self.limit
+        for first, last in _runs(excess > 0.0):
+            begin, end = _reached(state.time, excess, first, -1), _reached(state.time, excess, last, 1)
+            now = state.time[first : last + 1]
+            arch = np.sign(torque[first]) * 0.5 * (now - begin) * (end - now)
+            bulge[first : last + 1] = arch
+            skew[first : last + 1] = arch * (now - 0.5 * (begin + end))
+        return [bulge, skew]
+
+
+def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
+    """List first and last index of every run of marks."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], marks, [False]]).astype(int)))
+    return [(int(first), int(stop) - 1) for first, stop in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _reached(time: Samples, excess: Samples, inside: int, step: int) -> float:
+    """Give the instant, s, between a sample beyond the limit and its neighbour, at which it was reached."""
+    outside = inside + step
+    if not 0 <= outside < len(time):
+        return float(time[inside])
+    share = excess[inside] / (excess[inside] - excess[outside])
+    return float(time[inside] + share * (time[outside] - time[inside]))
