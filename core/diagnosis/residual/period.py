@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from core.arrays import JointMask, JointSeries, Vector
+from core.arrays import JointMask, JointSeries, Rows, Vector
 from core.diagnosis.look import Look, Stretch
 
 SAME = 0.02
@@ -59,7 +59,7 @@ def repeating(look: Look, stretch: Stretch, found: Repeats) -> np.ndarray:
     return np.zeros(0, dtype=bool) if same is None else same
 
 
-def later_by(series: JointSeries, rows: float) -> JointSeries:
+def later_by(series: Rows, rows: float) -> Rows:
     """Give the series some rows later, whole or not, for as many rows as have a value.
 
     Between rows it is interpolated by a windowed sinc, which keeps the power of all that lies below the

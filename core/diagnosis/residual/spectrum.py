@@ -32,7 +32,7 @@ class ResidualSpectrum:
 
 
 def residual_spectra(look: Look, residual: JointSeries, floor: NoiseFloor) -> tuple[ResidualSpectrum, ...]:
-    """Estimate power densities by Welch's method over runs of usable rows; a joint without one is left out."""
+    """Estimate densities by Welch's method over runs of usable rows; a joint without any is left out."""
     found = []
     for joint in range(look.joints):
         runs = [run for run in _runs(look, joint) if run.stop - run.start >= SHORTEST]

@@ -1,0 +1,192 @@
+"""Ask a generic learner which share of a residual is predictable at all, and where it is.
+
+Boosted trees know no physics and no list of causes: what they predict of a joint's residual on blocks of time
+they have not seen is structure, and what they cannot predict no extension of the model will gain much from.
+Between the rows learned from and those judged lies a gap as long as the noise remembers, or noise would pass
+for structure. Strongly coloured noise hides part of the structure from them, so the share is then too small.
+Sources: Friedman, Ann. Stat. 29(5), 2001; Roberts et al., Ecography 40(8), 2017 (blocked cross-validation).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Indices, JointSeries, Matrix, Vector
+from core.diagnosis.look import Look
+from core.diagnosis.noise import JointNoise
+from core.diagnosis.residual.blocks import Share, row_blocks, share_on_blocks
+from core.diagnosis.residual.coordinates import coordinate, coordinate_series
+from core.diagnosis.residual.memory import memory
+from core.dynamics.prediction import Prediction
+from core.errors import ExcitationError
+
+FOLDS = 5
+TREES = 40
+LEAVES = 6
+ROWS_IN_LEAF = 20
+RATE = 0.1
+LEVELS = 63
+"""Trees look for their splits among this many quantiles of a coordinate."""
+FEWEST_ROWS = 200
+LONGEST_GAP = 0.5
+"""The gap is half a block at most; noise that remembers for longer cannot be told from drift."""
+_PLACES = 10
+_WHERE = ("velocity", "position", "load", "time")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Say where the predictable part is large: RMS in N m (N) within a range of one coordinate of the joint.
+
+    `rms` is that of the prediction in the range; ranges hold a tenth of the rows each, and this is the one
+    with the largest.
+    """
+
+    coordinate: str
+    unit: str
+    low: float
+    high: float
+    rms: float
+
+
+@dataclass(frozen=True, eq=False)
+class Predictable:
+    """Hold what a generic learner could predict of one joint's residual on unseen blocks.
+
+    Attributes
+    ----------
+    joint
+        Counted from 1.
+    share, interval
+        Share of the residual's mean square, with its 95 % interval; at least 0. Something is predictable
+        where the interval's lower end lies above 0.
+    rms
+        RMS of the residual that was judged, N m or N.
+    places
+        Where the predictable part is largest, the largest first; empty where nothing is predictable.
+    prediction
+        The prediction at the look's rows, N m or N; NaN where a row was left out.
+    """
+
+    joint: int
+    share: float
+    interval: tuple[float, float]
+    rms: float
+    places: tuple[Place, ...]
+    prediction: Vector
+
+
+def predictable_share(
+    look: Look,
+    residual: JointSeries,
+    believed: Prediction,
+    noise: Sequence[JointNoise],
+    *,
+    near_reversals: bool = False,
+) -> tuple[Predictable, ...]:
+    """Learn every joint's residual from the motion of all joints, and judge it on blocks not learned from.
+
+    Parameters
+    ----------
+    residual
+        Measured minus predicted torque at the look's rows, N m or N.
+    noise
+        Noise model per joint; its memory is the gap between what is learned from and what is judged.
+    near_reversals
+        Whether rows next to reversals count; there every motion leaves structure, since the sign of a
+        measured velocity is not the direction of friction.
+
+    Raises
+    ------
+    ExcitationError
+        If a joint has too few rows to hold any out.
+    """
+    mask = look.usable if near_reversals else look.clear
+    fewest = int(mask.sum(axis=0).min())
+    if fewest < FEWEST_ROWS:
+        raise ExcitationError(
+            "the log is too short to hold anything out for a generic learner",
+            evidence={"rows": fewest, "needed": FEWEST_ROWS, "joint": int(mask.sum(axis=0).argmin()) + 1},
+            remedy="record at least ten seconds in which every joint moves",
+        )
+    block, shared = row_blocks(look), _shared(look)
+    found = []
+    for joint in range(look.joints):
+        features = np.column_stack([shared, _own(look, believed, joint)])
+        gap = _gap(noise[joint], block)
+        prediction = _unseen(features, residual[:, joint], mask[:, joint], block, gap)
+        judged = share_on_blocks(prediction, residual[:, joint], block)
+        found.append(_predictable(look, believed, joint + 1, residual[:, joint], judged))
+    return tuple(found)
+
+
+def _unseen(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:
+    """Predict every row that counts from blocks it does not lie in nor near."""
+    from sklearn.ensemble import HistGradientBoostingRegressor
+    from threadpoolctl import threadpool_limits
+
+    out = np.full(len(target), np.nan)
+    with threadpool_limits(limits=1):
+        for fold in range(FOLDS):
+            held = block % FOLDS == fold
+            near = np.convolve(held, np.ones(2 * gap + 1), mode="same") > 0.5
+            seen, asked = mask & ~near, mask & held
+            if seen.sum() < 2 * ROWS_IN_LEAF or not asked.any():
+                continue
+            trees = HistGradientBoostingRegressor(
+                max_iter=TREES,
+                learning_rate=RATE,
+                max_leaf_nodes=LEAVES,
+                min_samples_leaf=ROWS_IN_LEAF,
+                max_bins=LEVELS,
+                early_stopping=False,
+                random_state=0,
+            )
+            out[asked] = trees.fit(features[seen], target[seen]).predict(features[asked])
+    return out
+
+
+def _gap(noise: JointNoise, block: Indices) -> int:
+    longest = LONGEST_GAP * float(np.median(np.bincount(block)))
+    return max(1, min(memory(noise), int(longest)))
+
+
+def _shared(look: Look) -> Matrix:
+    state = look.state
+    return np.column_stack([state.position, state.velocity, state.acceleration, look.time])
+
+
+def _own(look: Look, believed: Prediction, joint: int) -> Matrix:
+    names = ("load", "torque", "travel", "temperature")
+    series = [coordinate_series(look, believed, name) for name in names]
+    direction = np.sign(look.state.velocity[:, joint])
+    return np.column_stack([direction, *(one[:, joint] for one in series if one is not None)])
+
+
+def _predictable(
+    look: Look, believed: Prediction, joint: int, residual: Vector, judged: Share
+) -> Predictable:
+    rows = np.flatnonzero(np.isfinite(judged.prediction))
+    places = []
+    if judged.interval[0] > 0.0:
+        for name in _WHERE:
+            along = coordinate(look, believed, name, joint)
+            if along is not None:
+                places.append(_place(name, along.unit, along.values[rows], judged.prediction[rows]))
+    return Predictable(
+        joint=joint,
+        share=judged.share,
+        interval=judged.interval,
+        rms=float(np.sqrt(np.mean(residual[rows] ** 2))) if len(rows) else 0.0,
+        places=tuple(sorted(places, key=lambda one: -one.rms)),
+        prediction=judged.prediction,
+    )
+
+
+def _place(name: str, unit: str, values: Vector, prediction: Vector) -> Place:
+    parts = np.array_split(np.argsort(values, kind="stable"), _PLACES)
+    rms = [float(np.sqrt(np.mean(prediction[part] ** 2))) for part in parts]
+    best = int(np.argmax(rms))
+    low, high = float(values[parts[best]].min()), float(values[parts[best]].max())
+    return Place(name, unit, low, high, rms[best])
