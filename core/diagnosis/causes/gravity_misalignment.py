@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, shown
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -47,10 +47,13 @@ class GravityMisalignment(OwnJointCause):
         """Want a tilt that a first-order column can stand for."""
         return bool(np.hypot(*solved.values) < LARGEST)
 
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Report the axes about which a tilt shows: a planar arm sees one only."""
+        return tuple(one for one in super().quantities(solved) if one.standard_deviation < LARGEST)
+
     def statement(self, solved: Solved) -> str:
         """Say about which axes gravity is turned."""
-        found = named(self.quantities(solved))
-        return (
-            f"Gravity is turned against the description by {shown(found['tilt_x'])} about the base's x axis "
-            f"and by {shown(found['tilt_y'])} about its y axis, as if the base were tilted the other way"
+        turns = " and ".join(
+            f"by {shown(one)} about the base's {one.name[-1]} axis" for one in self.quantities(solved)
         )
+        return f"Gravity is turned against the description {turns}, as if the base were tilted the other way"

@@ -15,6 +15,7 @@ import numpy as np
 from core.arrays import JointSeries, Samples
 from core.dynamics.jacobian import Jacobian, jacobian
 from core.dynamics.terms.effect import AllJointsTerm, Symbol
+from core.dynamics.terms.rounding import without_rounding
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
@@ -65,6 +66,7 @@ def swell(time: Samples, span: Span) -> Samples:
 @lru_cache(maxsize=16)
 def pushed(robot: RobotModel, link: int, state: MotionState) -> Jacobian:
     """Give the Jacobian along a stretch; kept for the last few, because many spans are tried on them."""
-    found = jacobian(robot, link, state.position)
+    rows = np.moveaxis(jacobian(robot, link, state.position), 1, 0)
+    found = np.stack(without_rounding(list(rows)), axis=1)
     found.setflags(write=False)
     return found

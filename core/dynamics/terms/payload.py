@@ -14,6 +14,7 @@ import numpy as np
 from core.arrays import JointSeries
 from core.dynamics.newton_euler import inverse_dynamics
 from core.dynamics.terms.effect import AllJointsTerm, Symbol
+from core.dynamics.terms.rounding import without_rounding
 from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from core.signals.state import MotionState
@@ -46,6 +47,6 @@ def body_torques(robot: RobotModel, link: int, state: MotionState) -> np.ndarray
     """
     units = np.zeros((10, len(robot.links), 10))
     units[np.arange(10), link - 1, np.arange(10)] = 1.0
-    torques = np.array([inverse_dynamics(robot, bodies, state) for bodies in units])
+    torques = np.array(without_rounding([inverse_dynamics(robot, bodies, state) for bodies in units]))
     torques.setflags(write=False)
     return torques

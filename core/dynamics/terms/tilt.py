@@ -13,6 +13,7 @@ import numpy as np
 from core.arrays import JointSeries, Vector3
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol
+from core.dynamics.terms.rounding import without_rounding
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
@@ -29,10 +30,12 @@ class Tilt(AllJointsTerm):
         """Give the weight per rad about either axis."""
         rest = at_rest(state)
         gravity = np.asarray(robot.gravity, dtype=float)
-        return [
-            self.believed.load(rest, replace(robot, gravity=np.cross(axis, gravity)))
-            for axis in tilt_axes(gravity)
-        ]
+        return without_rounding(
+            [
+                self.believed.load(rest, replace(robot, gravity=np.cross(axis, gravity)))
+                for axis in tilt_axes(gravity)
+            ]
+        )
 
 
 def tilt_axes(gravity: Vector3) -> tuple[Vector3, Vector3]:
