@@ -11,7 +11,7 @@ import numpy as np
 
 from core.arrays import Matrix
 from core.diagnosis.cause import Cause, Scalars
-from core.diagnosis.equations import Columns, Fit, JointRows, extended, fit, joint_rows
+from core.diagnosis.equations import Columns, Fit, JointRows, extended, fit, joint_rows, refit
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 from core.diagnosis.look import Look
 from core.diagnosis.score import score
@@ -73,9 +73,21 @@ class Bench:
         columns = self.columns(members)
         rows = extended(self.base, columns)
         noise = None if start is None else tuple(one.noise for one in start.fit.joints)
+        return self._hypothesis(members, columns, fit(rows, noise))
+
+    def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
+        """Fit a hypothesis with one more member, learning its noise anew where the member acts."""
+        members = (*start.members, candidate)
+        columns = self.columns(members)
+        rows = extended(self.base, columns)
+        return self._hypothesis(members, columns, refit(rows, start.fit, frozenset(columns[-1])))
+
+    def _hypothesis(
+        self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit
+    ) -> Hypothesis:
         return Hypothesis(
             members,
-            fit(rows, noise),
+            found,
             tuple(next(iter(one.values())).shape[1] for one in columns),
             self.base[0].columns.shape[1],
         )

@@ -7,7 +7,7 @@ effect in question as noise. Sources: Aitken 1936; Cochrane & Orcutt 1949; Bruno
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -18,7 +18,10 @@ from core.diagnosis.noise import JointNoise, learn_noise, places
 
 RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
-ROUNDS = 2
+ROUNDS = 3
+TRIAL_ROUNDS = 2
+LEAST_FREE = 1e-6
+"""A free column smaller than this on the rows that may be used acts elsewhere."""
 
 Columns = Mapping[int, Matrix]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -26,12 +29,29 @@ Columns = Mapping[int, Matrix]
 
 @dataclass(frozen=True, eq=False)
 class JointRows:
-    """Hold the rows of one joint that a fit may use: columns, torque and their places within runs."""
+    """Hold the rows of one joint that a fit may use.
+
+    Attributes
+    ----------
+    rows, place
+        Which rows of the look, and their places within runs.
+    columns, torque
+        What is fitted to what.
+    free, free_basis
+        Columns of any size (friction while the joint sticks), and an orthonormal basis of them.
+    """
 
     rows: Indices
     place: Indices
     columns: Matrix
     torque: Vector
+    free: Matrix
+    free_basis: Matrix
+
+    def missed(self, values: Vector) -> Vector:
+        """Give what the columns leave over, less what the free ones take."""
+        left = self.torque - self.columns @ values
+        return np.asarray(left - self.free_basis @ (self.free_basis.T @ left))
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +62,11 @@ class Whitened:
     columns: Matrix
     torque: Vector
     log_deviations: float
+    free_basis: Matrix
+
+    def cleared(self, columns: Matrix) -> Matrix:
+        """Take out of whitened columns what the free ones span."""
+        return np.asarray(columns - self.free_basis @ (self.free_basis.T @ columns))
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +108,18 @@ def joint_rows(look: Look, columns: Sequence[Matrix], mask: np.ndarray) -> tuple
         rows = np.flatnonzero(mask[:, joint])
         follows = np.diff(rows, prepend=-2) == 1
         follows &= ~look.starts[rows]
-        out.append(JointRows(rows, places(follows), columns[joint][rows], look.torque[rows, joint]))
+        free = look.sticking[joint][rows]
+        free = free[:, np.linalg.norm(free, axis=0) > LEAST_FREE]
+        out.append(
+            JointRows(
+                rows,
+                places(follows),
+                columns[joint][rows],
+                look.torque[rows, joint],
+                free,
+                np.linalg.qr(free)[0],
+            )
+        )
     return tuple(out)
 
 
@@ -95,18 +131,23 @@ def extended(joints: tuple[JointRows, ...], columns: Sequence[Columns]) -> tuple
         parts = [rows.columns]
         for one, width in zip(columns, widths, strict=True):
             parts.append(one[joint][rows.rows] if joint in one else np.zeros((len(rows.rows), width)))
-        out.append(JointRows(rows.rows, rows.place, np.hstack(parts), rows.torque))
+        out.append(replace(rows, columns=np.hstack(parts)))
     return tuple(out)
 
 
 def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     """Whiten one joint's rows."""
+    basis = np.linalg.qr(noise.whitened(rows.free, rows.place))[0]
     both = noise.whitened(np.column_stack([rows.columns, rows.torque]), rows.place)
-    return Whitened(noise, both[:, :-1], both[:, -1], noise.log_deviations(rows.place))
+    both -= basis @ (basis.T @ both)
+    return Whitened(noise, both[:, :-1], both[:, -1], noise.log_deviations(rows.place), basis)
 
 
 def fit(
-    joints: tuple[JointRows, ...], noise: tuple[JointNoise, ...] | None = None, *, rounds: int = ROUNDS
+    joints: tuple[JointRows, ...],
+    noise: tuple[JointNoise, ...] | None = None,
+    *,
+    rounds: int = ROUNDS,
 ) -> Fit:
     """Fit all columns to all joints' rows, learning the noise anew in every round.
 
@@ -119,16 +160,57 @@ def fit(
         noise = tuple(learn_noise(rows.torque, rows.place, order=0) for rows in joints)
         rounds += 1
     found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)))
+    everywhere = frozenset(range(len(joints)))
     for _ in range(rounds):
-        noise = tuple(learn_noise(rows.torque - rows.columns @ found.values, rows.place) for rows in joints)
-        found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)))
+        found = _relearned(joints, found, everywhere)
     return found
+
+
+def refit(
+    joints: tuple[JointRows, ...], before: Fit, touched: frozenset[int], *, rounds: int = TRIAL_ROUNDS
+) -> Fit:
+    """Fit joints that got further columns, learning the noise anew only where these columns act.
+
+    Parameters
+    ----------
+    before
+        A fit of the same rows without the further columns, which stand last.
+    touched
+        Joints (from 0) on which they act.
+    """
+    parts = []
+    for joint, rows in enumerate(joints):
+        old = before.joints[joint]
+        new = rows.columns[:, old.columns.shape[1] :]
+        white = old.cleared(old.noise.whitened(new, rows.place)) if joint in touched else np.zeros_like(new)
+        parts.append(replace(old, columns=np.hstack([old.columns, white])))
+    found = _solved(tuple(parts))
+    for _ in range(rounds):
+        found = _relearned(joints, found, touched)
+    return found
+
+
+def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int]) -> Fit:
+    """Learn the noise of some joints from their residual, and fit again."""
+    parts = list(found.joints)
+    for joint in touched:
+        rows = joints[joint]
+        parts[joint] = whitened(
+            rows, learn_noise(rows.missed(found.values), rows.place, taken=_taken(rows, joints))
+        )
+    return _solved(tuple(parts))
+
+
+def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
+    """Count the degrees of freedom that a fit took from one joint's rows: its own, and its share of the rest."""
+    total = sum(len(one.rows) for one in joints)
+    return rows.free.shape[1] + rows.columns.shape[1] * len(rows.rows) / max(total, 1)
 
 
 def _solved(joints: tuple[Whitened, ...]) -> Fit:
     gram = sum(one.columns.T @ one.columns for one in joints)
     right = sum(one.columns.T @ one.torque for one in joints)
-    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor = cho_factor(scaled, lower=True)
     values = cho_solve(factor, right / scale) / scale

@@ -15,6 +15,7 @@ import numpy as np
 from core.arrays import Indices, JointMask, JointSeries, Samples, Series
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
+from core.dynamics.terms.effect import step_of
 from core.errors import ExcitationError
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
@@ -31,6 +32,8 @@ RATE_OVER_BAND = 12.0
 POSITION_OVER_BAND = 3.0
 STATE_OVER_BAND = 8.0
 """States are thinned to eight times the band: nothing above the position filter is left to alias."""
+ORDER = 2
+"""A gentle filter: what happens at a reversal rings on for one period of the cut-off, not for three."""
 REVERSAL_REACH = 1.0
 """Rows nearer to a reversal than this many periods of the cut-off are set apart."""
 LONGEST_SECONDS = 120.0
@@ -55,9 +58,14 @@ class Stretch:
     first: int
     rows: slice
 
+    @property
+    def kept(self) -> int:
+        """Count the kept instants."""
+        return self.rows.stop - self.rows.start
+
     def filtered(self, series: Series) -> Series:
         """Filter series of this stretch and keep its instants."""
-        return self.parallel.apply(np.ascontiguousarray(series), self.first, self.rows.stop - self.rows.start)
+        return self.parallel.apply(np.ascontiguousarray(series), self.first, self.kept)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +86,8 @@ class Look:
         Rows that no fit may see.
     state
         The motion at the rows.
+    sticking
+        Per joint, rows x columns that stand for any friction while the joint is as good as at rest.
     band_hz
         Cut-off of the parallel filter; `motion_band_hz` that of the motion.
     """
@@ -93,6 +103,7 @@ class Look:
     clear: JointMask
     held_out: np.ndarray
     state: MotionState
+    sticking: tuple[np.ndarray, ...]
     band_hz: float
     motion_band_hz: float
 
@@ -192,6 +203,9 @@ def look_at(
         clear=np.vstack([part.usable & part.clear for part in parts]),
         held_out=np.isin(log * blocks + block, sorted(keys)),
         state=_joined([part.state for part in parts]),
+        sticking=tuple(
+            _stacked([part.sticking[joint] for part in parts]) for joint in range(len(model.robot.joints))
+        ),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
     )
@@ -207,6 +221,7 @@ class _Piece:
     usable: np.ndarray
     clear: np.ndarray
     state: MotionState
+    sticking: tuple[np.ndarray, ...]
 
 
 def _options(log: JointLog) -> FilterOptions:
@@ -216,6 +231,7 @@ def _options(log: JointLog) -> FilterOptions:
     return FilterOptions(
         cutoff_hz=cutoff,
         position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
+        order=ORDER,
     )
 
 
@@ -244,9 +260,11 @@ def _piece(number: int, motion: Motion, segment: Segment, kept: tuple[int, int],
     parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
     at = tile.first + recipe.decimation * np.arange(len(tile.time))
     place = (done + np.arange(*kept)) / motion.kept
+    stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
     return _Piece(
         log=number,
-        stretch=Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time))),
+        stretch=stretch,
+        sticking=sticking(stretch, recipe.still_speed, recipe.cutoff_hz),
         time=tile.time,
         block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
         torque=tile.filtered(np.ascontiguousarray(tile.torque.T)).T,
@@ -254,6 +272,52 @@ def _piece(number: int, motion: Motion, segment: Segment, kept: tuple[int, int],
         clear=_clear(tile.state.velocity, at, segment.rate_hz, recipe.cutoff_hz, recipe.still_speed),
         state=_thinned(tile.state, at),
     )
+
+
+def sticking(stretch: Stretch, still: np.ndarray, band_hz: float) -> tuple[np.ndarray, ...]:
+    """Give, per joint, filtered columns for the friction of every stretch of time in which the joint rests.
+
+    While a joint sticks, friction is what balances the torque, between minus and plus its level; polynomials
+    with as many coefficients as the filter lets through stand for it.
+    """
+    out = []
+    for joint in range(stretch.state.velocity.shape[1]):
+        velocity = stretch.state.velocity[:, joint]
+        rests = np.abs(velocity) <= still[joint]
+        rests[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
+        series = [
+            row
+            for begin, end in _runs(rests)
+            for row in _polynomials(begin, end, len(velocity), band_hz * step_of(stretch.state))
+        ]
+        rows = np.array(series).reshape(-1, len(velocity))
+        out.append(stretch.filtered(rows).T if len(rows) else np.zeros((stretch.kept, 0)))
+    return tuple(out)
+
+
+def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
+    """List where marks begin and end, one sample wider on either side."""
+    edges = np.diff(np.pad(marks.astype(int), 1))
+    begins, ends = np.flatnonzero(edges == 1) - 1, np.flatnonzero(edges == -1) + 1
+    return [(max(int(begin), 0), min(int(end), len(marks))) for begin, end in zip(begins, ends, strict=True)]
+
+
+def _polynomials(begin: int, end: int, samples: int, band: float) -> list[np.ndarray]:
+    count = min(end - begin, 2 + int(np.ceil(2.0 * band * (end - begin))))
+    rows = np.zeros((count, samples))
+    rows[:, begin:end] = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1).T
+    return list(rows)
+
+
+def _stacked(parts: list[np.ndarray]) -> np.ndarray:
+    """Put columns of different stretches beside each other, each on its own rows."""
+    rows, columns = (sum(part.shape[axis] for part in parts) for axis in (0, 1))
+    out = np.zeros((rows, columns))
+    row = column = 0
+    for part in parts:
+        out[row : row + part.shape[0], column : column + part.shape[1]] = part
+        row, column = row + part.shape[0], column + part.shape[1]
+    return out
 
 
 def _thinning(decimation: int, rate_hz: float, cutoff_hz: float) -> int:

@@ -13,6 +13,7 @@ import numpy as np
 from core.arrays import Indices, Matrix, Vector
 
 HIGHEST_ORDER = 12
+ROWS_PER_ORDER = 30
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +66,23 @@ class JointNoise:
         return float(counts @ np.log(self.deviations))
 
 
-def learn_noise(residual: Vector, place: Indices, order: int | None = None) -> JointNoise:
-    """Learn an autoregression from a residual; its order by the Bayesian criterion unless given."""
+def learn_noise(
+    residual: Vector, place: Indices, order: int | None = None, *, taken: float = 0.0
+) -> JointNoise:
+    """Learn an autoregression from a residual; of the highest order that its length allows unless given.
+
+    A fixed order keeps likelihoods comparable: one chosen by a criterion jumps between hypotheses.
+
+    Parameters
+    ----------
+    taken
+        Degrees of freedom that a fit took out of the residual.
+    """
     predictors, variances = _burg(residual, place)
     if order is None:
-        count = len(residual)
-        criterion = count * np.log(variances) + np.arange(len(variances)) * np.log(max(count, 2))
-        order = int(np.argmin(criterion))
-    return JointNoise(tuple(predictors[: order + 1]), np.sqrt(variances[: order + 1]))
+        order = min(len(variances) - 1, len(residual) // ROWS_PER_ORDER)
+    raised = 1.0 / max(1.0 - taken / max(len(residual), 1), 0.1)
+    return JointNoise(tuple(predictors[: order + 1]), np.sqrt(raised * variances[: order + 1]))
 
 
 def places(follows: np.ndarray) -> Indices:

@@ -52,7 +52,7 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
         if not present:
             continue
         raw = np.hstack([candidates[index][joint][rows.rows] for index in present])
-        white = found.joints[joint].noise.whitened(raw, rows.place)
+        white = found.joints[joint].cleared(found.joints[joint].noise.whitened(raw, rows.place))
         places = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in present])
         cross[:, places] += found.joints[joint].columns.T @ white
         right[places] += white.T @ (found.joints[joint].torque - found.joints[joint].columns @ found.values)

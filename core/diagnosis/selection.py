@@ -76,18 +76,31 @@ def best_addition(bench: Bench, now: Hypothesis) -> Hypothesis | None:
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
     """Add a candidate with refined scalars, and fit everything anew."""
     candidate = bench.refined(now, scored.candidate)
-    return bench.tried((*now.members, candidate), now)
+    return bench.added(now, candidate)
 
 
 def log_p(now: Hypothesis, trial: Hypothesis) -> float:
     """Give the log of the last member's p-value, corrected for its grid."""
     added = trial.members[-1]
-    rise = _rise(now, trial)
-    return Scored(added, rise, trial.widths[-1], np.zeros(0), 1.0).log_p
+    return Scored(
+        added,
+        min(weight(trial, len(trial.members) - 1), _rise(now, trial)),
+        trial.widths[-1],
+        np.zeros(0),
+        1.0,
+    ).log_p
 
 
 def _rise(now: Hypothesis, trial: Hypothesis) -> float:
     return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
+
+
+def weight(hypothesis: Hypothesis, index: int) -> float:
+    """Give a member's squared size in units of its own covariance, under the noise of the whole hypothesis."""
+    solved = hypothesis.solved(index)
+    scale = np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
+    values = solved.values / scale
+    return float(values @ np.linalg.solve(solved.covariance / np.outer(scale, scale), values))
 
 
 def _merit(now: Hypothesis, trial: Hypothesis) -> float:
@@ -115,7 +128,7 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis:
 def _challenged(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis | None:
     for index, member in enumerate(now.members[:-1]):
         without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
-        if 2.0 * (now.fit.log_likelihood - without.fit.log_likelihood) < -2.0 * np.log(LEVEL):
+        if weight(now, index) < -2.0 * np.log(LEVEL):
             steps.append(Step("dropped", member, _rise(without, now)))
             return without
         rival = best_addition(bench, without)
