@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers bench lock openapi
+.PHONY: help setup demo serve test check style types imports drift containers hidden bench lock openapi
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -66,6 +66,10 @@ containers: $(READY)
 	.venv/bin/check-jsonschema --builtin-schema vendor.compose-spec docker/compose.yaml
 	.venv/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yml
 	.venv/bin/check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+
+hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis (SEED=n CASES=m STRENGTH=.. CAUSE=.. KIND=..)
+	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --cases $(or $(CASES),60) \
+		$(if $(STRENGTH),--strength $(STRENGTH)) $(if $(CAUSE),--cause $(CAUSE)) $(if $(KIND),--kind $(KIND))
 
 bench: $(READY) ## measure speed and accuracy
 	$(RUN) -m benchmarks $(ARGS)

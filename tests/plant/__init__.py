@@ -1,1 +1,1 @@
-"""A robot that hides an effect: a seed, a cause and a strength come in, a log and what its user believes go out."""
+"""A robot that hides an effect: a seed and a cause come in, a log and what its user believes go out."""

@@ -1,11 +1,11 @@
 """Draw cases: a log with something hidden, the robot as its user believes it, and the truth beside it.
 
 A seed decides everything: robot, bodies, motion, noise, effect, joint. The effect's size is solved so that its
-strength (see `tests.plant.strength`) is the wanted one; where a drawn effect cannot reach it (the zero error
-of a joint that turns about the vertical, say, changes no torque), another joint or effect size is drawn.
+strength (see `tests.plant.strength`) is the wanted one. Where a drawn effect cannot reach it (the zero error of
+a joint that turns about the vertical changes no torque), another joint is drawn, and at last another robot.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, reduce
 
 import numpy as np
@@ -116,6 +116,7 @@ def draw(
     noise: str | None = None,
     robot: str | None = None,
     rate_hz: float = 250.0,
+    duration: float = 30.0,
 ) -> Case:
     """Draw a case with one or more effects, each of the wanted strength by itself.
 
@@ -132,7 +133,7 @@ def draw(
     """
     for attempt in range(WORLDS):
         rng = np.random.default_rng([seed, attempt])
-        world = draw_world(rng, seed, noise=noise, robot=robot, rate_hz=rate_hz)
+        world = draw_world(rng, seed, noise=noise, robot=robot, rate_hz=rate_hz, duration=duration)
         names = [str(name) for name in rng.permutation([name for name in EFFECTS if name != cause])]
         hidden: list[tuple[Effect, Residue]] = []
         for name in ([cause] if cause else []) + names:
@@ -146,25 +147,40 @@ def draw(
     raise RuntimeError(f"no {cause or 'effect'} of strength {strength} is possible in case {seed}")
 
 
-def draw_clean(seed: int, *, noise: str | None = None, robot: str | None = None, rate_hz: float = 250.0) -> Case:
+def draw_clean(
+    seed: int,
+    *,
+    noise: str | None = None,
+    robot: str | None = None,
+    rate_hz: float = 250.0,
+    duration: float = 30.0,
+) -> Case:
     """Draw a case with nothing hidden."""
-    world = draw_world(np.random.default_rng([seed, 0]), seed, noise=noise, robot=robot, rate_hz=rate_hz)
-    return _case(world, [])
+    rng = np.random.default_rng([seed, 0])
+    return _case(draw_world(rng, seed, noise=noise, robot=robot, rate_hz=rate_hz, duration=duration), [])
 
 
-def draw_foreign(seed: int, strength: float = 1.0, *, noise: str | None = None, robot: str | None = None) -> Case:
+def draw_foreign(
+    seed: int, strength: float = 1.0, *, noise: str | None = None, robot: str | None = None
+) -> Case:
     """Draw a case with an effect that is in no list."""
     names = list(FOREIGN)
     return draw(seed, names[seed % len(names)], strength, noise=noise, robot=robot)
 
 
 def draw_world(
-    rng: np.random.Generator, seed: int, *, noise: str | None, robot: str | None, rate_hz: float
+    rng: np.random.Generator,
+    seed: int,
+    *,
+    noise: str | None = None,
+    robot: str | None = None,
+    rate_hz: float = 250.0,
+    duration: float = 30.0,
 ) -> World:
     """Draw an arm, its motion and its noise."""
     name, kind = str(rng.choice(ROBOTS)), str(rng.choice(NOISES))
     arm = draw_arm(robot or name, rng)
-    steering = steer(arm, draw_excitation(arm, rng), rate_hz)
+    steering = steer(arm, draw_excitation(arm, rng, duration), rate_hz)
     share = rng.uniform(*NOISE_SHARES, arm.joints)
     noise_rms = share * np.sqrt(np.mean(steering.nominal**2, axis=0))
     return World(arm, steering, noise or kind, noise_rms, rate_hz, seed)

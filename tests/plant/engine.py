@@ -24,7 +24,7 @@ ENCODER_STEP = 1e-5
 """One count of an encoder at the joint, rad."""
 LOAD_RADIUS = 0.03
 """Radius of gyration of a load, m."""
-EASE = 0.05
+EASE = 0.02
 """Share of a joint's top speed over which the controller's feed-forward of Coulomb friction turns round."""
 HARDEST = 0.9999
 """MuJoCo's largest constraint impedance: what is left is the softness of a stuck joint."""
@@ -174,8 +174,8 @@ class Plant:
 
         Those of the step just taken, at its beginning.
         """
-        data, level, count = self.data, self.level, len(self.arm.motors)
-        coupled = data.efc_force[-count:] if count else np.empty(0)
+        data, level, count = self.data, self.level, np.count_nonzero(self.arm.motors[:, 2])
+        coupled = data.efc_force[-count:] if count else np.zeros(len(self.arm.motors))
         friction = -data.qfrc_constraint[self.motor]
         for coupling, force in zip(self.arm.robot.couplings, coupled, strict=True):
             friction[np.array(coupling.joints) - 1] += force * np.array(coupling.weights)
@@ -195,7 +195,7 @@ class Plant:
 
 @dataclass(frozen=True, eq=False)
 class Steering:
-    """Hold a joint controller: the command is the feed-forward of the arm without effects plus gains times reference.
+    """Hold a joint controller: its command is the clean arm's feed-forward plus gains times reference.
 
     `nominal` is the feed-forward alone, N m: the torque that the motion needs where nothing is hidden.
     """

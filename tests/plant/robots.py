@@ -225,7 +225,9 @@ def _description(name: str, sheet: Sheet) -> dict[str, object]:
         for (alpha, d, r, theta), (low, high), speed in zip(sheet.rows, sheet.room, sheet.speed, strict=True)
     ]
     couplings = (
-        [{"name": "wrist", "joints": list(sheet.coupling[0]), "weights": [1.0, 1.0]}] if sheet.coupling else []
+        [{"name": "wrist", "joints": list(sheet.coupling[0]), "weights": [1.0, 1.0]}]
+        if sheet.coupling
+        else []
     )
     gravity = builtin_description(name)["gravity"] if name == "yumi-left" else [0.0, 0.0, -9.81]
     return {"name": name, "joints": joints, "gravity": gravity, "couplings": couplings}

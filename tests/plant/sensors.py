@@ -1,7 +1,6 @@
 """Read the plant's sensors: torque with noise of five kinds, encoders with a fine step, rows as a log.
 
-Every kind of noise has a known spectrum, from which the oracle's limit is computed. Sources: Kay, Fundamentals
-of Statistical Signal Processing I (1993), ch. 7, for the autoregressive spectra.
+Every kind of noise has a known spectrum, from which the oracle's limit is computed. Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for the autoregressive spectra.
 """
 
 import numpy as np
@@ -12,7 +11,7 @@ from core.log.reader import log_from_arrays
 from tests.plant.effects.effect import Signals
 
 NOISES = ("white", "ar1", "strong_ar1", "heavy", "hum")
-"""White; autoregressive with 0.8 and 0.98 from sample to sample; Student's t with 3 degrees; 50 Hz and 150 Hz."""
+"""White; autoregressive with 0.8 and 0.98 per sample; Student's t with 3 degrees; 50 Hz with its third."""
 
 CORRELATION = {"ar1": 0.8, "strong_ar1": 0.98}
 HUM_SHARE = 0.6
@@ -37,7 +36,7 @@ def noise(kind: str, shape: tuple[int, int], rate_hz: float, rng: np.random.Gene
 
 
 def spectrum(kind: str, frequency: np.ndarray, rate_hz: float) -> np.ndarray:
-    """Give the variance per frequency of unit-RMS noise, 1 for white noise; mains hum's lines are left out."""
+    """Give the variance per frequency of unit-RMS noise, 1 for white; mains hum's lines are left out."""
     if kind in CORRELATION:
         correlation = CORRELATION[kind]
         turn = np.exp(-2j * np.pi * frequency / rate_hz)

@@ -49,7 +49,9 @@ class Residue:
         return float(self.whitened @ self.whitened)
 
 
-def residue(robot: RobotModel, signals: Signals, torque: np.ndarray, noise_rms: np.ndarray, kind: str) -> Residue:
+def residue(
+    robot: RobotModel, signals: Signals, torque: np.ndarray, noise_rms: np.ndarray, kind: str
+) -> Residue:
     """Take the standard model of the believed robot out of a torque (N m)."""
     if not np.isfinite(torque).all():
         return Residue(np.full(torque.shape[1], np.nan), np.full(1, np.nan))

@@ -1,7 +1,7 @@
 """Hide what the user has wrong about the robot: one entry of its table, or which way is down."""
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -17,12 +17,12 @@ REACH = {"alpha": 0.25, "d": 0.15, "r": 0.15}
 
 @dataclass(frozen=True)
 class KinematicError(Effect):
-    """Let the user believe an entry (alpha, d or r) of one joint's row that is `error` less than the true one."""
+    """Let the user believe an entry (alpha, d or r) of one joint's row that is `error` less than the truth."""
 
     entry: str
     error: float
     cause = "kinematic_error"
-    units = {"error": "rad or m"}
+    units: ClassVar = {"error": "rad or m"}
     sizes = ("error",)
 
     @classmethod
@@ -55,12 +55,12 @@ class KinematicError(Effect):
 
 @dataclass(frozen=True)
 class GravityMisalignment(Effect):
-    """Let gravity be the believed one turned by tilt_x about the base's x axis, then by tilt_y about its y axis."""
+    """Let true gravity be the believed one turned by tilt_x about the base's x axis, then tilt_y about its y."""
 
     tilt_x: float
     tilt_y: float
     cause = "gravity_misalignment"
-    units = {"tilt_x": "rad", "tilt_y": "rad"}
+    units: ClassVar = {"tilt_x": "rad", "tilt_y": "rad"}
     sizes = ("tilt_x", "tilt_y")
     largest = 0.4
     local = False

@@ -4,7 +4,7 @@ The first three act on the log only, saturation and ripple on the robot.
 """
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class TorqueGain(Effect):
 
     relative_error: float
     cause = "torque_gain"
-    units = {"relative_error": "1"}
+    units: ClassVar = {"relative_error": "1"}
     sizes = ("relative_error",)
     largest = 0.6
 
@@ -53,7 +53,7 @@ class TorqueGainNonlinear(Effect):
     cubic_coefficient: float
     peak: float
     cause = "torque_gain_nonlinear"
-    units = {"cubic_coefficient": "1/(N m)^2"}
+    units: ClassVar = {"cubic_coefficient": "1/(N m)^2"}
     sizes = ("cubic_coefficient",)
 
     @classmethod
@@ -82,7 +82,7 @@ class TorqueOffsetDrift(Effect):
     total_drift: float
     time_constant: float
     cause = "torque_offset_drift"
-    units = {"total_drift": "N m"}
+    units: ClassVar = {"total_drift": "N m"}
     sizes = ("total_drift",)
 
     @classmethod
@@ -90,7 +90,9 @@ class TorqueOffsetDrift(Effect):
         """Draw a shape and a sign."""
         joints = any_joint(rng, arm)
         size = 0.1 * torque_rms(steering, joints[0] - 1)
-        return cls(joints, float(rng.choice([-1, 1])) * size, float(rng.choice([0.0, rng.uniform(5.0, 15.0)])))
+        return cls(
+            joints, float(rng.choice([-1, 1])) * size, float(rng.choice([0.0, rng.uniform(5.0, 15.0)]))
+        )
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
         """Add the drift."""
@@ -110,7 +112,7 @@ class TorqueSaturation(Effect):
     limit: float
     peak: float
     cause = "torque_saturation"
-    units = {"limit": "N m"}
+    units: ClassVar = {"limit": "N m"}
 
     @classmethod
     def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
@@ -142,7 +144,7 @@ class TorqueRipple(Effect):
     harmonic: float
     phase: float
     cause = "torque_ripple"
-    units = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
+    units: ClassVar = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
     sizes = ("amplitude",)
 
     @classmethod

@@ -30,7 +30,8 @@ class State:
 
     Positions and velocities are the motors', in rad and rad/s. `level` is the friction level in N m and
     `load` the torque in N m that moved the robot at the step before, rotor inertia included: what remains of
-    the drive's torque after friction and offset. `jacobian` gives, 3 x joints, how a point on the last link moves.
+    the drive's torque after friction and offset.
+    `jacobian` gives, 3 x joints, how a point on the last link moves with them.
     """
 
     step: float

@@ -4,7 +4,7 @@ They act on the log only; the controller tracks the true angle.
 """
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -20,7 +20,7 @@ class EncoderOffset(Effect):
 
     offset: float
     cause = "encoder_offset"
-    units = {"offset": "rad"}
+    units: ClassVar = {"offset": "rad"}
     sizes = ("offset",)
     largest = 0.3
 
@@ -43,7 +43,7 @@ class EncoderEccentricity(Effect):
     amplitude: float
     phase: float
     cause = "encoder_eccentricity"
-    units = {"amplitude": "rad", "phase": "rad"}
+    units: ClassVar = {"amplitude": "rad", "phase": "rad"}
     sizes = ("amplitude",)
     largest = 0.3
 
@@ -71,7 +71,7 @@ class EncoderQuantization(Effect):
 
     lsb: float
     cause = "encoder_quantization"
-    units = {"lsb": "rad"}
+    units: ClassVar = {"lsb": "rad"}
     sizes = ("lsb",)
     largest = 0.05
     raw = True

@@ -48,7 +48,7 @@ class FrictionByOther(_Foreign):
 
 
 class DragByOther(_Foreign):
-    """Resist with the speed squared times a wave over another joint's angle, which pushes as often as it pulls."""
+    """Resist with the speed squared times a wave over another joint's angle, pushing as often as pulling."""
 
     cause = "foreign_drag_by_other_joint"
 

@@ -5,14 +5,13 @@ where it sticks.
 """
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
 from tests.plant.effects.effect import Effect, Hidden, Signals, State
 from tests.plant.engine import Steering
 from tests.plant.robots import Arm
-
 
 STUCK = 3e-5
 """Path in rad within which a joint counts as sticking."""
@@ -32,7 +31,7 @@ class Stribeck(Effect):
     excess_torque: float
     stribeck_velocity: float
     cause = "friction_stribeck"
-    units = {"excess_torque": "N m", "stribeck_velocity": "rad/s"}
+    units: ClassVar = {"excess_torque": "N m", "stribeck_velocity": "rad/s"}
     sizes = ("excess_torque",)
 
     @classmethod
@@ -55,7 +54,7 @@ class ViscousNonlinear(Effect):
     coefficient: float
     exponent: float
     cause = "friction_viscous_nonlinear"
-    units = {"coefficient": "N m (s/rad)^p", "exponent": "1"}
+    units: ClassVar = {"coefficient": "N m (s/rad)^p", "exponent": "1"}
     sizes = ("coefficient",)
 
     @classmethod
@@ -77,7 +76,7 @@ class Asymmetric(Effect):
 
     delta_viscous: float
     cause = "friction_asymmetric"
-    units = {"delta_viscous": "N m s/rad"}
+    units: ClassVar = {"delta_viscous": "N m s/rad"}
     sizes = ("delta_viscous",)
 
     @classmethod
@@ -93,11 +92,11 @@ class Asymmetric(Effect):
 
 @dataclass(frozen=True)
 class LoadDependent(Effect):
-    """Add to the level load_coefficient |load|, the load being what moves the robot, rotor inertia included."""
+    """Add to the level load_coefficient |load|: of the torque that moves the robot, rotor inertia included."""
 
     load_coefficient: float
     cause = "friction_load_dependent"
-    units = {"load_coefficient": "1"}
+    units: ClassVar = {"load_coefficient": "1"}
     sizes = ("load_coefficient",)
     largest = 0.5
 
@@ -125,7 +124,7 @@ class Temperature(Effect):
     time_constant: float
     logged: bool
     cause = "friction_temperature"
-    units = {"coulomb_slope": "N m", "viscous_slope": "N m s/rad", "time_constant": "s"}
+    units: ClassVar = {"coulomb_slope": "N m", "viscous_slope": "N m s/rad", "time_constant": "s"}
     sizes = ("coulomb_slope", "viscous_slope")
     rise = 15.0
 
@@ -168,7 +167,7 @@ class PositionDependent(Effect):
     harmonic: float
     phase: float
     cause = "friction_position_dependent"
-    units = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
+    units: ClassVar = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
     sizes = ("amplitude",)
 
     @classmethod
@@ -192,7 +191,7 @@ class Presliding(Effect):
 
     presliding_distance: float
     cause = "friction_presliding"
-    units = {"presliding_distance": "rad"}
+    units: ClassVar = {"presliding_distance": "rad"}
     sizes = ("presliding_distance",)
     largest = 0.3
     last = True
@@ -218,7 +217,7 @@ class Presliding(Effect):
         """
         velocity = float(state.velocity[self.own])
         path = abs(velocity) * state.step
-        for name, distance in (("bristle", self.presliding_distance), ("direction", STUCK)):
+        for name, distance in (("bristle", max(self.presliding_distance, STUCK)), ("direction", STUCK)):
             key = f"{name} {self.own}"
             goal = 1.0 if velocity > 0.0 else -1.0
             state.memory[key] = goal + (state.memory.get(key, 0.0) - goal) * np.exp(-path / distance)

@@ -1,7 +1,7 @@
 """Hide what acts on the robot from outside: a load taken up, a spring, a cable, a contact."""
 
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class PayloadChange(Effect):
     com_z: float
     time: float
     cause = "payload_change"
-    units = {"mass": "kg", "com_x": "m", "com_y": "m", "com_z": "m", "time": "s"}
+    units: ClassVar = {"mass": "kg", "com_x": "m", "com_y": "m", "com_z": "m", "time": "s"}
     sizes = ("mass",)
     local = False
 
@@ -35,7 +35,7 @@ class PayloadChange(Effect):
         """Draw a body of a tenth of the last link's mass, taken up in the middle half of the log."""
         duration = len(steering.command) * 0.0005
         own = 0.1 * float(arm.bodies[-1][9])
-        centre = rng.uniform(-0.05, 0.05, 3) + (0.0, 0.0, 0.08)
+        centre = rng.uniform(-0.05, 0.05, 3) + np.array([0.0, 0.0, 0.08])
         if arm.name.startswith("planar"):
             centre = np.array([rng.uniform(0.1, 0.3), *rng.uniform(-0.03, 0.03, 2)])
         return cls((arm.joints,), own, *(float(one) for one in centre), rng.uniform(0.3, 0.7) * duration)
@@ -52,7 +52,7 @@ class SpringCompensator(Effect):
     stiffness: float
     rest_angle: float
     cause = "spring_compensator"
-    units = {"stiffness": "N m/rad"}
+    units: ClassVar = {"stiffness": "N m/rad"}
     sizes = ("stiffness",)
 
     @classmethod
@@ -76,7 +76,7 @@ class CableForce(Effect):
     stiffness: float
     engage_angle: float
     cause = "cable_force"
-    units = {"stiffness": "N m/rad", "engage_angle": "rad"}
+    units: ClassVar = {"stiffness": "N m/rad", "engage_angle": "rad"}
     sizes = ("stiffness",)
 
     @classmethod
@@ -103,7 +103,7 @@ class ExternalContact(Effect):
     direction: tuple[float, float, float]
     intervals: tuple[tuple[float, float], ...]
     cause = "external_contact"
-    units = {"force": "N"}
+    units: ClassVar = {"force": "N"}
     sizes = ("force",)
     local = False
 

@@ -1,7 +1,7 @@
 """Hide effects of time: a torque channel that lags or is filtered, stamps that scatter, rows that repeat."""
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from scipy import signal
@@ -22,7 +22,7 @@ class TimeDelay(Effect):
 
     delay: float
     cause = "time_delay"
-    units = {"delay": "s"}
+    units: ClassVar = {"delay": "s"}
     sizes = ("delay",)
     largest = 0.03
     local = False
@@ -47,7 +47,7 @@ class TorqueFilterLag(Effect):
 
     time_constant: float
     cause = "torque_filter_lag"
-    units = {"time_constant": "s"}
+    units: ClassVar = {"time_constant": "s"}
     sizes = ("time_constant",)
     largest = 0.05
     local = False
@@ -71,7 +71,7 @@ class TimestampJitter(Effect):
 
     std: float
     cause = "timestamp_jitter"
-    units = {"std": "s"}
+    units: ClassVar = {"std": "s"}
     sizes = ("std",)
     largest = 0.002
     local = False
@@ -96,7 +96,7 @@ class DroppedSamples(Effect):
 
     fraction: float
     cause = "dropped_samples"
-    units = {"fraction": "1"}
+    units: ClassVar = {"fraction": "1"}
     sizes = ("fraction",)
     largest = 0.4
     local = False

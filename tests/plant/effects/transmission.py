@@ -1,7 +1,7 @@
-"""Hide effects of the transmission: an elastic joint, play, a gear coupling or a rotor that nobody declared."""
+"""Hide effects of the transmission: an elastic joint, play, a coupling or a rotor that nobody declared."""
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -19,7 +19,7 @@ class JointElasticity(Effect):
     stiffness: float
     damping: float
     cause = "joint_elasticity"
-    units = {"stiffness": "N m/rad", "damping": "N m s/rad"}
+    units: ClassVar = {"stiffness": "N m/rad", "damping": "N m s/rad"}
     splits = True
 
     @classmethod
@@ -47,7 +47,7 @@ class Backlash(Effect):
     contact: float
     damping: float
     cause = "backlash"
-    units = {"half_width": "rad"}
+    units: ClassVar = {"half_width": "rad"}
     sizes = ("half_width",)
     largest = 0.05
     splits = True
@@ -82,7 +82,7 @@ class JointCoupling(Effect):
     Fcm: float
     Iam: float
     cause = "joint_coupling"
-    units = {"Fvm": "N m s/rad", "Fcm": "N m", "Iam": "kg m2"}
+    units: ClassVar = {"Fvm": "N m s/rad", "Fcm": "N m", "Iam": "kg m2"}
     sizes = ("Fvm", "Fcm", "Iam")
 
     @classmethod
@@ -118,7 +118,7 @@ class RotorInertiaMissing(Effect):
 
     IA: float
     cause = "rotor_inertia_missing"
-    units = {"IA": "kg m2"}
+    units: ClassVar = {"IA": "kg m2"}
     sizes = ("IA",)
 
     @classmethod

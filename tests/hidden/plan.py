@@ -1,0 +1,89 @@
+"""Lay out a run: which cases are drawn from a seed, and how one of them is put before the diagnosis."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from tests.hidden.score import Score, score
+from tests.plant.cases import Case, draw, draw_clean, draw_foreign
+from tests.plant.effects.registry import EFFECTS
+from tests.plant.sensors import NOISES
+
+STRENGTHS = (1.0, 3.0, 0.3)
+KINDS = (
+    "single",
+    "single",
+    "combination",
+    "single",
+    "clean",
+    "single",
+    "combination",
+    "single",
+    "foreign",
+    "single",
+)
+"""What ten cases in a row are."""
+
+
+@dataclass(frozen=True)
+class Order:
+    """Ask for one case."""
+
+    kind: str
+    seed: int
+    cause: str | None = None
+    strength: float = 1.0
+    effects: int = 1
+    noise: str | None = None
+
+
+def orders(
+    seed: int,
+    cases: int,
+    *,
+    strength: float | None = None,
+    cause: str | None = None,
+    kind: str | None = None,
+) -> list[Order]:
+    """Lay out a run: causes, strengths, noises and kinds take turns, so that tables fill evenly.
+
+    A given cause asks for single effects; a given kind for nothing else.
+    """
+    causes = list(EFFECTS)
+    listed = []
+    singles = 0
+    for number in range(cases):
+        own = 100_000 * seed + number
+        what = kind or ("single" if cause else KINDS[number % len(KINDS)])
+        noise = NOISES[number % len(NOISES)] if what == "clean" else None
+        name = cause or causes[(singles + 7 * seed) % len(causes)] if what == "single" else None
+        size = strength or (STRENGTHS[singles % len(STRENGTHS)] if what == "single" else 1.0)
+        effects = 2 + number // 3 % 2 if what == "combination" else 1
+        singles += what == "single"
+        listed.append(Order(what, own, name, size, effects, noise))
+    return listed
+
+
+def drawn(order: Order) -> Case:
+    """Draw the case that was ordered."""
+    if order.kind == "clean":
+        return draw_clean(order.seed, noise=order.noise)
+    if order.kind == "foreign":
+        return draw_foreign(order.seed, order.strength)
+    return draw(order.seed, order.cause, order.strength, effects=order.effects)
+
+
+def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping[str, Any]:
+    """Ask for a diagnosis of the case's log; give the `diagnosis` of the result document."""
+    from core.study import DiagnoseRequest, diagnose
+
+    document = diagnose(DiagnoseRequest(case.believed, (case.log,), options or {}))
+    found = document["diagnosis"]
+    assert isinstance(found, dict)
+    return found
+
+
+def run(order: Order) -> tuple[Order, Score]:
+    """Draw a case, ask, and score the answer."""
+    case = drawn(order)
+    return order, score(answered(case), case.truth, kind=order.kind, noise=case.noise, seed=order.seed)

@@ -1,0 +1,40 @@
+"""A fixed handful of hidden effects that every change has to keep finding; `make hidden` draws more."""
+
+import pytest
+
+from core import study
+from tests.hidden.plan import Order, run
+
+pytestmark = pytest.mark.skipif(
+    not hasattr(study, "diagnose"), reason="SKIPPED: core.study has no diagnose yet, nothing can be asked"
+)
+
+SINGLES = (
+    Order("single", 7001, "friction_stribeck", 3.0),
+    Order("single", 7002, "friction_load_dependent", 3.0),
+    Order("single", 7003, "time_delay", 3.0),
+    Order("single", 7004, "torque_gain", 3.0),
+    Order("single", 7005, "torque_ripple", 3.0),
+    Order("single", 7006, "joint_elasticity", 3.0),
+)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("order", SINGLES, ids=lambda order: order.cause)
+def test_a_strong_effect_is_named_and_nothing_else(order):
+    _, score = run(order)
+    assert [answer.named for answer in score.answers] == [True]
+    assert score.extra == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("noise", ["white", "strong_ar1"])
+def test_nothing_is_named_on_a_clean_log(noise):
+    _, score = run(Order("clean", 7101, noise=noise))
+    assert score.extra == ()
+
+
+@pytest.mark.slow
+def test_two_effects_are_both_named():
+    _, score = run(Order("combination", 7201, strength=3.0, effects=2))
+    assert [answer.named for answer in score.answers] == [True, True]

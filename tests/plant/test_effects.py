@@ -1,0 +1,182 @@
+"""Every effect alone: nothing at size zero, more at more, on the joint that it says, with the sign that it says."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tests.plant.cases import World, draw_world
+from tests.plant.effects.drive import TorqueGain, TorqueOffsetDrift
+from tests.plant.effects.effect import Effect
+from tests.plant.effects.encoder import EncoderOffset
+from tests.plant.effects.friction import Asymmetric, LoadDependent, Presliding
+from tests.plant.effects.registry import EFFECTS, FOREIGN
+from tests.plant.effects.surroundings import PayloadChange, SpringCompensator
+from tests.plant.effects.timing import DroppedSamples, TimeDelay, TorqueFilterLag
+from tests.plant.effects.transmission import JointElasticity
+from tests.plant.engine import build, inverse
+from tests.plant.sensors import counted
+
+EVERY = EFFECTS | FOREIGN
+PARAMETERS = {
+    "friction_stribeck": {"excess_torque", "stribeck_velocity"},
+    "friction_viscous_nonlinear": {"coefficient", "exponent"},
+    "friction_asymmetric": {"delta_viscous"},
+    "friction_load_dependent": {"load_coefficient"},
+    "friction_temperature": {"coulomb_slope", "viscous_slope", "time_constant"},
+    "friction_position_dependent": {"amplitude", "harmonic", "phase"},
+    "friction_presliding": {"presliding_distance"},
+    "joint_elasticity": {"stiffness", "damping"},
+    "backlash": {"half_width"},
+    "joint_coupling": {"Fvm", "Fcm", "Iam"},
+    "rotor_inertia_missing": {"IA"},
+    "torque_ripple": {"amplitude", "harmonic", "phase"},
+    "torque_gain": {"relative_error"},
+    "torque_gain_nonlinear": {"cubic_coefficient"},
+    "torque_offset_drift": {"total_drift"},
+    "torque_saturation": {"limit"},
+    "time_delay": {"delay"},
+    "torque_filter_lag": {"time_constant"},
+    "timestamp_jitter": {"std"},
+    "dropped_samples": {"fraction"},
+    "encoder_offset": {"offset"},
+    "encoder_eccentricity": {"amplitude", "phase"},
+    "encoder_quantization": {"lsb"},
+    "kinematic_error": {"error"},
+    "gravity_misalignment": {"tilt_x", "tilt_y"},
+    "payload_change": {"mass", "com_x", "com_y", "com_z", "time"},
+    "spring_compensator": {"stiffness"},
+    "cable_force": {"stiffness", "engage_angle"},
+    "external_contact": {"force"},
+}
+"""The enumeration of causes and of their parameters, as the public document names them."""
+
+
+@cache
+def world(robot: str = "planar-3") -> World:
+    return draw_world(np.random.default_rng(11), 11, robot=robot, noise="white", duration=8.0)
+
+
+def drawn(cause: str, robot: str = "planar-3") -> Effect:
+    there = world(robot)
+    return EVERY[cause].draw(np.random.default_rng(2), there.arm, there.steering)
+
+
+def test_every_cause_of_the_enumeration_can_be_hidden():
+    assert set(EFFECTS) == set(PARAMETERS)
+
+
+@pytest.mark.parametrize("cause", EFFECTS)
+def test_the_hidden_numbers_are_named_as_the_document_names_them(cause):
+    names = {one.name for one in drawn(cause).truth()}
+    extra = {f"{end}_{number}" for end in ("start", "end") for number in range(1, 5)} | {"alpha", "d", "r"}
+    assert PARAMETERS[cause] - {"time_constant"} <= names <= PARAMETERS[cause] | extra
+
+
+@pytest.mark.parametrize("cause", [name for name in EVERY if name != "joint_elasticity"])
+def test_an_effect_of_size_zero_leaves_nothing(cause):
+    effect = drawn(cause)
+    there = world()
+    left = there.residue(effect.scaled(0.0)).strength.max()
+    reached = there.residue(effect).strength.max()
+    # Backlash of no width is still a gear with stiff contact, whose own softness shows a little.
+    assert left < (0.3 if effect.splits else 0.02)
+    assert reached > 3.0 * left
+
+
+def test_an_elastic_joint_shows_less_the_stiffer_it_is():
+    effect = replace(drawn("joint_elasticity"), joints=(3,))
+    assert isinstance(effect, JointElasticity)
+    soft, stiff = (world().residue(effect.scaled(factor)).strength.max() for factor in (20.0, 1.0))
+    assert stiff < 0.5 * soft
+
+
+@pytest.mark.parametrize("cause", ["friction_stribeck", "torque_ripple", "torque_gain", "encoder_offset"])
+def test_an_effect_shows_most_where_it_sits_or_below(cause):
+    effect = replace(drawn(cause), joints=(3,))
+    strength = world().residue(effect).strength
+    assert np.argmax(strength) + 1 <= 3
+    assert strength.max() > 0.05
+
+
+def test_a_delay_shows_the_torque_of_earlier():
+    ideal = world().signals(())
+    late = world().signals((TimeDelay((1, 2, 3), 0.004),))
+    np.testing.assert_allclose(late.torque[1:], ideal.torque[:-1], atol=1e-9)
+
+
+def test_a_lag_follows_a_slow_torque_by_its_time_constant():
+    ideal, late = world().signals(()), world().signals((TorqueFilterLag((1, 2, 3), 0.02),))
+    moving = slice(250, None)
+    shifted = np.interp(ideal.time - 0.02, ideal.time, ideal.torque[:, 0])
+    near = np.sqrt(np.mean((late.torque[moving, 0] - shifted[moving]) ** 2))
+    far = np.sqrt(np.mean((ideal.torque[moving, 0] - shifted[moving]) ** 2))
+    assert near < 0.3 * far
+
+
+def test_a_wrong_gain_a_drift_and_an_offset_are_logged_as_they_are_documented():
+    ideal = world().signals(())
+    gained = world().signals((TorqueGain((2,), 0.1),))
+    drifted = world().signals((TorqueOffsetDrift((1,), 0.5, 0.0),))
+    offset = world().signals((EncoderOffset((3,), 0.05),))
+    np.testing.assert_allclose(gained.torque[:, 1], 1.1 * ideal.torque[:, 1])
+    assert drifted.torque[-1, 0] - ideal.torque[-1, 0] == pytest.approx(0.5)
+    np.testing.assert_allclose(offset.position[:, 2], ideal.position[:, 2] + 0.05)
+
+
+def rigid_torque(there: World, signals: object) -> np.ndarray:
+    arm = there.arm
+    state = (signals.position, signals.velocity, signals.acceleration)
+    drives = arm.rotor_inertia * signals.acceleration + arm.viscous * signals.velocity + arm.offset
+    return inverse(build(arm), state) + drives
+
+
+def test_the_effects_torque_is_what_the_drive_has_to_give_more():
+    there = world()
+    for effect, joint, law in (
+        (SpringCompensator((2,), 3.0, 0.1), 1, lambda q, dq: 3.0 * (q - 0.1)),
+        (Asymmetric((1,), 0.4), 0, lambda q, dq: 0.4 * np.abs(dq)),
+    ):
+        signals = there.signals((effect,))
+        moving = np.abs(signals.direction[:, joint]) > 0.999
+        friction = there.arm.coulomb[joint] * np.sign(signals.velocity[:, joint])
+        more = (signals.torque - rigid_torque(there, signals))[:, joint] - friction
+        wanted = law(signals.position[:, joint], signals.velocity[:, joint])
+        np.testing.assert_allclose(more[moving], wanted[moving], atol=0.02 * np.abs(wanted).max())
+
+
+def test_friction_grows_with_the_load_that_moves_the_robot():
+    there = world()
+    signals = there.signals((LoadDependent((1,), 0.2),))
+    moving = np.abs(signals.direction[:, 0]) > 0.999
+    rigid = rigid_torque(there, signals)[:, 0]
+    load = rigid - there.arm.offset[0] - there.arm.viscous[0] * signals.velocity[:, 0]
+    more = (signals.torque[:, 0] - rigid) * np.sign(signals.velocity[:, 0]) - there.arm.coulomb[0]
+    error = np.abs(more[moving] - 0.2 * np.abs(load[moving]))
+    assert np.percentile(error, 95) < 0.02 * np.abs(load).max()
+
+
+def test_presliding_friction_is_below_its_level_after_a_reversal_and_reaches_it():
+    there = world()
+    signals = there.signals((Presliding((1,), 0.02),))
+    friction = (signals.torque - rigid_torque(there, signals))[:, 0] / there.arm.coulomb[0]
+    assert np.abs(friction).max() == pytest.approx(1.0, abs=0.02)
+    assert np.mean(np.abs(friction) < 0.9) > 2.0 * np.mean(
+        np.abs(there.clean.sampled().direction[:, 0]) < 0.9
+    )
+
+
+def test_a_payload_changes_nothing_before_it_is_taken_up():
+    there = world()
+    loaded = there.signals((PayloadChange((3,), 0.5, 0.2, 0.0, 0.0, 4.0),))
+    clean = there.signals(())
+    before = clean.time < 3.99
+    np.testing.assert_allclose(loaded.torque[before], clean.torque[before], atol=1e-6)
+    assert np.abs(loaded.torque[~before] - clean.torque[~before]).max() > 0.5
+
+
+def test_dropped_rows_repeat_the_row_before_them():
+    signals = world().signals((DroppedSamples((1, 2, 3), 0.1),))
+    repeated = np.all(np.diff(counted(signals), axis=0) == 0.0, axis=1) & (np.diff(signals.kept) == 0)
+    assert 0.05 < np.mean(repeated) < 0.15
