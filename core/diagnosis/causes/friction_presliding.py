@@ -43,10 +43,10 @@ class FrictionPresliding(OwnJointCause):
     near_reversals = True
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the distance from a thousandth to a sixth of the joint's range of motion."""
+        """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
         del believed
         span = max(float(np.ptp(look.state.position[:, site[0] - 1])), 1e-6)
-        return [{"presliding_distance": value} for value in spread(1e-3 * span, 0.16 * span, 9)]
+        return [{"presliding_distance": value} for value in spread(2e-4 * span, 0.16 * span, 11)]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""

@@ -86,6 +86,13 @@ class JointCoupling(OwnJointCause):
         sums = "sum" if solved.scalars["weight"] >= 0.0 else "difference"
         return (
             f"The motor of joint {second} turns with the {sums} of joints {first} and {second}, which nobody "
-            f"declared: inertia {shown(found['Iam'])}, viscous friction {shown(found['Fvm'])}, "
-            f"Coulomb friction {shown(found['Fcm'])}"
+            f"declared: inertia {_known(found['Iam'])}, viscous friction {_known(found['Fvm'])}, "
+            f"Coulomb friction {_known(found['Fcm'])}"
         )
+
+
+def _known(quantity: Quantity) -> str:
+    """Write a quantity; an inertia that links or rotors may as well have is not a number worth reading."""
+    if quantity.standard_deviation > abs(quantity.value):
+        return "not to be told from zero"
+    return shown(quantity)

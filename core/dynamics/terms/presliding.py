@@ -15,12 +15,16 @@ from core.dynamics.terms.effect import OneJointTerm, Symbol
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
+STANDING = 0.01
+"""Share of its largest speed below which a joint counts as standing when a stretch begins."""
+
 
 @dataclass(frozen=True, eq=False)
 class Presliding(OneJointTerm):
     """Model friction that builds up over `presliding_distance`, rad (m), to the level in question.
 
-    At the start of a stretch, whose past is not known, friction is taken as built up.
+    Of the time before a stretch nothing is known: friction is taken as built up where the joint is moving at
+    the stretch's start, and as nothing where it stands.
     """
 
     presliding_distance: float
@@ -50,6 +54,8 @@ def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
     firsts = np.flatnonzero(np.diff(sign, prepend=0.0))
     begins = travel[firsts]
     missing = np.zeros(len(firsts))
+    if abs(velocity[0]) <= STANDING * np.abs(velocity).max():
+        missing[0] = -sign[0]
     for turn in range(1, len(firsts)):
         left = missing[turn - 1] * np.exp(-(begins[turn] - begins[turn - 1]) / distance)
         missing[turn] = left + sign[firsts[turn - 1]] - sign[firsts[turn]]
