@@ -53,7 +53,9 @@ def smooth_arm() -> Mechanism:
     """Give the scene's arm without Coulomb friction, whose reversals the loop would not see."""
     scene = yumi_arm()
     model = standard_model(scene.robot, ("rigid_body", "rotor_inertia", "viscous"))
-    place = {parameter.name: value for parameter, value in zip(scene.model.parameters, scene.truth, strict=True)}
+    place = {
+        parameter.name: value for parameter, value in zip(scene.model.parameters, scene.truth, strict=True)
+    }
     return mechanism_of(model, np.array([place[parameter.name] for parameter in model.parameters]))
 
 
@@ -76,7 +78,11 @@ def peer(mechanism: Mechanism) -> Any:  # noqa: ANN401 (pinocchio publishes no t
 
 
 def looped(
-    model: Any, mechanism: Mechanism, start: MotionState, torque: np.ndarray, windows: int  # noqa: ANN401
+    model: Any,  # noqa: ANN401
+    mechanism: Mechanism,
+    start: MotionState,
+    torque: np.ndarray,
+    windows: int,
 ) -> np.ndarray:
     """Simulate window after window, step after step, with pinocchio; gives (windows, steps, 2, joints)."""
     data = model.createData()

@@ -48,7 +48,7 @@ class Drive:
         """Count the steps."""
         return len(self.torque) - 1
 
-    def at(self, number: int, share: np.ndarray, lanes: np.ndarray | slice, states: States) -> np.ndarray:
+    def at(self, number: int, share: np.ndarray, lanes: np.ndarray | None, states: States) -> np.ndarray:
         """Give the torque after a share of a step, less the feedback's damping, which is taken implicitly."""
         torque = _between(self.torque, number, share, lanes)
         if self.feedback is None:
@@ -65,13 +65,15 @@ class Drive:
         back = self.feedback
         error = back.position[number] - states.position
         slip = back.velocity[number] - states.velocity
-        return np.asarray(self.torque[number] + back.stiffness[:, None] * error + back.damping[:, None] * slip)
+        return np.asarray(
+            self.torque[number] + back.stiffness[:, None] * error + back.damping[:, None] * slip
+        )
 
 
-def _between(table: np.ndarray, number: int, share: np.ndarray, lanes: np.ndarray | slice) -> np.ndarray:
-    if isinstance(lanes, slice) and (share == share[0]).all() and share[0] in {0.0, 1.0}:
+def _between(table: np.ndarray, number: int, share: np.ndarray, lanes: np.ndarray | None) -> np.ndarray:
+    if lanes is None and (share == share[0]).all() and share[0] in {0.0, 1.0}:
         return np.asarray(table[number + int(share[0])])
     before, after = table[number], table[number + 1]
-    if not isinstance(lanes, slice):
+    if lanes is not None:
         before, after = np.take(before, lanes, axis=1), np.take(after, lanes, axis=1)
     return np.asarray(before + share * (after - before))

@@ -29,12 +29,12 @@ _CUTS = 12
 
 @dataclass(frozen=True, eq=False)
 class Stride:
-    """Say where in a drive's step the states are: step number, shares already passed and to go, and who."""
+    """Say where in a drive's step states are: number, shares passed and to go, and who (None: all)."""
 
     number: int
     passed: np.ndarray
     to_go: np.ndarray
-    lanes: np.ndarray | slice
+    lanes: np.ndarray | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class Integrator:
         for part in range(parts):
             count = len(states.time)
             passed, to_go = np.full(count, part / parts), np.full(count, 1.0 / parts)
-            states = self._part(states, Stride(number, passed, to_go, slice(None)))
+            states = self._part(states, Stride(number, passed, to_go, None))
         _check(states)
         return states
 
@@ -68,12 +68,16 @@ class Integrator:
         return self.mechanism.damping + (0.0 if back is None else np.diag(back.damping))
 
     def _part(self, states: States, stride: Stride) -> States:
+        """Take one step, in as many pieces as there are reversals in it."""
         trial, slope = self._heun(states, stride)
         share = self._first_reversal(states, trial, slope, stride)
         if share is None:
             return trial
-        lanes = np.flatnonzero(share < 1.0)
-        before, left = states.chosen(lanes), replace(stride, passed=stride.passed[lanes], to_go=stride.to_go[lanes])
+        lanes: np.ndarray = np.flatnonzero(share < 1.0)
+        before, left = (
+            states.chosen(lanes),
+            replace(stride, passed=stride.passed[lanes], to_go=stride.to_go[lanes]),
+        )
         left = replace(left, lanes=lanes)
         share = share[lanes]
         for cuts in range(_CUTS, 0, -1):
@@ -82,12 +86,13 @@ class Integrator:
             after, slope = self._heun(before, left)
             found = self._first_reversal(before, after, slope, left)
             if found is None or cuts == 1:
-                trial.put(left.lanes, after if found is None else self._rested(before, after))
+                trial.put(lanes, after if found is None else self._rested(before, after))
                 break
             done, again = np.flatnonzero(found == 1.0), np.flatnonzero(found < 1.0)
-            trial.put(left.lanes[done], after.chosen(done))
+            trial.put(lanes[done], after.chosen(done))
             before, share = before.chosen(again), found[again]
-            left = Stride(left.number, left.passed[again], left.to_go[again], left.lanes[again])
+            lanes = lanes[again]
+            left = Stride(left.number, left.passed[again], left.to_go[again], lanes)
         return trial
 
     def _heun(self, states: States, stride: Stride) -> tuple[States, np.ndarray]:
@@ -127,7 +132,7 @@ class Integrator:
     def _first_reversal(
         self, before: States, after: States, slope: np.ndarray, stride: Stride
     ) -> np.ndarray | None:
-        """Give the share of the step after which the first sliding speed changes sign; None where none does."""
+        """Give the share of the step after which the first sliding speed changes sign, if one does."""
         weights = self.mechanism.weights
         if not len(weights):
             return None
@@ -137,7 +142,7 @@ class Integrator:
             return None
         begin = weights @ before.velocity
         rate = (weights @ slope) * (self.drive.step * stride.to_go)
-        return np.where(reversed_, _root(begin, rate, end), 1.0).min(axis=0)
+        return np.asarray(np.where(reversed_, _root(begin, rate, end), 1.0).min(axis=0))
 
     def _cut(self, before: States, stride: Stride, share: np.ndarray) -> States:
         """Step up to the first reversal and put what reverses there to rest."""
@@ -170,7 +175,7 @@ def _root(begin: np.ndarray, rate: np.ndarray, end: np.ndarray) -> np.ndarray:
     with np.errstate(invalid="ignore", divide="ignore"):
         spread = np.sqrt(np.maximum(rate * rate - 4.0 * bend * begin, 0.0))
         root = 2.0 * begin / (-rate + np.where(begin > 0.0, spread, -spread))
-    return np.clip(np.nan_to_num(root, nan=0.0, posinf=1.0, neginf=0.0), 0.0, 1.0 - 1e-12)
+    return np.asarray(np.clip(np.nan_to_num(root, nan=0.0, posinf=1.0, neginf=0.0), 0.0, 1.0 - 1e-12))
 
 
 def _check(states: States) -> None:
@@ -184,6 +189,6 @@ def _check(states: States) -> None:
         if singular
         else "the simulated motion diverges",
         evidence={"time": float(states.time[lane]), "joint": joint + 1, "speed": float(speed[joint, lane])},
-        remedy="simulate parameters that the semidefinite programme has estimated, and check that the measured"
-        " torque belongs to the measured motion",
+        remedy="simulate parameters that the semidefinite programme has estimated, and check that the"
+        " measured torque belongs to the measured motion",
     )

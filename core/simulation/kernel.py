@@ -8,7 +8,7 @@ composite rigid bodies).
 """
 
 # Types stand in the signatures; numbers and tables are handed on one by one, which is what compiles well.
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917, PLR0914
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
 # mypy: disable-error-code="no-untyped-def"
 
 import numpy as np
@@ -108,9 +108,21 @@ def _place_body(body, frame, own, bodies, count):
         )
         # half of m p p' belongs to each side of h p' + p h'
         g0, g1, g2 = h0 + 0.5 * m * p0, h1 + 0.5 * m * p1, h2 + 0.5 * m * p2
-        a0, a1, a2 = r00 * xx + r01 * xy + r02 * xz, r00 * xy + r01 * yy + r02 * yz, r00 * xz + r01 * yz + r02 * zz
-        b0, b1, b2 = r10 * xx + r11 * xy + r12 * xz, r10 * xy + r11 * yy + r12 * yz, r10 * xz + r11 * yz + r12 * zz
-        c0, c1, c2 = r20 * xx + r21 * xy + r22 * xz, r20 * xy + r21 * yy + r22 * yz, r20 * xz + r21 * yz + r22 * zz
+        a0, a1, a2 = (
+            r00 * xx + r01 * xy + r02 * xz,
+            r00 * xy + r01 * yy + r02 * yz,
+            r00 * xz + r01 * yz + r02 * zz,
+        )
+        b0, b1, b2 = (
+            r10 * xx + r11 * xy + r12 * xz,
+            r10 * xy + r11 * yy + r12 * yz,
+            r10 * xz + r11 * yz + r12 * zz,
+        )
+        c0, c1, c2 = (
+            r20 * xx + r21 * xy + r22 * xz,
+            r20 * xy + r21 * yy + r22 * yz,
+            r20 * xz + r21 * yz + r22 * zz,
+        )
         e0, e1, e2 = 2.0 * g0 * p0, 2.0 * g1 * p1, 2.0 * g2 * p2
         body[own, 0, s] = a0 * r00 + a1 * r01 + a2 * r02 + e1 + e2
         body[own, 1, s] = a0 * r10 + a1 * r11 + a2 * r12 - g0 * p1 - g1 * p0
@@ -231,7 +243,9 @@ def move_block(robot, tables, position, velocity, acceleration, many):
         own, parent, drive = np.uintp(j + 1), np.uintp(antecedent[j]), np.uintp(joint[j])
         slides = 1.0 if prismatic[j] else 0.0
         fixed, shift = rotation[j], translation[j]
-        _place_link(frame, parent, own, moved, position, drive, count, ratio[j], offset[j], slides, fixed, shift)
+        _place_link(
+            frame, parent, own, moved, position, drive, count, ratio[j], offset[j], slides, fixed, shift
+        )
         _place_axis(axis, frame, own, ratio[j] * (1.0 - slides), ratio[j] * slides, count)
         _move_link(motion, parent, own, moved, axis, velocity, acceleration, drive, count)
         _place_body(body, frame, own, bodies[j], count)

@@ -1,7 +1,7 @@
 """Sort a model's torque terms by how they have to be integrated.
 
-What multiplies acceleration joins the mass matrix, viscous friction is taken implicitly, Coulomb friction is a
-set with a level, and every other term is evaluated as it stands at the state of the moment.
+What multiplies acceleration joins the mass matrix, viscous friction is taken implicitly, Coulomb friction is
+a set with a level, and every other term is evaluated as it stands at the state of the moment.
 """
 
 from collections.abc import Iterator
@@ -103,7 +103,9 @@ class Mechanism:
         moved = np.empty((self.joints, len(state.position)))
         tables = (columns(one) for one in (state.position, state.velocity, state.acceleration))
         forward.torques(self.bodies, *tables, moved)
-        kept = [(term, part) for term, part in _parts(self.model, self.parameters) if term.name != "rigid_body"]
+        kept = [
+            (term, part) for term, part in _parts(self.model, self.parameters) if term.name != "rigid_body"
+        ]
         rest = replace(self.model, terms=tuple(term for term, _ in kept))
         values = np.concatenate([np.zeros(0), *(part for _, part in kept)])
         return np.asarray(moved.T + rest.torque(values, state))
@@ -112,8 +114,8 @@ class Mechanism:
 def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
     """Sort the terms of a model.
 
-    A smoothed Coulomb term is simulated with the sign it stands for: its width covers for errors of a measured
-    velocity, which a simulated one does not have.
+    A smoothed Coulomb term is simulated with the sign it stands for: its width covers for errors of a
+    measured velocity, which a simulated one does not have.
 
     Raises
     ------
@@ -127,27 +129,13 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
             remedy="give one finite number per standard parameter of the model",
         )
     joints = len(model.robot.joints)
-    inertia, damping, offset = np.zeros((joints, joints)), np.zeros((joints, joints)), np.zeros(joints)
-    levels, coupled, others = np.zeros(joints), [], []
-    for term, values in _parts(model, parameters):
-        own = [joint for joint, _ in term.entries(model.robot)]
-        if isinstance(term, RotorInertia):
-            inertia[own, own] += values
-        elif isinstance(term, Viscous):
-            damping[own, own] += values
-        elif isinstance(term, Coulomb):
-            levels[own] += values
-        elif isinstance(term, Offset):
-            offset[own] += values
-        elif isinstance(term, GearCoupling):
-            coupled += _couplings(model.robot, values)
-        elif not isinstance(term, RigidBody):
-            others.append((term, values))
-    for weights, values in coupled:
-        inertia += values[0] * np.outer(weights, weights)
-        damping += values[1] * np.outer(weights, weights)
+    drives, coupled, others = _sorted(model, parameters)
+    inertia, damping = np.diag(drives[RotorInertia]), np.diag(drives[Viscous])
+    for weights, (rotor, viscous, _) in coupled:
+        inertia = inertia + rotor * np.outer(weights, weights)
+        damping = damping + viscous * np.outer(weights, weights)
     weights = np.vstack([np.eye(joints), *(weights[None] for weights, _ in coupled)])
-    levels = np.concatenate([levels, [values[2] for _, values in coupled]])
+    levels = np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]])
     _check_levels(levels)
     # Any term may jump where its joint stands: only a model without such terms can leave joints out.
     kept = (levels > 0.0) | (np.arange(len(levels)) < joints) & bool(others)
@@ -156,7 +144,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         parameters=parameters,
         inertia=inertia,
         damping=damping,
-        offset=offset,
+        offset=drives[Offset],
         weights=weights[kept],
         levels=levels[kept],
         others=DynamicModel(model.robot, tuple(term for term, _ in others)),
@@ -175,6 +163,25 @@ def _parts(model: DynamicModel, parameters: Parameters) -> Iterator[tuple[Term, 
         stop = start + len(term.parameters(model.robot))
         yield term, np.asarray(parameters[start:stop], dtype=float)
         start = stop
+
+
+def _sorted(
+    model: DynamicModel, parameters: Parameters
+) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], list[tuple[Term, Parameters]]]:
+    """Sort terms: numbers per joint by kind, couplings as weights and three numbers, all others."""
+    drives: dict[type, np.ndarray] = {
+        kind: np.zeros(len(model.robot.joints)) for kind in (RotorInertia, Viscous, Coulomb, Offset)
+    }
+    coupled: list[tuple[np.ndarray, np.ndarray]] = []
+    others: list[tuple[Term, Parameters]] = []
+    for term, values in _parts(model, parameters):
+        if type(term) in drives:
+            drives[type(term)][[joint for joint, _ in term.entries(model.robot)]] += values
+        elif isinstance(term, GearCoupling):
+            coupled += _couplings(model.robot, values)
+        elif not isinstance(term, RigidBody):
+            others.append((term, values))
+    return drives, coupled, others
 
 
 def _couplings(robot: RobotModel, values: Parameters) -> list[tuple[np.ndarray, np.ndarray]]:

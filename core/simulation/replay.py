@@ -88,7 +88,9 @@ def default_gains(mechanism: Mechanism, position: JointSeries, bandwidth_hz: flo
     return Gains(inertia * rate**2, 2.0 * inertia * rate)
 
 
-def fitted_gains(mechanism: Mechanism, reference: MotionState, measured: MotionState, torque: JointSeries) -> Gains:
+def fitted_gains(
+    mechanism: Mechanism, reference: MotionState, measured: MotionState, torque: JointSeries
+) -> Gains:
     """Fit gains to a log with a reference: measured torque less the model's along the reference.
 
     Raises
@@ -100,7 +102,10 @@ def fitted_gains(mechanism: Mechanism, reference: MotionState, measured: MotionS
     pairs = []
     for joint in range(mechanism.joints):
         errors = np.column_stack(
-            [(reference.position - measured.position)[:, joint], (reference.velocity - measured.velocity)[:, joint]]
+            [
+                (reference.position - measured.position)[:, joint],
+                (reference.velocity - measured.velocity)[:, joint],
+            ]
         )
         found, _, rank, _ = np.linalg.lstsq(errors, left[:, joint], rcond=1e-10)
         if rank < 2 or (found < 0.0).any():
@@ -161,9 +166,7 @@ def _clocked(first: Stretch, other: Stretch) -> bool:
     return same_clock(first.step, other.step)
 
 
-def _played(
-    mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions
-) -> list[Replayed]:
+def _played(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions) -> list[Replayed]:
     """Play stretches of one clock side by side; shorter ones wait at their end until the longest is done."""
     longest = max(len(one.time) for one in group)
     position = _padded([one.state.position for one in group], longest)

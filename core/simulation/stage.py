@@ -175,7 +175,7 @@ def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np
 def _evaluated(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
     temperature = None if states.temperature is None else states.temperature.T
     state = MotionState(states.position.T, velocity.T, states.acceleration.T, states.time, temperature)
-    return mechanism.others.torque(mechanism.other_parameters, state).T
+    return np.asarray(mechanism.others.torque(mechanism.other_parameters, state).T)
 
 
 def _with_jumps(mechanism: Mechanism, level: np.ndarray, jump: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 """Cut measured motion into windows that start at kept instants and end within the same block of the log.
 
-A window never crosses a gap, the border of a block, or what the filters spoil at a log's ends; standing joints
-stay in, because a simulation has to get standstill right too.
+A window never crosses a gap, the border of a block, or what the filters spoil at a log's ends; standing
+joints stay in, because a simulation has to get standstill right too.
 """
 
 from collections.abc import Iterator

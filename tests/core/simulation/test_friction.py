@@ -6,7 +6,9 @@ import pytest
 
 from core.robot.model import Coupling, RobotModel
 from core.signals.state import MotionState
-from core.simulation.stage import accelerations
+from core.simulation.drive import Drive, Feedback
+from core.simulation.rollout import rollout
+from core.simulation.stage import States, accelerations
 from tests.core.simulation.worlds import block, mechanism, pendulum, play, slope
 from tests.tools import mujoco_model, random_bodies, random_robot
 
@@ -36,7 +38,7 @@ def test_a_body_lets_go_when_the_torque_passes_its_level():
 
 
 def test_a_pendulum_loses_four_times_its_friction_over_its_stiffness_each_cycle():
-    # Small swings: amplitude falls by 2 FC / (m g l) per half swing (Den Hartog, Mechanical Vibrations, 1956).
+    # Small swings: the amplitude falls by 2 FC / (m g l) per half swing (Den Hartog 1956, ch. 8).
     friction, first = 2e-4, 2e-3
     moved = play(pendulum(FC=friction), first, 0.0, 20.0, 20_000)
     position = moved.position[:, 0, 0]
@@ -49,14 +51,9 @@ def test_stick_slip_on_a_belt_has_the_period_of_its_analysis():
     # A spring (k) to a belt at speed u drags a body with level FC and no drop of friction: after sticking for
     # FC / (k u) it slides and comes to move with the belt, oscillating about it at sqrt(k / m).
     stiffness, speed, friction = 50.0, 0.1, 1.0
-    from core.signals.state import MotionState as State
-    from core.simulation.drive import Drive, Feedback
-    from core.simulation.rollout import rollout
-    from core.simulation.stage import States
-
     body = block(FC=friction)
     times = np.linspace(0.0, 1.0, 2001)
-    start = States.starting(body, State(*(np.zeros((1, 1)) for _ in range(3))))
+    start = States.starting(body, MotionState(*(np.zeros((1, 1)) for _ in range(3))))
     none = np.zeros((2001, 1, 1))
     pull = Feedback(np.array([stiffness]), np.zeros(1), speed * times[:, None, None], none)
     moved = rollout(body, start, Drive(5e-4, none, pull), longest_step=1.0)

@@ -1,5 +1,7 @@
 """The integrator against laws of mechanics: its order, energy, power, stiff damping and divergence."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,14 @@ def _arm(**drives):
 
 
 def _ends(arm, steps):
-    moved = play(arm, np.full(4, 0.3), np.array([0.5, -0.4, 0.3, 0.6]), 0.3, steps, lambda time: 3 * np.cos(9 * time + np.arange(4)))
+    moved = play(
+        arm,
+        np.full(4, 0.3),
+        np.array([0.5, -0.4, 0.3, 0.6]),
+        0.3,
+        steps,
+        lambda time: 3 * np.cos(9 * time + np.arange(4)),
+    )
     return np.concatenate([moved.position[-1, :, 0], moved.velocity[-1, :, 0]])
 
 
@@ -26,12 +35,14 @@ def test_halving_the_step_divides_the_error_by_four(drives):
     arm = _arm(**drives)
     finest = _ends(arm, 4800)
     errors = [np.abs(_ends(arm, steps) - finest).max() for steps in (75, 150, 300)]
-    assert all(3.6 < one / other < 4.4 for one, other in zip(errors, errors[1:], strict=False))
+    assert all(3.6 < one / other < 4.4 for one, other in pairwise(errors))
 
 
 def test_the_order_survives_reversals_of_coulomb_friction():
     def end(steps):
-        moved = play(block(FC=0.5, FV=0.2), 0.0, 0.1, 1.0, steps, lambda time: np.array([2.0 * np.cos(7 * time)]))
+        moved = play(
+            block(FC=0.5, FV=0.2), 0.0, 0.1, 1.0, steps, lambda time: np.array([2.0 * np.cos(7 * time)])
+        )
         return moved.position[-1, 0, 0]
 
     finest = end(12_800)

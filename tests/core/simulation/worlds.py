@@ -14,7 +14,7 @@ from core.simulation.stage import States
 
 
 def mechanism(robot: RobotModel, bodies: np.ndarray, **drives: float) -> Mechanism:
-    """Give a robot's standard model bodies, and every joint the same drive (IA, FV, FC, OFF, IAM, FVM, FCM)."""
+    """Give a robot's standard model bodies, and all joints the same drive (IA, FV, FC, OFF, FCM ...)."""
     model = standard_model(robot)
     values = np.array([drives.get(parameter.symbol, 0.0) for parameter in model.parameters])
     values[: bodies.size] = bodies.ravel()

@@ -1,0 +1,96 @@
+"""Hold at rest what friction can hold, compiled: the one place where friction is a set.
+
+Friction takes whatever torque x keeps its speed at rest, up to its level: the convex problem
+min 1/2 x' G x - x' b over |x| <= level, with G = J inv(M) J' and b the accelerations without it, solved by
+projected Gauss-Seidel. Sources: Acary & Brogliato 2008, ch. 12 and 13.
+"""
+
+# Types stand in the signatures; numbers and tables are handed on one by one, which is what compiles well.
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
+# mypy: disable-error-code="no-untyped-def"
+
+import numpy as np
+from numba import njit
+
+from core.simulation.factor import solve_one
+
+SWEEPS = 2_000
+CLOSE = 1e-13
+"""Gauss-Seidel stops when a sweep changes no friction torque by more than this share of its level."""
+
+
+@njit
+def _settle(coupled, push, level, held):
+    """Find friction torques within their levels that leave as little of the push as they can."""
+    for _ in range(SWEEPS):
+        change = 0.0
+        for e in range(len(push)):
+            left = push[e]
+            for f in range(len(push)):
+                left -= coupled[e, f] * held[f]
+            wanted = min(max(held[e] + left / coupled[e, e], -level[e]), level[e])
+            change = max(change, abs(wanted - held[e]) / level[e])
+            held[e] = wanted
+        if change <= CLOSE:
+            break
+
+
+@njit
+def _stop(rate, s, weights, resting, held, level):
+    """Take from joints that are held what rounding left of their acceleration."""
+    for e in resting:
+        if abs(held[e]) < level[e] and np.count_nonzero(weights[e]) == 1:
+            rate[np.flatnonzero(weights[e])[0], s] = 0.0
+
+
+@njit
+def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
+    """Keep at rest what friction can keep at rest in one state: changes its accelerations, fills `held`."""
+    resting = np.flatnonzero((direction == 0.0) & (level > 0.0))
+    answer = np.empty((len(resting), joints))
+    coupled = np.empty((len(resting), len(resting)))
+    push = np.empty(len(resting))
+    found = np.zeros(len(resting))
+    for e in range(len(resting)):
+        answer[e] = weights[resting[e]]
+        solve_one(answer[e], factor, scale, s, joints)
+        push[e] = 0.0
+        for j in range(joints):
+            push[e] += weights[resting[e], j] * rate[j, s]
+        for f in range(e + 1):
+            coupled[e, f] = 0.0
+            for j in range(joints):
+                coupled[e, f] += answer[e, j] * weights[resting[f], j]
+            coupled[f, e] = coupled[e, f]
+    _settle(coupled, push, level[resting], found)
+    for e in range(len(resting)):
+        held[resting[e]] = found[e]
+        for j in range(joints):
+            rate[j, s] -= found[e] * answer[e, j]
+    _stop(rate, s, weights, resting, held, level)
+
+
+@njit(inline="always")
+def _rests(direction, level, s):
+    found = False
+    for e in range(len(level)):
+        found |= direction[e, s] == 0.0 and level[e, s] > 0.0
+    return found
+
+
+@njit(inline="always")
+def hold_block(rate, factor, scale, weights, direction, level, held, begin, many):
+    """Hold in every state of a block what is at rest and can be held."""
+    for s in range(many):
+        if _rests(direction, level, begin + s):
+            _hold(
+                rate,
+                factor,
+                scale,
+                s,
+                weights,
+                direction[:, begin + s],
+                level[:, begin + s],
+                held[:, begin + s],
+                len(rate),
+            )

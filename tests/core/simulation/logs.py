@@ -1,0 +1,33 @@
+"""Make logs whose torque pinocchio has computed, with known noise."""
+
+import numpy as np
+
+from core.log.model import ArraySource, JointLog, LogRows
+from core.robot.model import RobotModel
+from core.signals.condition import Motion, condition
+from tests.tools import Motion as Samples
+from tests.tools import pinocchio_torque
+
+RATE_HZ = 500.0
+
+
+def logged(robot: RobotModel, bodies: np.ndarray, *, seconds: float = 8.0, noise: float = 0.0) -> Motion:
+    """Move every joint by sines of about 1 Hz; friction 1 N m sign(v) is added to pinocchio's torque.
+
+    `noise` is that of the torque, N m.
+    """
+    rng = np.random.default_rng(4)
+    time = np.arange(0.0, seconds, 1.0 / RATE_HZ)
+    joints = len(robot.joints)
+    rate, phase = rng.uniform(3.0, 8.0, (2, joints)), rng.uniform(0.0, 6.0, (2, joints))
+    angle = time[:, None, None] * rate + phase
+    motion = Samples(
+        0.2 * np.sin(angle).sum(axis=1),
+        0.2 * (rate * np.cos(angle)).sum(axis=1),
+        -0.2 * (rate**2 * np.sin(angle)).sum(axis=1),
+    )
+    torque = pinocchio_torque(robot, bodies, motion) + np.sign(motion.velocity)
+    torque += noise * rng.normal(size=torque.shape)
+    rows = LogRows(time, motion.position, torque)
+    log = JointLog("made", ArraySource(rows), joints, RATE_HZ, seconds, ((0, len(time)),))
+    return condition(log, robot, blocks=8)
