@@ -1,8 +1,9 @@
 """Draw cases: a log with something hidden, the robot as its user believes it, and the truth beside it.
 
-A seed decides everything: robot, bodies, motion, noise, effect, joint. The effect's size is solved so that its
-strength (see `tests.plant.strength`) is the wanted one. Where a drawn effect cannot reach it (the zero error of
-a joint that turns about the vertical changes no torque), another joint is drawn, and at last another robot.
+A seed decides everything: robot, bodies, motion, noise, effect, joint. The effect's size is solved so that
+its strength (see `tests.plant.strength`) is the wanted one. Where a drawn effect cannot reach it (the zero
+error of a joint that turns about the vertical changes no torque), another joint is drawn, at last another
+robot.
 """
 
 from dataclasses import dataclass
@@ -12,9 +13,10 @@ import numpy as np
 
 from core.log.model import JointLog
 from core.robot.model import RobotModel
+from tests.plant.controller import Steering, steer
 from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot
 from tests.plant.effects.registry import EFFECTS, FOREIGN
-from tests.plant.engine import Recording, Steering, simulate, steer
+from tests.plant.engine import Recording, simulate
 from tests.plant.excitation import draw_excitation
 from tests.plant.robots import ROBOTS, Arm, draw_arm
 from tests.plant.sensors import NOISES, record

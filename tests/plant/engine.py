@@ -11,59 +11,17 @@ import mujoco
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from core.robot.inertia import mass_properties
+from tests.plant.controller import Steering
 from tests.plant.effects.effect import Effect, Signals, State, overriding
-from tests.plant.excitation import Excitation
+from tests.plant.mechanism import STEPS_PER_SECOND, build
 from tests.plant.robots import Arm
 
-STEPS_PER_SECOND = 2000
-BANDWIDTH = 2.0 * np.pi * 6.0
-"""Bandwidth of the joint controller, rad/s."""
-DAMPING_RATIO = 0.8
 ENCODER_STEP = 1e-5
 """One count of an encoder at the joint, rad."""
 LOAD_RADIUS = 0.03
 """Radius of gyration of a load, m."""
-EASE = 0.02
-"""Share of a joint's top speed over which the controller's feed-forward of Coulomb friction turns round."""
 HARDEST = 0.9999
 """MuJoCo's largest constraint impedance: what is left is the softness of a stuck joint."""
-
-
-def build(arm: Arm, split: tuple[int, ...] = (), *, loads: int = 0) -> mujoco.MjModel:
-    """Build the arm link by link.
-
-    Joints of `split` (from 0) get a rotor of their own, after all links; the last link gets bodies for loads.
-    """
-    spec = mujoco.MjSpec()
-    spec.option.gravity = arm.robot.gravity
-    spec.option.timestep = 1.0 / STEPS_PER_SECOND
-    spec.option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_REFSAFE
-    spec.compiler.degree = False
-    spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
-    part = spec.worldbody
-    for link, body in zip(arm.robot.links, arm.bodies, strict=True):
-        part = part.add_body(name=link.name, pos=link.translation, quat=_quaternion(link.rotation))
-        part.add_joint(name=link.name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, 0.0, 1.0])
-        mass, centre, inertia = mass_properties(body)
-        moments, axes = np.linalg.eigh(inertia)
-        axes[:, 0] *= np.sign(np.linalg.det(axes))
-        part.explicitinertial = True
-        part.mass, part.ipos, part.inertia, part.iquat = mass, centre, moments, _quaternion(axes)
-    for number in range(loads):
-        load = part.add_body(name=f"load_{number}")
-        load.explicitinertial = True
-        load.mass, load.inertia = 1e-9, [1e-12, 1e-12, 1e-12]
-    for joint in split:
-        rotor = spec.worldbody.add_body(name=f"rotor_{joint}")
-        rotor.add_joint(name=f"rotor_{joint}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, 0.0, 1.0])
-        rotor.explicitinertial = True
-        rotor.mass, rotor.inertia = 1e-9, [1e-12, 1e-12, 1e-12]
-    for coupling in arm.robot.couplings:
-        tendon = spec.add_tendon(name=coupling.name)
-        for joint, weight in zip(coupling.joints, coupling.weights, strict=True):
-            tendon.wrap_joint(arm.robot.links[joint - 1].name, weight)
-    return spec.compile()
 
 
 class Plant:
@@ -194,46 +152,6 @@ class Plant:
 
 
 @dataclass(frozen=True, eq=False)
-class Steering:
-    """Hold a joint controller: its command is the clean arm's feed-forward plus gains times reference.
-
-    `nominal` is the feed-forward alone, N m: the torque that the motion needs where nothing is hidden.
-    """
-
-    centre: np.ndarray
-    command: np.ndarray
-    nominal: np.ndarray
-    gain: np.ndarray
-    damping: np.ndarray
-
-
-def steer(arm: Arm, excitation: Excitation, rate_hz: float = 250.0) -> Steering:
-    """Tune PD gains to the arm's inertia and compute its feed-forward along the motion.
-
-    The rigid-body part is computed at the log's rate and interpolated.
-    """
-    model = build(arm)
-    coarse = np.arange(0.0, excitation.duration + 1.5 / rate_hz, 1.0 / rate_hz)
-    rigid = inverse(model, excitation.at(coarse))
-    fine = np.arange(round(excitation.duration * STEPS_PER_SECOND)) / STEPS_PER_SECOND
-    position, velocity, acceleration = excitation.at(fine)
-    nominal = np.column_stack([np.interp(fine, coarse, column) for column in rigid.T])
-    nominal += arm.rotor_inertia * acceleration + arm.viscous * velocity + arm.offset
-    nominal += arm.coulomb * np.tanh(velocity / (EASE * arm.speed))
-    inertia = _inertia(model, excitation.centre) + arm.rotor_inertia
-    for coupling, (rotor, viscous, coulomb) in zip(arm.robot.couplings, arm.motors, strict=True):
-        joints, weights = np.array(coupling.joints) - 1, np.array(coupling.weights)
-        rate = velocity[:, joints] @ weights
-        motor = rotor * acceleration[:, joints] @ weights + viscous * rate
-        motor += coulomb * np.tanh(rate / (EASE * arm.speed[joints].sum()))
-        nominal[:, joints] += motor[:, None] * weights
-        inertia[joints] += rotor * weights**2
-    gain, damping = inertia * BANDWIDTH**2, 2.0 * DAMPING_RATIO * inertia * BANDWIDTH
-    command = nominal + gain * position + damping * velocity
-    return Steering(excitation.centre, command, nominal, gain, damping)
-
-
-@dataclass(frozen=True, eq=False)
 class Recording:
     """Hold every step of a simulation, steps x joints in SI; `steps` of them make a row of the log."""
 
@@ -295,31 +213,3 @@ def simulate(
 
 def _unchanged(series: np.ndarray) -> np.ndarray:
     return series
-
-
-def inverse(model: mujoco.MjModel, motion: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
-    """Give the torque (N m) that MuJoCo's rigid bodies need along position, velocity and acceleration."""
-    data = mujoco.MjData(model)
-    torque = np.empty_like(motion[0])
-    for row, (position, velocity, acceleration) in enumerate(zip(*motion, strict=True)):
-        data.qpos[:], data.qvel[:], data.qacc[:] = position, velocity, acceleration
-        mujoco.mj_inverse(model, data)
-        torque[row] = data.qfrc_inverse
-    return torque
-
-
-def _inertia(model: mujoco.MjModel, position: np.ndarray) -> np.ndarray:
-    data = mujoco.MjData(model)
-    data.qpos[:] = position
-    mujoco.mj_forward(model, data)
-    full = np.empty((model.nv, model.nv))
-    for column, unit in zip(full, np.eye(model.nv), strict=True):
-        mujoco.mj_mulM(model, data, column, unit)
-    return np.diag(full).copy()
-
-
-def _quaternion(rotation: np.ndarray) -> np.ndarray:
-    """Write a rotation as w, x, y, z."""
-    quaternion = np.empty(4)
-    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(rotation).ravel())
-    return quaternion

@@ -1,6 +1,7 @@
 """Read the plant's sensors: torque with noise of five kinds, encoders with a fine step, rows as a log.
 
-Every kind of noise has a known spectrum, from which the oracle's limit is computed. Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for the autoregressive spectra.
+Every kind of noise has a known spectrum, from which the oracle's limit is computed. Source: Kay, Fundamentals
+of Statistical Signal Processing I (1993), ch. 7, for the autoregressive spectra.
 """
 
 import numpy as np

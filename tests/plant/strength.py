@@ -2,11 +2,12 @@
 
 The standard model is ten inertial parameters per link, rotor inertia, friction, offset and declared couplings
 of the robot *as believed*, with pinocchio's regressor along the motion as noise-free sensors see it. Coulomb
-friction enters with the direction that it really had, so that sticking itself is no effect. Torque and columns
-are compared below 20 Hz, in the frequency domain: what lies above is lost to whoever has to differentiate
-encoders. Strength is the RMS
-of what the model leaves of the noise-free torque, over the RMS of the noise, on the joint where that is
-largest; the oracle's noncentrality is ||(I - P) S^-1/2 e||^2 with S the true spectrum of the noise.
+friction enters with the direction that it really had, so that sticking itself is no effect. Torque and
+columns are compared below 20 Hz, in the frequency domain: what lies above is lost to whoever has to
+differentiate encoders. Strength is the RMS of what the model leaves of the noise-free torque, over the RMS of
+the noise, on the joint where that is largest; the oracle's noncentrality is ||(I - P) S^-1/2 e||^2 with S the
+true spectrum of the noise. Where the angles themselves are spoilt (jitter, repeats, a coarse step), e is the
+error that differentiating them makes.
 """
 
 from dataclasses import dataclass, replace
@@ -19,7 +20,7 @@ from scipy.stats import chi2, ncx2
 
 from core.robot.model import RobotModel
 from tests.plant.effects.effect import Signals
-from tests.plant.engine import build, inverse
+from tests.plant.mechanism import build, inverse
 from tests.plant.robots import Arm
 from tests.plant.sensors import counted, spectrum
 

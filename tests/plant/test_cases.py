@@ -13,10 +13,10 @@ from tests.plant.strength import given, nameable
 @pytest.mark.parametrize("strength", [0.3, 3.0])
 @pytest.mark.parametrize(
     "cause",
-    ["friction_stribeck", "time_delay", "joint_elasticity", "encoder_quantization", "kinematic_error"],
+    ["friction_stribeck", "time_delay", "joint_elasticity", "encoder_quantization", "cable_force"],
 )
 def test_a_case_has_the_strength_it_was_asked_for(cause, strength):
-    case = draw(2, cause, strength, duration=10.0)
+    case = draw(2, cause, strength, robot="planar-2", duration=8.0)
     (truth,) = case.truth
     assert truth.cause == cause
     assert truth.strength == pytest.approx(strength, rel=TOLERANCE)
@@ -25,21 +25,21 @@ def test_a_case_has_the_strength_it_was_asked_for(cause, strength):
 
 
 def test_the_same_seed_draws_the_same_case():
-    one, other = (draw(5, duration=8.0) for _ in range(2))
+    one, other = (draw(5, robot="planar-2", duration=8.0) for _ in range(2))
     assert one.truth == other.truth
     np.testing.assert_array_equal(whole_rows(one.log).torque, whole_rows(other.log).torque)
 
 
 def test_several_effects_differ_and_all_are_told():
-    case = draw(3, effects=3, duration=8.0)
+    case = draw(3, effects=3, robot="planar-3", duration=8.0)
     causes = [truth.cause for truth in case.truth]
     assert len(set(causes)) == 3
     assert set(causes) <= set(EFFECTS)
 
 
 def test_a_clean_case_hides_nothing_and_a_foreign_one_what_nobody_lists():
-    assert draw_clean(4, duration=8.0).truth == ()
-    assert draw_foreign(4).truth[0].cause in FOREIGN
+    assert draw_clean(4, robot="planar-2", duration=8.0).truth == ()
+    assert draw_foreign(4, robot="planar-2").truth[0].cause in FOREIGN
 
 
 def test_a_log_has_its_length_its_rate_and_its_encoder_counts():

@@ -1,4 +1,4 @@
-"""Every effect alone: nothing at size zero, more at more, on the joint that it says, with the sign that it says."""
+"""Every effect alone: nothing at size zero, on the joint that it says, with the sign that it says."""
 
 from dataclasses import replace
 from functools import cache
@@ -15,7 +15,7 @@ from tests.plant.effects.registry import EFFECTS, FOREIGN
 from tests.plant.effects.surroundings import PayloadChange, SpringCompensator
 from tests.plant.effects.timing import DroppedSamples, TimeDelay, TorqueFilterLag
 from tests.plant.effects.transmission import JointElasticity
-from tests.plant.engine import build, inverse
+from tests.plant.mechanism import build, inverse
 from tests.plant.sensors import counted
 
 EVERY = EFFECTS | FOREIGN
@@ -77,6 +77,8 @@ def test_the_hidden_numbers_are_named_as_the_document_names_them(cause):
 @pytest.mark.parametrize("cause", [name for name in EVERY if name != "joint_elasticity"])
 def test_an_effect_of_size_zero_leaves_nothing(cause):
     effect = drawn(cause)
+    if cause == "encoder_offset":  # in a plane, that of any later joint is a turn of the links it carries
+        effect = replace(effect, joints=(1,))
     there = world()
     left = there.residue(effect.scaled(0.0)).strength.max()
     reached = there.residue(effect).strength.max()

@@ -6,8 +6,9 @@ import pytest
 
 from core.robot.inertia import mass_properties, pseudo_inertia
 from tests.plant.cases import draw_world
-from tests.plant.engine import STEPS_PER_SECOND, Plant, simulate
+from tests.plant.engine import Plant, simulate
 from tests.plant.excitation import draw_excitation
+from tests.plant.mechanism import STEPS_PER_SECOND
 from tests.plant.robots import ROBOTS, Arm, draw_arm
 from tests.plant.strength import nameable, residue
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from core.robot.frames import rotation_x, rotation_y
 from core.robot.model import Link, RobotModel
+from tests.plant.controller import Steering
 from tests.plant.effects.effect import Effect, Hidden
-from tests.plant.engine import Steering
 from tests.plant.robots import Arm
 
 REACH = {"alpha": 0.25, "d": 0.15, "r": 0.15}
@@ -17,7 +17,7 @@ REACH = {"alpha": 0.25, "d": 0.15, "r": 0.15}
 
 @dataclass(frozen=True)
 class KinematicError(Effect):
-    """Let the user believe an entry (alpha, d or r) of one joint's row that is `error` less than the truth."""
+    """Let the user believe an entry (alpha, d or r) of a joint's row that is `error` below the true one."""
 
     entry: str
     error: float
@@ -55,7 +55,7 @@ class KinematicError(Effect):
 
 @dataclass(frozen=True)
 class GravityMisalignment(Effect):
-    """Let true gravity be the believed one turned by tilt_x about the base's x axis, then tilt_y about its y."""
+    """Let true gravity be the believed one, turned by tilt_x about the base's x, then by tilt_y about y."""
 
     tilt_x: float
     tilt_y: float

@@ -5,9 +5,9 @@ from typing import Self
 
 import numpy as np
 
+from tests.plant.controller import Steering
 from tests.plant.effects.drive import torque_rms
 from tests.plant.effects.effect import Effect, State
-from tests.plant.engine import Steering
 from tests.plant.robots import Arm
 
 

@@ -9,8 +9,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from tests.plant.controller import Steering
 from tests.plant.effects.effect import Effect, Hidden, Signals, State
-from tests.plant.engine import Steering
 from tests.plant.robots import Arm
 
 STUCK = 3e-5
@@ -92,7 +92,7 @@ class Asymmetric(Effect):
 
 @dataclass(frozen=True)
 class LoadDependent(Effect):
-    """Add to the level load_coefficient |load|: of the torque that moves the robot, rotor inertia included."""
+    """Add load_coefficient |load| to the level: a share of what moves the robot, rotor inertia included."""
 
     load_coefficient: float
     cause = "friction_load_dependent"

@@ -5,10 +5,10 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from tests.plant.controller import Steering
 from tests.plant.effects.drive import torque_rms
 from tests.plant.effects.effect import Effect, Hidden, State
 from tests.plant.effects.friction import any_joint
-from tests.plant.engine import Steering
 from tests.plant.robots import Arm
 
 

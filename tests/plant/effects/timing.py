@@ -6,8 +6,9 @@ from typing import ClassVar, Self
 import numpy as np
 from scipy import signal
 
+from tests.plant.controller import Steering
 from tests.plant.effects.effect import Effect, Signals
-from tests.plant.engine import STEPS_PER_SECOND, Steering
+from tests.plant.mechanism import STEPS_PER_SECOND
 from tests.plant.robots import Arm
 
 

@@ -6,9 +6,9 @@ from typing import ClassVar, Self
 import numpy as np
 
 from core.robot.model import Coupling, RobotModel
+from tests.plant.controller import BANDWIDTH, Steering
 from tests.plant.effects.effect import Effect, Hidden
 from tests.plant.effects.friction import any_joint
-from tests.plant.engine import BANDWIDTH, Steering
 from tests.plant.robots import Arm
 
 
