@@ -41,11 +41,13 @@ def rollout(
         If the motion diverges or the robot cannot be accelerated.
     """
     integrator = Integrator(mechanism, drive, longest_step)
-    found = Trajectory(*(np.empty_like(drive.torque) for _ in range(3)))
+    torque = drive.torque if drive.feedback is None else np.empty_like(drive.torque)
+    found = Trajectory(np.empty_like(torque), np.empty_like(torque), torque)
     states = start
     for number in range(drive.steps + 1):
         found.position[number], found.velocity[number] = states.position, states.velocity
-        found.torque[number] = drive.played(number, states)
+        if drive.feedback is not None:
+            torque[number] = drive.played(number, states)
         if number < drive.steps:
             states = integrator.advance(states, number)
         if progress is not None:

@@ -182,4 +182,4 @@ def _with_jumps(mechanism: Mechanism, level: np.ndarray, jump: np.ndarray) -> np
     """Add the jumps to the levels of the joints' own frictions; a level is never negative."""
     raised = level.copy()
     raised[: mechanism.joints] += jump
-    return np.maximum(raised, 0.0)
+    return np.asarray(np.maximum(raised, 0.0))
