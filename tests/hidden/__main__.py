@@ -28,6 +28,11 @@ def main() -> int:
     scored = []
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         for order, score in pool.map(run, listed):
+            if score is None:
+                sys.stdout.write(
+                    f"{order.kind} seed {order.seed}: {order.cause} cannot be that strong, left out\n"
+                )
+                continue
             scored.append((order, score))
             _tell(order, score)
     sys.stdout.write("\n".join(tables(scored)) + "\n")

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from tests.hidden.score import Score, score
-from tests.plant.cases import Case, draw, draw_clean, draw_foreign
+from tests.plant.cache import kept
+from tests.plant.cases import Case, Impossible, draw, draw_clean, draw_foreign
 from tests.plant.effects.registry import EFFECTS
 from tests.plant.sensors import NOISES
 
@@ -67,10 +68,10 @@ def orders(
 def drawn(order: Order) -> Case:
     """Draw the case that was ordered."""
     if order.kind == "clean":
-        return draw_clean(order.seed, noise=order.noise)
+        return kept(draw_clean, order.seed, noise=order.noise)
     if order.kind == "foreign":
-        return draw_foreign(order.seed, order.strength)
-    return draw(order.seed, order.cause, order.strength, effects=order.effects)
+        return kept(draw_foreign, order.seed, order.strength)
+    return kept(draw, order.seed, order.cause, order.strength, effects=order.effects)
 
 
 def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping[str, Any]:
@@ -83,7 +84,10 @@ def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping
     return found
 
 
-def run(order: Order) -> tuple[Order, Score]:
-    """Draw a case, ask, and score the answer."""
-    case = drawn(order)
+def run(order: Order) -> tuple[Order, Score | None]:
+    """Draw a case, ask, and score the answer; no score where no such case can be drawn."""
+    try:
+        case = drawn(order)
+    except Impossible:
+        return order, None
     return order, score(answered(case), case.truth, kind=order.kind, noise=case.noise, seed=order.seed)

@@ -24,9 +24,12 @@ from tests.plant.strength import Residue, differentiation_error, given, nameable
 
 NOISE_SHARES = (0.01, 0.03)
 """Noise RMS over torque RMS, drawn per joint between these."""
-TOLERANCE = 0.1
 WORLDS, DRAWS, STEPS = 10, 8, 6
 """How many worlds, effects in each, and sizes of each are tried."""
+
+
+class Impossible(Exception):  # noqa: N818 - it is what it says
+    """Say that no world was found in which an effect of the wanted strength can be hidden."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +149,7 @@ def draw(
                 break
             if len(hidden) == effects:
                 return _case(world, hidden)
-    raise RuntimeError(f"no {cause or 'effect'} of strength {strength} is possible in case {seed}")
+    raise Impossible(f"no {cause or 'effect'} of strength {strength} is possible in case {seed}")
 
 
 def draw_clean(
@@ -207,7 +210,7 @@ def _solved(world: World, effect: Effect, strength: float) -> tuple[Effect, Resi
         reached = float(left.strength.max())
         if not np.isfinite(reached) or reached < 1e-3 * strength:
             return None
-        if abs(reached / strength - 1.0) <= TOLERANCE:
+        if abs(reached / strength - 1.0) <= effect.tolerance:
             return effect, left
         if before is not None and abs(np.log(reached / before[0])) > 1e-3:
             slope = float(np.clip(before[1] / np.log(reached / before[0]), 0.3, 3.0))

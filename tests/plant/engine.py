@@ -32,7 +32,7 @@ class Plant:
 
     def __init__(self, arm: Arm, effects: tuple[Effect, ...], position: np.ndarray) -> None:
         self.split = {one.own: one for one in effects if one.splits}
-        self.loads = list(overriding(effects, "carried"))
+        self.loads, self.taken = overriding(effects, "carried"), set[int]()
         self.model = build(arm, tuple(self.split), loads=len(self.loads))
         self.data = mujoco.MjData(self.model)
         self.arm, self.step = arm, 1.0 / STEPS_PER_SECOND
@@ -113,7 +113,8 @@ class Plant:
     def _take_up(self) -> None:
         for number, effect in enumerate(self.loads):
             body = self.model.body(f"load_{number}").id
-            if self.state.time >= effect.time and self.model.body_mass[body] < 1e-6:
+            if self.state.time >= effect.time and number not in self.taken:
+                self.taken.add(number)
                 mass, centre = effect.carried()
                 self.model.body_mass[body], self.model.body_ipos[body] = mass, centre
                 self.model.body_inertia[body] = mass * LOAD_RADIUS**2

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from core.log.model import whole_rows
-from tests.plant.cases import TOLERANCE, draw, draw_clean, draw_foreign
+from tests.plant import cache
+from tests.plant.cases import draw, draw_clean, draw_foreign
 from tests.plant.effects.registry import EFFECTS, FOREIGN
 from tests.plant.sensors import CORRELATION, NOISES, noise, spectrum
 from tests.plant.strength import given, nameable
@@ -19,7 +20,7 @@ def test_a_case_has_the_strength_it_was_asked_for(cause, strength):
     case = draw(2, cause, strength, robot="planar-2", duration=8.0)
     (truth,) = case.truth
     assert truth.cause == cause
-    assert truth.strength == pytest.approx(strength, rel=TOLERANCE)
+    assert truth.strength == pytest.approx(strength, rel=EFFECTS[cause].tolerance)
     assert truth.parameters
     assert set(truth.joints) <= set(range(1, case.log.joints + 1))
 
@@ -74,3 +75,23 @@ def test_the_oracle_names_from_about_twenty_one_and_loses_what_another_effect_ta
     one, other = np.array([3.0, 4.0]), np.array([0.0, 1.0])
     assert given(one, []) == pytest.approx(25.0)
     assert given(one, [other]) == pytest.approx(9.0)
+
+
+def test_a_kept_case_comes_back_whole_and_is_drawn_but_once(tmp_path, monkeypatch):
+    monkeypatch.setattr(cache, "FOLDER", tmp_path)
+    drawn = []
+
+    def counted(seed, cause, *, robot, duration):
+        drawn.append(seed)
+        return draw(seed, cause, robot=robot, duration=duration)
+
+    first, second = (
+        cache.kept(counted, 2, "friction_temperature", robot="planar-2", duration=6.0) for _ in range(2)
+    )
+    assert drawn == [2]
+    assert second.truth == first.truth
+    assert np.array_equal(second.believed.gravity, first.believed.gravity)
+    for one, other in zip(
+        vars(whole_rows(first.log)).values(), vars(whole_rows(second.log)).values(), strict=True
+    ):
+        np.testing.assert_array_equal(one, other)

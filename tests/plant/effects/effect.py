@@ -84,6 +84,8 @@ class Effect:
         The fields that grow with its strength.
     largest
         Bound on the first of `sizes`: beyond it the effect is no longer plausible.
+    tolerance
+        How near to the wanted strength its size can be brought.
     local
         Whether it belongs to particular joints; if not, a finding need not name them.
     """
@@ -93,6 +95,7 @@ class Effect:
     units: ClassVar[Mapping[str, str]] = {}
     sizes: ClassVar[tuple[str, ...]] = ()
     largest: ClassVar[float] = np.inf
+    tolerance: ClassVar[float] = 0.1
     local: ClassVar[bool] = True
     splits: ClassVar[bool] = False
     last: ClassVar[bool] = False

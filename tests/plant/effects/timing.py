@@ -93,13 +93,17 @@ class TimestampJitter(Effect):
 
 @dataclass(frozen=True)
 class DroppedSamples(Effect):
-    """Repeat the row before in place of a `fraction` of the rows."""
+    """Repeat the row before in place of a `fraction` of the rows.
+
+    A handful of rows is as strong as the noise, so that their count is too coarse for any wanted strength.
+    """
 
     fraction: float
     cause = "dropped_samples"
     units: ClassVar = {"fraction": "1"}
     sizes = ("fraction",)
     largest = 0.4
+    tolerance = 0.5
     local = False
     raw = True
 
