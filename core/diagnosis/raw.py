@@ -20,11 +20,15 @@ from core.diagnosis.misfit import fitted_rows, misfit
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import step_of
 from core.signals.condition import Motion
+from core.signals.derivative import median
 from core.signals.state import MotionState
 from core.signals.zero_phase import kernel
 
 LEVEL = 1e-5
 """Chance with which a raw check may see something in samples that have nothing."""
+
+SMOOTH_OVER_MOTION = 5.0
+"""Smooth motion holds this many times the motion's band."""
 
 Spoil = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
 """Take smooth positions and velocities at the log's rate, give the errors of position."""
@@ -74,7 +78,7 @@ def residual_share(look: Look, believed: Prediction, spoil: Spoil) -> JointVecto
         spoilt = _spoilt(state, motion, spoil, rng)
         gained[stretch.rows] = _change(stretch, believed, spoilt)
     had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
-    return np.asarray((gained**2 * mask).sum(axis=0) / had)
+    return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
 
 
 def _change(stretch: Stretch, believed: Prediction, spoilt: MotionState) -> JointSeries:
@@ -87,10 +91,12 @@ def _spoilt(state: MotionState, motion: Motion, spoil: Spoil, rng: np.random.Gen
     thin = max(1, round(step_of(state) * rate_hz))
     count = len(state.position)
     fine = np.arange((count - 1) * thin + 1) / thin
-    smooth = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
-    error = spoil(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
-    low_pass = kernel(recipe.position_cutoff_hz, rate_hz, recipe.order)
-    error = oaconvolve(error, low_pass[:, None], mode="same", axes=0)[: len(fine)]
+    measured = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
+    # The measured motion has its error already; what is spoilt anew must be smoother.
+    smooth = _filtered(measured, min(SMOOTH_OVER_MOTION * recipe.motion_band_hz, 0.2 * rate_hz), rate_hz)
+    spoilt = smooth + spoil(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
+    error = _without_spikes(spoilt, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
+    error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
     rate = np.gradient(error, 1.0 / rate_hz, axis=0)
     second = np.gradient(rate, 1.0 / rate_hz, axis=0)
     return replace(
@@ -99,3 +105,15 @@ def _spoilt(state: MotionState, motion: Motion, spoil: Spoil, rng: np.random.Gen
         velocity=state.velocity + rate[::thin],
         acceleration=state.acceleration + second[::thin],
     )
+
+
+def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSeries:
+    low_pass = kernel(cutoff_hz, rate_hz, 5)
+    reach = len(low_pass) // 2
+    padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
+    return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))
+
+
+def _without_spikes(values: JointSeries, order: int) -> JointSeries:
+    reach = order // 2
+    return median(np.pad(values, ((reach, reach), (0, 0)), mode="edge"), order)

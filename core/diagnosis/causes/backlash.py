@@ -12,7 +12,7 @@ from core.dynamics.term import Term
 from core.dynamics.terms.backlash import Backlash as BacklashTerm
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 7
-SMOOTHING_OVER_BAND = 2.0
+SMOOTHING_OVER_BAND = 1.5
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from core.log.defects.stretch import stretches
 from core.log.model import JointLog
 
-LEAST_SHARE = 0.05
-"""Share of a joint's residual that rounding must account for to be named."""
+LEAST_SHARE = 0.45
+"""Share of a joint's residual that rounding must account for to be named; good encoders make a third."""
 BY_CHANCE = 0.2
 """Chance of one increment lying within a tenth of a whole number of steps."""
 

@@ -62,7 +62,8 @@ class TimestampJitter:
         if p_value > LEVEL or shared < AGREEMENT * own:
             return ()
         std = float(np.sqrt(shared))
-        found = Quantity("std", None, "s", std, 0.5 * std / statistic)
+        scatter = np.sqrt(np.sum((crosses[:, 0] - shared * crosses[:, 1]) ** 2)) / crosses[:, 1].sum()
+        found = Quantity("std", None, "s", std, 0.5 * float(scatter) / std)
         share = residual_share(look, believed, _jittered(std))
         return (RawFinding((), (found,), _statement(found), statistic, p_value, share),)
 

@@ -1,0 +1,44 @@
+"""Play in the transmission: the free flight across the gap, and the column where nothing flies."""
+
+import numpy as np
+import pytest
+
+from core.dynamics.terms.backlash import Backlash, twist_of
+from core.dynamics.terms.encoder import EncoderOffset
+from core.signals.state import MotionState
+from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain
+
+
+@pytest.mark.parametrize("half_width", [1e-4, 1e-2])
+def test_a_load_that_passes_zero_at_a_steady_rate_crosses_the_gap_in_the_time_of_a_cube_root(half_width):
+    step, rate = 1e-4, 50.0
+    time = np.arange(-0.2, 0.5, step)
+    twist = twist_of(rate * time, step, half_width)
+    crossing = time[np.argmax(twist >= half_width)]
+    assert crossing == pytest.approx((12.0 * half_width / rate) ** (1.0 / 3.0), abs=5.0 * step)
+
+
+def test_the_twist_never_leaves_the_gap_and_rests_on_the_side_of_the_load():
+    rng = np.random.default_rng(0)
+    free = 100.0 * np.repeat(rng.choice([-1.0, 1.0], 40), 500)
+    twist = twist_of(free, 1e-3, 1e-3)
+    assert np.abs(twist).max() == 1e-3
+    settled = np.arange(len(free)) % 500 > 300  # a gap of 2 mrad takes 7 ms at 100 rad/s2
+    np.testing.assert_array_equal(twist[settled], 1e-3 * np.sign(free[settled]))
+
+
+def test_under_a_load_of_one_sign_play_is_a_zero_error():
+    believed, _ = believed_chain(2)
+    robot = believed.model.robot
+    time = np.arange(0.0, 1.0, 0.002)
+    phases = np.arange(JOINTS)
+    position = 0.05 * np.sin(4.0 * time[:, None] + phases)
+    velocity = 0.2 * np.cos(4.0 * time[:, None] + phases)
+    state = MotionState(position, velocity, -16.0 * position, time)
+    load = believed.load(state)
+    joint = 1 + next(j for j in range(JOINTS) if np.ptp(np.sign(load[:, j])) == 0)
+    (play,) = Backlash(joint, believed, 1e-3, 40.0).torques(robot, state)
+    (offset,) = EncoderOffset(joint, believed).torques(robot, state)
+    side = np.sign(load[0, joint - 1])
+    # The shift of the play's column is finite, 1e-5 rad.
+    np.testing.assert_allclose(play, side * offset, atol=1e-3 * np.abs(offset).max())

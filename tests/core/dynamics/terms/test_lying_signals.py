@@ -1,0 +1,94 @@
+"""Gains, filters and encoders that lie: columns against the exact effect."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.dynamics.prediction import moved
+from core.dynamics.terms.delay import Delay
+from core.dynamics.terms.encoder import EncoderEccentricity, EncoderOffset
+from core.dynamics.terms.filter_lag import FilterLag
+from core.dynamics.terms.torque_gain import TorqueGain
+from core.signals.state import MotionState
+from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain, exact, motion_of, one_viscous_joint
+
+FIRST_ORDER = 1e-3
+"""Errors of 1e-4 rad leave second-order remainders of about 1e-4 of the column."""
+ERROR = 1e-4
+
+
+def sine(frequency: float) -> MotionState:
+    time = np.arange(4000) / 1000.0
+    wave = np.sin(frequency * time)[:, None]
+    return MotionState(np.zeros_like(wave), wave, np.zeros_like(wave), time)
+
+
+@pytest.mark.parametrize("joint", range(1, JOINTS + 1))
+def test_a_zero_error_changes_the_torque_as_the_column_says(joint):
+    believed, bodies = believed_chain(joint)
+    measured = motion_of(joint)
+    still = np.zeros((len(measured.position), 1))
+    true = moved(measured, joint - 1, MotionState(still - ERROR, still, still))
+    robot = believed.model.robot
+    change = exact(robot, bodies, true) - exact(robot, bodies, measured)
+    (column,) = EncoderOffset(joint, believed).torques(robot, measured)
+    np.testing.assert_allclose(ERROR * column, change, atol=FIRST_ORDER * np.abs(change).max())
+
+
+@pytest.mark.parametrize("joint", range(1, JOINTS + 1))
+def test_an_eccentric_disc_changes_the_torque_as_its_two_columns_say(joint):
+    believed, bodies = believed_chain(joint)
+    true, own, phase = motion_of(joint), joint - 1, 0.7
+    q, dq, ddq = (one[:, [own]] for one in (true.position, true.velocity, true.acceleration))
+    sine_, cosine = ERROR * np.sin(q + phase), ERROR * np.cos(q + phase)
+    measured = moved(true, own, MotionState(sine_, cosine * dq, cosine * ddq - sine_ * dq**2))
+    robot = believed.model.robot
+    change = exact(robot, bodies, true) - exact(robot, bodies, measured)
+    along, across = EncoderEccentricity(joint, believed).torques(robot, measured)
+    found = ERROR * (np.cos(phase) * along + np.sin(phase) * across)
+    np.testing.assert_allclose(found, change, atol=FIRST_ORDER * np.abs(change).max())
+
+
+def test_a_gain_scales_its_own_channel_and_no_other():
+    believed, bodies = believed_chain(0)
+    state = motion_of(0)
+    term = TorqueGain(2, believed)
+    robot = believed.model.robot
+    assert term.entries(robot) == ((1, 0),)
+    np.testing.assert_allclose(term.series(robot, state)[0], exact(robot, bodies, state)[:, 1], rtol=1e-9)
+
+
+@pytest.mark.parametrize("time_constant", [0.005, 0.05])
+def test_a_filter_weakens_and_delays_a_sine_as_its_transfer_function_says(time_constant):
+    believed, state, frequency = one_viscous_joint(), sine(20.0), 20.0
+    (column,) = FilterLag(0, believed, time_constant).torques(believed.model.robot, state)
+    found = (state.velocity + time_constant * column)[2000:, 0]
+    turned = frequency * time_constant
+    wave = np.sin(frequency * state.time - np.arctan(turned))[2000:] / np.hypot(1.0, turned)
+    np.testing.assert_allclose(
+        found, wave, atol=1e-4
+    )  # samples a millisecond apart, joined by straight lines
+
+
+def test_a_short_filter_is_a_delay():
+    believed, state = one_viscous_joint(), sine(5.0)
+    robot = believed.model.robot
+    (filtered,) = FilterLag(0, believed, 1e-3).torques(robot, state)
+    (delayed,) = Delay(0, believed).torques(robot, state)
+    np.testing.assert_allclose(filtered[100:-2], delayed[100:-2], atol=0.006 * np.abs(delayed).max())
+
+
+def test_the_columns_of_an_encoder_do_not_depend_on_where_the_log_begins():
+    believed, _ = believed_chain(1)
+    state = motion_of(1, 8)
+    later = replace(
+        state,
+        position=state.position[4:],
+        velocity=state.velocity[4:],
+        acceleration=state.acceleration[4:],
+    )
+    robot = believed.model.robot
+    term = EncoderEccentricity(2, believed)
+    for whole, part in zip(term.torques(robot, state), term.torques(robot, later), strict=True):
+        np.testing.assert_allclose(whole[4:], part, atol=1e-9)
