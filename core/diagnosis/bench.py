@@ -60,6 +60,11 @@ class Bench:
             for scalars in grid
         )
 
+    @property
+    def kinds(self) -> int:
+        """Count the pairs of cause and site that are suspected."""
+        return max(len({one.key for one in self._candidates}), 1)
+
     def columns(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """Give the candidates' filtered columns, computing those that are new."""
         new = [one for one in candidates if not self._known(one)]

@@ -202,9 +202,9 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
 
 
 def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
-    """Count the degrees of freedom that a fit took from one joint's rows: its own, and its share of the rest."""
+    """Count the degrees of freedom that a fit took from one joint's rows: its own and a share of the rest."""
     total = sum(len(one.rows) for one in joints)
-    return rows.free.shape[1] + rows.columns.shape[1] * len(rows.rows) / max(total, 1)
+    return float(rows.free.shape[1] + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
 def _solved(joints: tuple[Whitened, ...]) -> Fit:

@@ -61,7 +61,7 @@ class Stretch:
     @property
     def kept(self) -> int:
         """Count the kept instants."""
-        return self.rows.stop - self.rows.start
+        return int(self.rows.stop - self.rows.start)
 
     def filtered(self, series: Series) -> Series:
         """Filter series of this stretch and keep its instants."""

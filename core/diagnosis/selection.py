@@ -52,7 +52,7 @@ def select(bench: Bench, progress: Callable[[float], None] | None = None) -> Sel
         better = best_addition(bench, now)
         if better is None:
             break
-        steps.append(Step("added", better.members[-1], _rise(now, better)))
+        steps.append(Step("added", better.members[-1], rise(now, better)))
         bench.believe(better.fit)
         now = bench.tried(better.members, better)
         now = _defended(bench, now, steps)
@@ -70,7 +70,7 @@ def best_addition(bench: Bench, now: Hypothesis) -> Hypothesis | None:
         for trial in trials
         if log_p(now, trial) + np.log(max(count, 1)) < np.log(LEVEL) and _share(now, trial) > LEAST_SHARE
     ]
-    return max(worthy, key=lambda trial: _merit(now, trial), default=None)
+    return max(worthy, key=lambda trial: merit(now, trial), default=None)
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
@@ -84,34 +84,42 @@ def log_p(now: Hypothesis, trial: Hypothesis) -> float:
     added = trial.members[-1]
     return Scored(
         added,
-        min(weight(trial, len(trial.members) - 1), _rise(now, trial)),
+        min(weight(trial, len(trial.members) - 1), rise(now, trial)),
         trial.widths[-1],
         np.zeros(0),
         1.0,
     ).log_p
 
 
-def _rise(now: Hypothesis, trial: Hypothesis) -> float:
+def rise(now: Hypothesis, trial: Hypothesis) -> float:
+    """Give the rise of twice the log-likelihood from one hypothesis to a larger one."""
     return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
 
 
+def log_p_of(bench: Bench, chosen: Hypothesis, index: int) -> float:
+    """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned."""
+    member = chosen.members[index]
+    scored = Scored(member, weight(chosen, index), chosen.widths[index], np.zeros(0), 1.0)
+    return min(scored.log_p + float(np.log(bench.kinds)), 0.0)
+
+
 def weight(hypothesis: Hypothesis, index: int) -> float:
-    """Give a member's squared size in units of its own covariance, under the noise of the whole hypothesis."""
+    """Give a member's squared size in units of its covariance, under the noise of the whole hypothesis."""
     solved = hypothesis.solved(index)
     scale = np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
     values = solved.values / scale
     return float(values @ np.linalg.solve(solved.covariance / np.outer(scale, scale), values))
 
 
-def _merit(now: Hypothesis, trial: Hypothesis) -> float:
+def merit(now: Hypothesis, trial: Hypothesis) -> float:
     """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
     rows = max(len(one.torque) for one in trial.fit.joints)
-    return _rise(now, trial) - (trial.widths[-1] + len(trial.members[-1].scalars)) * float(np.log(rows))
+    return rise(now, trial) - (trial.widths[-1] + len(trial.members[-1].scalars)) * float(np.log(rows))
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
     rows = min(len(one.torque) for one in trial.fit.joints)
-    return _rise(now, trial) / rows
+    return rise(now, trial) / rows
 
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis:
@@ -129,13 +137,13 @@ def _challenged(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis 
     for index, member in enumerate(now.members[:-1]):
         without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
         if weight(now, index) < -2.0 * np.log(LEVEL):
-            steps.append(Step("dropped", member, _rise(without, now)))
+            steps.append(Step("dropped", member, rise(without, now)))
             return without
         rival = best_addition(bench, without)
         if rival is None or rival.members[-1].key == member.key:
             continue
-        if _merit(without, rival) > _merit(without, _last(now, index)) + 6.0:
-            steps.append(Step("swapped", rival.members[-1], _rise(now, rival)))
+        if merit(without, rival) > merit(without, _last(now, index)) + 6.0:
+            steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
             return rival
     return None
 

@@ -1,0 +1,70 @@
+"""List the causes that are suspected: adding one is one file in `causes` and one line here."""
+
+from collections.abc import Mapping
+
+from core.diagnosis.cause import Cause
+from core.diagnosis.causes.backlash import Backlash
+from core.diagnosis.causes.cable_force import CableForce
+from core.diagnosis.causes.dropped_samples import DroppedSamples
+from core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
+from core.diagnosis.causes.encoder_offset import EncoderOffset
+from core.diagnosis.causes.encoder_quantization import EncoderQuantization
+from core.diagnosis.causes.external_contact import ExternalContact
+from core.diagnosis.causes.friction_asymmetric import FrictionAsymmetric
+from core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
+from core.diagnosis.causes.friction_position_dependent import FrictionPositionDependent
+from core.diagnosis.causes.friction_presliding import FrictionPresliding
+from core.diagnosis.causes.friction_stribeck import FrictionStribeck
+from core.diagnosis.causes.friction_temperature import FrictionTemperature
+from core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
+from core.diagnosis.causes.gravity_misalignment import GravityMisalignment
+from core.diagnosis.causes.joint_coupling import JointCoupling
+from core.diagnosis.causes.joint_elasticity import JointElasticity
+from core.diagnosis.causes.kinematic_error import KinematicError
+from core.diagnosis.causes.payload_change import PayloadChange
+from core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
+from core.diagnosis.causes.spring_compensator import SpringCompensator
+from core.diagnosis.causes.time_delay import TimeDelay
+from core.diagnosis.causes.timestamp_jitter import TimestampJitter
+from core.diagnosis.causes.torque_filter_lag import TorqueFilterLag
+from core.diagnosis.causes.torque_gain import TorqueGain
+from core.diagnosis.causes.torque_gain_nonlinear import TorqueGainNonlinear
+from core.diagnosis.causes.torque_offset_drift import TorqueOffsetDrift
+from core.diagnosis.causes.torque_ripple import TorqueRipple
+from core.diagnosis.causes.torque_saturation import TorqueSaturation
+from core.diagnosis.raw import RawCause
+
+CAUSES: tuple[Cause, ...] = (
+    FrictionStribeck(),
+    FrictionViscousNonlinear(),
+    FrictionAsymmetric(),
+    FrictionLoadDependent(),
+    FrictionTemperature(),
+    FrictionPositionDependent(),
+    FrictionPresliding(),
+    JointElasticity(),
+    Backlash(),
+    JointCoupling(),
+    RotorInertiaMissing(),
+    TorqueRipple(),
+    TorqueGain(),
+    TorqueGainNonlinear(),
+    TorqueOffsetDrift(),
+    TorqueSaturation(),
+    TimeDelay(),
+    TorqueFilterLag(),
+    EncoderOffset(),
+    EncoderEccentricity(),
+    KinematicError(),
+    GravityMisalignment(),
+    PayloadChange(),
+    SpringCompensator(),
+    CableForce(),
+    ExternalContact(),
+)
+"""Causes that add torque."""
+
+RAW_CAUSES: tuple[RawCause, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
+"""Causes that show in the raw samples."""
+
+BY_ID: Mapping[str, Cause | RawCause] = {one.id: one for one in (*CAUSES, *RAW_CAUSES)}

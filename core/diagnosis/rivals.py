@@ -1,0 +1,83 @@
+"""Let every chosen cause meet its rivals: those that explain the same as well, and those that were refuted.
+
+A rival takes the finding's place with the other findings kept, its scalars refined and its noise learned
+anew. Two explanations whose criteria differ by less than six are not told apart by this log. Source: Burnham
+& Anderson, Model Selection (2002), ch. 2.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.bench import Bench
+from core.diagnosis.diagnosis import Rival
+from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.selection import merit, rise, with_candidate
+
+INDIFFERENCE = 6.0
+WEIGHED = 6
+WORTH_NAMING = 0.1
+"""A rival that reaches less than this share of the finding's own rise is not worth a line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """Hold how a finding stands among its rivals.
+
+    Attributes
+    ----------
+    statistic
+        Rise of twice the log-likelihood that it brings itself.
+    margin
+        By how much its criterion beats that of the best rival that is another cause or acts elsewhere.
+    """
+
+    statistic: float
+    margin: float
+    ambiguous: tuple[Rival, ...]
+    refuted: tuple[Rival, ...]
+    without: Hypothesis
+
+
+def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
+    """Weigh a member against the best of all other candidates in its place."""
+    member = chosen.members[index]
+    without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
+    own = bench.added(without, member)
+    taken = {one.key for one in chosen.members}
+    others = [one for one in bench.scanned(without) if one.candidate.key not in taken][:WEIGHED]
+    trials = [trial for one in others for trial in [with_candidate(bench, without, one)]]
+    ambiguous, refuted, margin = [], [], np.inf
+    own_merit, own_rise = merit(without, own), rise(without, own)
+    for trial in sorted(trials, key=lambda one: -merit(without, one)):
+        behind = own_merit - merit(without, trial)
+        if trial.possible:
+            margin = min(margin, behind)
+        rival = trial.members[-1]
+        if trial.possible and behind < INDIFFERENCE:
+            ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
+        elif rise(without, trial) > WORTH_NAMING * own_rise:
+            refuted.append(_refuted(rival, rise(without, trial), own_rise, possible=trial.possible))
+    return Standing(own_rise, float(margin), tuple(ambiguous), tuple(refuted), without)
+
+
+def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float) -> Rival:
+    known = [one for one in member.cause.confusions if one.cause == rival.cause.id]
+    why = known[0].why if known else "both columns run nearly parallel in this motion"
+    experiment = known[0].experiment if known else rival.cause.experiment
+    return Rival(
+        rival.cause.id,
+        rival.site,
+        statistic,
+        f"its criterion differs by {behind:.1f}, less than {INDIFFERENCE:g}: {why}",
+        experiment,
+    )
+
+
+def _refuted(rival: Candidate, statistic: float, own: float, *, possible: bool) -> Rival:
+    why = (
+        f"raises twice the log-likelihood by {statistic:.1f} where the finding raises it by {own:.1f}"
+        if possible
+        else f"fits only with a sign or size that nature does not allow (rise {statistic:.1f})"
+    )
+    return Rival(rival.cause.id, rival.site, statistic, why, "")

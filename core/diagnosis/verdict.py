@@ -1,0 +1,218 @@
+"""Decide what a simulation gets wrong, and say how sure that is.
+
+The search names causes; every one of them then meets its rivals, is measured on rows that no fit has seen,
+and is shown over the coordinate that explains it. A generic learner says what is left to explain.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.diagnosis.bench import Bench
+from core.diagnosis.catalogue import CAUSES, RAW_CAUSES
+from core.diagnosis.confidence import confidence
+from core.diagnosis.curve import curve
+from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Verdict
+from core.diagnosis.gain import gain, residuals
+from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.look import Look, look_at
+from core.diagnosis.raw import RawCause, RawFinding
+from core.diagnosis.residual.atlas import atlas
+from core.diagnosis.residual.learner import Predictable, predictable_share
+from core.diagnosis.rivals import Standing, standing
+from core.diagnosis.selection import Selection, log_p_of, select
+from core.dynamics.model import DynamicModel
+from core.log.model import JointLog
+from core.regressor.columns import ColumnPlan
+from core.regressor.observe import BlockKey
+
+Progress = Callable[[str, float], None]
+OPEN = 1e-3
+"""A candidate of whose columns the model spans all but this share cannot be shown by this motion."""
+UNEXPLAINED_SHARE = 0.03
+"""Least share of a joint's residual that must be predictable, with its interval, to be called structure."""
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """Ask what is missing from a model.
+
+    Attributes
+    ----------
+    plan
+        The model and its base columns.
+    held_out, blocks
+        Blocks of every log that no fit may see, and how many blocks a log has.
+    """
+
+    plan: ColumnPlan
+    logs: tuple[JointLog, ...]
+    held_out: frozenset[BlockKey]
+    blocks: int
+
+    @property
+    def model(self) -> DynamicModel:
+        """Give the model."""
+        return self.plan.model
+
+
+def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
+    """Name what the model does not explain.
+
+    Raises
+    ------
+    ExcitationError
+        If the logs are too short to hold anything out.
+    """
+    tell = progress or _say_nothing
+    look = look_at(question.model, question.logs, held_out=question.held_out, blocks=question.blocks)
+    tell("search", 0.1)
+    bench = Bench(look, question.plan, CAUSES, look.usable & ~look.held_out[:, None])
+    selection = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
+    tell("weigh rivals", 0.6)
+    base = look.observed(question.plan)
+    before = residuals(bench, selection.none, base)
+    after = residuals(bench, selection.chosen, base)
+    standings = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
+    found = [
+        _finding(bench, selection, place, one, (residuals(bench, one.without, base), after))
+        for place, one in enumerate(standings)
+    ]
+    tell("examine samples", 0.75)
+    found += [
+        _raw_finding(cause, one, look) for cause in RAW_CAUSES for one in cause.examine(look, bench.believed)
+    ]
+    tell("learn what is left", 0.8)
+    noise = tuple(one.noise for one in selection.chosen.fit.joints)
+    predictable = predictable_share(look, after, bench.believed, noise)
+    tell("lay out", 0.95)
+    return Diagnosis(
+        verdict=_verdict(found, predictable),
+        findings=tuple(sorted(found, key=lambda one: one.p_value)),
+        not_identifiable=_not_identifiable(bench, selection),
+        predictable=predictable,
+        atlas=atlas(look, after, bench.believed, noise),
+        look=look,
+        believed=bench.believed,
+        selection=selection,
+        residual_before=before,
+        residual_after=after,
+    )
+
+
+def _finding(
+    bench: Bench, selection: Selection, place: int, own: Standing, left: tuple[JointSeries, JointSeries]
+) -> Finding:
+    look, chosen = bench.look, selection.chosen
+    member, solved = chosen.members[place], chosen.solved(place)
+    cause = member.cause
+    columns = bench.columns([member])[0]
+    joints = tuple(sorted(columns))
+    mask = look.usable & look.held_out[:, None]
+    block = look.log * (1 + look.block.max()) + look.block
+    measured = gain(left[0], left[1], mask, block, joints)
+    log_p = log_p_of(bench, chosen, place)
+    return Finding(
+        cause=cause.id,
+        title=cause.title,
+        joints=member.site or tuple(joint + 1 for joint in joints),
+        cure=cause.cure,
+        statement=cause.statement(solved),
+        quantities=cause.quantities(solved),
+        confidence=confidence(own.statistic, own.margin, measured),
+        p_value=float(np.exp(log_p)),
+        explained_fraction=_explained(left, look.usable & ~look.held_out[:, None], joints),
+        evidence=_evidence(own, log_p, member.trials),
+        ambiguous_with=own.ambiguous,
+        refuted=own.refuted,
+        gain=measured,
+        curve=curve(look, bench.believed, chosen, place, columns, left),
+        member=member,
+    )
+
+
+def _evidence(own: Standing, log_p: float, trials: int) -> tuple[Evidence, ...]:
+    return (
+        Evidence(
+            "Rise of twice the log-likelihood when it joins the model, the noise learned anew",
+            "likelihood ratio",
+            own.statistic,
+        ),
+        Evidence(
+            f"Logarithm of the chance of so large a rise by luck, corrected for {trials} scanned values and "
+            "all other candidates",
+            "log10 p",
+            log_p / float(np.log(10.0)),
+        ),
+        Evidence(
+            "Lead of its criterion over the best rival's; below 6 the two cannot be told apart",
+            "criterion difference",
+            own.margin,
+        ),
+    )
+
+
+def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
+    """Give the share of the residual's mean square that a finding takes from the joint it helps most."""
+    sums = [(one**2 * mask).sum(axis=0)[list(joints)] for one in left]
+    return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
+
+
+def _raw_finding(cause: RawCause, found: RawFinding, look: Look) -> Finding:
+    sure = 1.0 - found.p_value
+    return Finding(
+        cause=cause.id,
+        title=cause.title,
+        joints=found.site or tuple(range(1, look.joints + 1)),
+        cure=cause.cure,
+        statement=found.statement,
+        quantities=found.quantities,
+        confidence=float(min(sure, 0.99)),
+        p_value=found.p_value,
+        explained_fraction=float(np.clip(np.max(found.residual_share), 0.0, 1.0)),
+        evidence=(Evidence("Statistic of the check on the raw samples", "raw check", found.statistic),),
+        ambiguous_with=(),
+        refuted=(),
+        gain=None,
+        curve=None,
+        member=None,
+    )
+
+
+def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiable, ...]:
+    """List the kinds whose columns the fitted model spans, cause by cause with all such joints."""
+    open_sites: dict[str, list[int]] = {}
+    by_id = {cause.id: cause for cause in bench.causes}
+    for one in bench.scanned(selection.none):
+        if one.clear_share < OPEN:
+            open_sites.setdefault(one.candidate.cause.id, []).extend(one.candidate.site)
+    return tuple(
+        NotIdentifiable(
+            name,
+            tuple(sorted(set(joints))),
+            "in this motion the parameters of the standard model can stand for it",
+            by_id[name].experiment,
+        )
+        for name, joints in sorted(open_sites.items())
+    )
+
+
+def _verdict(found: Sequence[Finding], predictable: Sequence[Predictable]) -> Verdict:
+    left = [one for one in predictable if one.interval[0] > UNEXPLAINED_SHARE]
+    if not found:
+        return "unexplained" if left else "nothing_found"
+    explained = {joint: one.explained_fraction for one in found for joint in one.joints}
+    if any(one.share > explained.get(one.joint, 0.0) for one in left):
+        return "unexplained"
+    return "causes_found"
+
+
+def _say_nothing(_stage: str, _fraction: float) -> None:
+    pass
+
+
+def chosen_text(hypothesis: Hypothesis) -> str:
+    """Name the members of a hypothesis."""
+    return ", ".join(f"{one.cause.id} {list(one.site)}" for one in hypothesis.members) or "nothing"
