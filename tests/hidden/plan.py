@@ -56,7 +56,7 @@ def orders(
     for number in range(cases):
         own = 100_000 * seed + number
         what = kind or ("single" if cause else KINDS[number % len(KINDS)])
-        noise = NOISES[number % len(NOISES)] if what == "clean" else None
+        noise = NOISES[(number if kind else number // len(KINDS)) % len(NOISES)] if what == "clean" else None
         name = cause or causes[(singles + 7 * seed) % len(causes)] if what == "single" else None
         size = strength or (STRENGTHS[singles % len(STRENGTHS)] if what == "single" else 1.0)
         effects = 2 + number // 3 % 2 if what == "combination" else 1

@@ -169,8 +169,8 @@ def draw_foreign(
     seed: int, strength: float = 1.0, *, noise: str | None = None, robot: str | None = None
 ) -> Case:
     """Draw a case with an effect that is in no list."""
-    names = list(FOREIGN)
-    return draw(seed, names[seed % len(names)], strength, noise=noise, robot=robot)
+    name = str(np.random.default_rng([seed, 3]).choice(list(FOREIGN)))
+    return draw(seed, name, strength, noise=noise, robot=robot)
 
 
 def draw_world(
