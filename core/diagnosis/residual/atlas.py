@@ -3,7 +3,10 @@
 A bin's mean that lies many standard errors from the others says that the residual depends on that coordinate;
 a chi-square over all bins, with the covariance that the noise's memory gives between them, says how surely.
 The fit that left the residual has made its averages smaller than the noise would, so the p-values are
-cautious. Source: Percival & Walden, Spectral Analysis (1993), ch. 6 and 8.
+cautious. The noise is learned anew from what the bins leave, or an effect would be taken for noise; but not
+over time or temperature: their bins are visited once, and what they take from slow noise is not an effect.
+There the noise of the fit stands, of which a slow drift may have become a part. Source: Percival & Walden,
+Spectral Analysis (1993), ch. 6 and 8.
 """
 
 from collections.abc import Sequence
@@ -15,7 +18,7 @@ from scipy.stats import chi2
 
 from core.arrays import Indices, JointSeries, SquareMatrix, Vector
 from core.diagnosis.look import Look
-from core.diagnosis.noise import JointNoise
+from core.diagnosis.noise import JointNoise, learn_noise, places
 from core.diagnosis.residual.coordinates import coordinate, coordinate_names
 from core.diagnosis.residual.floor import NoiseFloor, noise_floor
 from core.diagnosis.residual.memory import covariance_of_sums
@@ -25,6 +28,7 @@ from core.dynamics.prediction import Prediction
 BINS = 30
 FEWEST_IN_BIN = 8
 """A bin of fewer rows is not worth a mean: there are fewer bins instead."""
+VISITED_ONCE = ("time", "temperature")
 _RIDGE = 1e-9
 
 
@@ -82,7 +86,7 @@ def atlas(
     residual
         Measured minus predicted torque at the look's rows, N m or N.
     noise
-        Noise model per joint, as learned from the rows that were fitted.
+        Noise model per joint, as learned from the rows that were fitted; used over time and temperature.
     near_reversals
         Whether rows next to reversals count: there the sign of velocity is uncertain, and presliding shows.
     """
@@ -97,7 +101,8 @@ def atlas(
             label = _bins(along.values, mask[:, joint - 1])
             if label.max(initial=-1) >= 1:
                 binned = _Binned(along.values, residual[:, joint - 1], label, begins)
-                found.append(_dependence(name, joint, along.unit, binned, noise[joint - 1]))
+                own = noise[joint - 1] if name in VISITED_ONCE else _noise_beside(binned)
+                found.append(_dependence(name, joint, along.unit, binned, own))
     floor = noise_floor(look, residual)
     return Atlas(tuple(found), residual_spectra(look, residual, floor), floor)
 
@@ -110,6 +115,16 @@ class _Binned:
     residual: Vector
     label: Indices
     begins: Indices
+
+
+def _noise_beside(binned: _Binned) -> JointNoise:
+    """Learn the noise from what the bins' means leave over."""
+    rows = np.flatnonzero(binned.label >= 0)
+    label = binned.label[rows]
+    count = np.bincount(label)
+    mean = np.bincount(label, binned.residual[rows]) / count
+    follows = (np.diff(rows, prepend=-2) == 1) & ~np.isin(rows, binned.begins)
+    return learn_noise(binned.residual[rows] - mean[label], places(follows), taken=len(count))
 
 
 def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: JointNoise) -> Dependence:

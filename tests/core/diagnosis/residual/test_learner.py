@@ -1,0 +1,84 @@
+"""Hold the generic learner to silence on noise, and to finding what no listed cause describes."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.diagnosis.residual import blocks, learner
+from core.diagnosis.residual.learner import predictable_share
+from core.errors import ExcitationError
+from tests.core.diagnosis.residual.worlds import NOISES, on_joint, world
+
+
+@pytest.mark.parametrize("kind", NOISES)
+def test_nothing_is_predictable_of_noise_whatever_its_colour(kind):
+    # Seven joints per colour; of 700 joints over 100 such logs none was alarmed.
+    here = world()
+    residual, noise = here.left(here.noise(kind, seed=11))
+    found = predictable_share(here.look, residual, here.believed, noise)
+    assert [one.joint for one in found if one.interval[0] > 0.0] == []
+    assert max(one.share for one in found) < 0.05
+    assert all(one.places == () for one in found)
+
+
+def test_a_product_of_two_joints_speeds_is_found_although_no_cause_describes_it():
+    here = world()
+    velocity = here.look.state.velocity
+    effect = on_joint(here, 2, velocity[:, 0] * velocity[:, 1])
+    alone, _ = here.left(effect + 1e-3 * here.noise("white", seed=1))
+    residual, noise = here.left(effect + 0.5 * here.noise("white", seed=1))
+    found = predictable_share(here.look, residual, here.believed, noise)
+    clear = here.look.clear[:, 1]
+    truth = np.var(alone[clear, 1]) / (np.var(alone[clear, 1]) + 0.25)
+    assert found[1].interval[0] > 0.3
+    assert found[1].share == pytest.approx(truth, abs=0.15)
+    assert found[1].interval[0] <= truth
+    assert [one.joint for one in found if one.interval[0] > 0.0] == [2]
+
+
+def test_the_places_are_where_the_effect_was_put():
+    here = world()
+    position = here.look.state.position[:, 3]
+    middle, width = np.median(position), 0.15 * np.std(position)
+    bump = np.exp(-(((position - middle) / width) ** 2))
+    residual, noise = here.left(on_joint(here, 4, bump) + 0.5 * here.noise("white", seed=2))
+    found = predictable_share(here.look, residual, here.believed, noise)[3]
+    assert found.interval[0] > 0.0
+    place = next(one for one in found.places if one.coordinate == "position")
+    assert place.low - width < middle < place.high + width
+    assert place.unit == "rad"
+    assert found.places[0].rms == max(one.rms for one in found.places)
+
+
+def test_noise_passes_for_structure_where_blocks_are_shorter_than_its_memory(monkeypatch):
+    here = world()
+    residual, noise = here.left(here.noise("ar_0.98", seed=3))
+    monkeypatch.setattr(blocks, "BLOCKS", 400)
+    monkeypatch.setattr(learner, "LONGEST_GAP", 0.0)
+    found = predictable_share(here.look, residual, here.believed, noise)
+    assert sum(one.interval[0] > 0.0 for one in found) >= 2
+
+
+def test_the_same_residual_gives_the_same_share():
+    here = world()
+    residual, noise = here.left(on_joint(here, 1, np.sin(3.0 * here.look.state.position[:, 0])))
+    one, other = (predictable_share(here.look, residual, here.believed, noise)[0] for _ in range(2))
+    assert (one.share, one.interval, one.places) == (other.share, other.interval, other.places)
+
+
+def test_a_log_too_short_to_hold_anything_out_is_refused_with_its_remedy():
+    here = world()
+    short = replace(here.look, clear=here.look.clear & (here.look.time < 2.0)[:, None])
+    residual, noise = here.left(here.noise("white", seed=4))
+    with pytest.raises(ExcitationError, match="too short") as caught:
+        predictable_share(short, residual, here.believed, noise)
+    assert caught.value.evidence["needed"] == learner.FEWEST_ROWS
+    assert caught.value.remedy
+
+
+def test_the_trees_are_loaded_only_where_they_are_grown():
+    code = "import sys, core.diagnosis.residual.learner; sys.exit('sklearn' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
