@@ -3,9 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named
 from core.diagnosis.look import Look
+from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.delay import Delay
@@ -42,9 +45,13 @@ class TimeDelay(OwnJointCause):
         return [()]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
-        """Give the columns."""
-        del look, site, scalars
-        return Delay(0, believed)
+        """Give the columns at the delay that they yield themselves."""
+        del site, scalars
+
+        def build(delay: float) -> Term:
+            return Delay(0, believed, float(np.clip(delay, -LONGEST_DELAY, LONGEST_DELAY)))
+
+        return build(settled(look, believed, build, 0.0))
 
     def possible(self, solved: Solved) -> bool:
         """Want a delay that a first-order column can stand for."""

@@ -8,14 +8,14 @@ import numpy as np
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named
 from core.diagnosis.look import Look
-from core.diagnosis.misfit import fitted_rows, misfit, size_of
+from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.filter_lag import FilterLag
 
 SHORTEST, LONGEST = 2e-4, 0.1
 """Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""
-ROUNDS = 3
+START = 0.005
 
 
 @dataclass(frozen=True)
@@ -47,21 +47,13 @@ class TorqueFilterLag(OwnJointCause):
         return [()]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
-        """Give the columns at the time constant that they yield themselves.
-
-        Filter and delay differ by how their second order follows from their first; a scan of the time
-        constant would give that away.
-        """
+        """Give the columns at the time constant that they yield themselves."""
         del site, scalars
-        left, mask = misfit(look, believed), fitted_rows(look)
-        weight = mask / size_of(left, mask)
-        around = 0.005
-        for _ in range(ROUNDS):
-            (columns,) = look.columns([FilterLag(0, believed, around)])
-            column = np.column_stack([columns[joint][:, 0] for joint in range(look.joints)]) * weight
-            found = float(np.sum(column * left * weight) / max(np.sum(column**2), 1e-300))
-            around = float(np.clip(found, SHORTEST, LONGEST))
-        return FilterLag(0, believed, around)
+
+        def build(time_constant: float) -> Term:
+            return FilterLag(0, believed, float(np.clip(time_constant, SHORTEST, LONGEST)))
+
+        return build(settled(look, believed, build, START))
 
     def possible(self, solved: Solved) -> bool:
         """Want a filter that lags."""

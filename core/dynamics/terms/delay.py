@@ -1,14 +1,15 @@
 """Give what a torque channel that lags behind the positions adds: the predicted torque late, minus on time.
 
-A delay d turns tau(t) into tau(t - d). The column is the change per unit of delay around `delay`, so that the
-linear parameter is a correction to it; a negative delay leads. Source: Ljung, System Identification (1999),
-ch. 4.
+A delay d turns tau(t) into tau(t - d); a negative one leads. The column is the change over d, so that its
+linear parameter is the delay when the two agree; without a d it is minus the rate. Source: Ljung, System
+Identification (1999), ch. 4.
 """
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from core.arrays import JointSeries
 from core.dynamics.prediction import Prediction
@@ -19,14 +20,18 @@ from core.signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Delay(AllJointsTerm):
-    """Model a torque channel that is late by the same time on all joints."""
+    """Model a torque channel that is late by the same time on all joints, in s near `around`."""
 
     believed: Prediction
+    around: float = 0.0
     symbols: ClassVar[tuple[Symbol, ...]] = (("delay", "s", None),)
     kind: ClassVar[str] = "time_delay"
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
-        """Give minus the rate of the predicted torque."""
+        """Give (late minus plain predicted torque) / delay; for no delay, minus the rate."""
         del robot
-        first, _ = rates(self.believed.torque(state), state)
-        return [-np.asarray(first)]
+        torque = self.believed.torque(state)
+        if self.around == 0.0 or state.time is None:
+            return [-rates(torque, state)[0]]
+        then = np.clip(state.time - self.around, state.time[0], state.time[-1])
+        return [(CubicSpline(state.time, torque)(then) - torque) / self.around]
