@@ -40,7 +40,9 @@ def repeats(look: Look) -> Repeats | None:
     moving = np.std(position, axis=0) > 1e-3 * np.std(position, axis=0).max()
     mismatch = _mismatch(position[:, moving])
     for valley in _valleys(mismatch):
-        lag = _refined(position[:, moving], look.state.velocity[stretch.rows][:, moving] * step, valley)
+        lag = _refined(
+            position[:, moving], look.state.velocity[stretch.rows][:, moving] * step, float(valley)
+        )
         found = Repeats(lag, lag * step)
         same = repeating(look, stretch, found)
         if same.sum() * step >= FEWEST_SECONDS and same.mean() >= LEAST_SHARE:

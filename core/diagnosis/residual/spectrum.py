@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import welch
 
-from core.arrays import JointSeries, Vector
+from core.arrays import JointSeries, Samples, Vector
 from core.diagnosis.look import Look
 from core.diagnosis.residual.floor import NoiseFloor, passed
 
@@ -47,7 +47,7 @@ def residual_spectra(look: Look, residual: JointSeries, floor: NoiseFloor) -> tu
     return tuple(found)
 
 
-def _welch(runs: list[Vector], rate_hz: float, size: int) -> tuple[Vector, Vector]:
+def _welch(runs: list[Samples], rate_hz: float, size: int) -> tuple[Vector, Vector]:
     """Average the runs' densities, each weighted by its rows; shorter runs are padded with zeros."""
     total, rows = np.zeros(size // 2 + 1), 0
     frequency = np.fft.rfftfreq(size, 1.0 / rate_hz)

@@ -1,0 +1,1 @@
+"""Hold a diagnosis to naming what was hidden, and to silence where nothing was."""
