@@ -8,7 +8,7 @@ confused with, and which motion would separate the two.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import ClassVar, Literal, Protocol
 
 from core.arrays import SquareMatrix, Vector
 from core.diagnosis.look import Look
@@ -67,28 +67,34 @@ class Cause(Protocol):
         Its name in results.
     title
         What it is, in words that fit a heading.
-    cure
-        Whether a term, a signal or the robot's description is to be mended.
-    confusions
-        What it is mistaken for.
     experiment
         The motion that would show it where the present one does not.
     coordinate
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
     near_reversals
         Whether its evidence lies next to velocity reversals, where other causes do not look.
-    settled
-        Scalars that are chosen from the grid as they are (a side, a sense), not refined between its points.
     """
 
-    id: str
-    title: str
-    cure: Cure
-    confusions: tuple[Confusion, ...]
-    experiment: str
-    coordinate: str
-    near_reversals: bool
-    settled: tuple[str, ...]
+    id: ClassVar[str]
+    title: ClassVar[str]
+    experiment: ClassVar[str]
+    coordinate: ClassVar[str]
+    near_reversals: ClassVar[bool]
+
+    @property
+    def cure(self) -> Cure:
+        """Tell whether a term, a signal or the robot's description is to be mended."""
+        ...
+
+    @property
+    def confusions(self) -> tuple[Confusion, ...]:
+        """List what it is mistaken for."""
+        ...
+
+    @property
+    def settled(self) -> tuple[str, ...]:
+        """List scalars that are taken from the grid as they are (a side, a sense), not refined."""
+        ...
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List where it can act."""

@@ -7,7 +7,7 @@ first one did. Source: Kay, Fundamentals of Statistical Signal Processing I (199
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -57,11 +57,19 @@ class RawFinding:
 class RawCause(Protocol):
     """Suspect a fault of the samples; the attributes are those of `Cause`."""
 
-    id: str
-    title: str
-    cure: Cure
-    confusions: tuple[Confusion, ...]
-    experiment: str
+    id: ClassVar[str]
+    title: ClassVar[str]
+    experiment: ClassVar[str]
+
+    @property
+    def cure(self) -> Cure:
+        """Tell what is to be mended."""
+        ...
+
+    @property
+    def confusions(self) -> tuple[Confusion, ...]:
+        """List what it is mistaken for."""
+        ...
 
     def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
         """Look for it in the logs."""

@@ -162,7 +162,7 @@ def test_neighbours_of_a_grid_are_so_alike_that_nothing_between_them_is_missed(
 
 
 def _left(columns: np.ndarray, model: np.ndarray) -> np.ndarray:
-    return columns - model @ np.linalg.lstsq(model, columns, rcond=None)[0]
+    return np.asarray(columns - model @ np.linalg.lstsq(model, columns, rcond=None)[0])
 
 
 def test_ripple_is_looked_for_as_far_as_the_band_shows_it(scene: tuple[Look, Prediction]) -> None:
