@@ -15,6 +15,9 @@ from core.estimate.programme import PULL
 from core.signals.recipe import FilterOptions
 from core.validation.holdout import HoldOut
 
+DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
+"""A diagnosis wants many held-out blocks: the interval of a gain is drawn from them."""
+
 
 @dataclass(frozen=True)
 class BootstrapOptions:
@@ -64,18 +67,41 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     0.3
     """
     reader = _Reader("", dict(options or {}))
-    parsed = IdentifyOptions(
+    parsed = _parsed(reader, options, HoldOut())
+    reader.done()
+    return parsed
+
+
+def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOptions:
+    """Read the options of a diagnosis: an identification's, with more and shorter blocks held out.
+
+    Raises
+    ------
+    OptionError
+        If an option is not known, has the wrong type, or makes no sense.
+
+    Examples
+    --------
+    >>> parse_diagnose_options({}).validation.blocks
+    40
+    """
+    reader = _Reader("", dict(options or {}))
+    parsed = _parsed(reader, options, DIAGNOSIS_HOLD_OUT)
+    reader.done()
+    return parsed
+
+
+def _parsed(reader: "_Reader", options: Mapping[str, object] | None, hold_out: HoldOut) -> IdentifyOptions:
+    return IdentifyOptions(
         filter=_filter(reader.section("filter")),
         estimate=_estimate(reader),
-        validation=_validation(reader.section("validation")),
+        validation=_validation(reader.section("validation"), hold_out),
         bootstrap=_bootstrap(reader.section("bootstrap")),
         terms=_terms(reader),
         smooth_coulomb=reader.flag("smooth_coulomb", default=False),
         essential=reader.flag("essential", default=False),
         given=dict(options or {}),
     )
-    reader.done()
-    return parsed
 
 
 class _Reader:
@@ -224,13 +250,13 @@ def _three(values: list[float]) -> tuple[float, float, float]:
     return values[0], values[1], values[2]
 
 
-def _validation(reader: _Reader) -> HoldOut:
+def _validation(reader: _Reader, default: HoldOut) -> HoldOut:
     logs = reader.take("logs")
     if logs is not None and not (isinstance(logs, list) and all(type(one) is int for one in logs)):
         raise reader.wrong("logs", logs, "a list of log numbers, counted from 1")
     parsed = HoldOut(
-        fraction=reader.number("fraction", 0.2),
-        blocks=reader.whole("blocks", 20),
+        fraction=reader.number("fraction", default.fraction),
+        blocks=reader.whole("blocks", default.blocks),
         logs=tuple(cast("list[int]", logs or [])),
     )
     reader.done()

@@ -9,6 +9,9 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
+from core.diagnosis.diagnosis import Diagnosis
+from core.diagnosis.verdict import Question
+from core.diagnosis.verdict import diagnose as find_causes
 from core.dynamics.model import DynamicModel, standard_model
 from core.errors import LogError, VeritorqueError
 from core.estimate.constraints import default_prior
@@ -17,19 +20,24 @@ from core.estimate.feasibility import active_constraints, feasibility
 from core.estimate.robust import ROUNDS, huber_weights
 from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
 from core.estimate.system import System, ordinary, stacked, weighted
+from core.extension.extend import cures, extended_base, remembers
+from core.extension.gain import gains
 from core.log.model import JointLog
-from core.options import IdentifyOptions, parse_options
+from core.options import IdentifyOptions, parse_diagnose_options, parse_options
 from core.precision.bootstrap import bootstrap
 from core.precision.covariance import assess
 from core.precision.essential import essential_parameters
-from core.reduction.base import base_model
+from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import BlockKey, Observation, Weigh, observe, torque_scales
+from core.report.diagnosed import Diagnosed
 from core.report.document import grouping_row, identification_document
 from core.report.identification import Identification
 from core.report.numbers import plain
 from core.robot.model import RobotModel
 from core.signals.condition import Motion, condition
+from core.simulation.mechanism import mechanism_of
+from core.simulation.multistep import Comparison, compare
 from core.validation.excitation import excitation
 from core.validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
 from core.validation.scores import scores, total_percent
@@ -69,6 +77,70 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     """Identify a robot and give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_options(request.options)
+    look, base = _prepared(request, options, tell)
+    return _identified(request, options, _Fitting(look, base), tell)
+
+
+def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
+    """Identify a robot, name what the model misses, extend it, and give the result document.
+
+    Raises
+    ------
+    VeritorqueError
+        Whatever stands in the way, with cause, evidence and remedy.
+    """
+    found = diagnose_in_full(request, progress)
+    options = parse_diagnose_options(request.options).given
+    from core.report.diagnosis_document import diagnosis_document
+
+    return diagnosis_document(found, version=_version(), options=options)
+
+
+def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Diagnosed:
+    """Identify, diagnose, extend and identify again; give every chapter's result."""
+    tell = progress or _say_nothing
+    options = parse_diagnose_options(request.options)
+    look, base = _prepared(request, options, tell)
+    before = _identified(request, options, _Fitting(look, base), lambda stage, done: tell(stage, 0.3 * done))
+    question = Question(look.plan, request.logs, look.held_out, options.validation.blocks)
+    found = find_causes(question, lambda stage, done: tell(stage, 0.3 + 0.5 * done))
+    terms = cures(found)
+    if not terms:
+        return Diagnosed(before, found, None, (), None, "nothing joined the model")
+    whole = extended_base(base, terms)
+    wider = _Look(ColumnPlan(whole.model, whole.kept), look.motions, look.held_out)
+    sizes = {
+        f"{one.name}{one.joint}": 10.0 * abs(one.value)
+        for finding in found.findings
+        for one in finding.quantities
+    }
+    after = _identified(
+        request, options, _Fitting(wider, whole, sizes), lambda stage, done: tell(stage, 0.8 + 0.15 * done)
+    )
+    tell("simulate", 0.95)
+    held = look.parts(before.observation)[1]
+    gained = gains((before.observation, before.estimate.base), (after.observation, after.estimate.base), held)
+    motion, note = _motion(before, after, found, look)
+    return Diagnosed(before, found, after, gained, motion, note)
+
+
+def _motion(
+    before: Identification, after: Identification, found: Diagnosis, look: "_Look"
+) -> tuple[Comparison | None, str]:
+    """Simulate the held-out blocks with both models, where neither needs the past."""
+    if any(remembers(one, found) for one in found.findings):
+        return None, "a finding's torque depends on the motion before the instant, which is not simulated"
+    try:
+        old, new = (mechanism_of(one.base.model, one.estimate.standard) for one in (before, after))
+        return compare(old, new, look.motions, chosen=look.held_out or None), ""
+    except VeritorqueError as error:
+        return None, str(error)
+
+
+def _prepared(
+    request: IdentifyRequest, options: IdentifyOptions, tell: Progress
+) -> "tuple[_Look, BaseModel]":
+    """Condition the logs, set blocks aside, and group the model's parameters."""
     _check_logs(request.logs)
     tell("condition", 0.02)
     motions = _condition(request, options)
@@ -77,13 +149,19 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     if options.smooth_coulomb:
         model = _smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
     base = base_model(model)
-    plan = ColumnPlan(model, base.kept)
-    look = _Look(plan, motions, held_out)
+    return _Look(ColumnPlan(model, base.kept), motions, held_out), base
+
+
+def _identified(
+    request: IdentifyRequest, options: IdentifyOptions, fitting: "_Fitting", tell: Progress
+) -> Identification:
+    """Fit one model and judge it."""
+    look, base, model = fitting.look, fitting.base, fitting.base.model
     observation = look.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
     used, system = _system(look, observation, options)
     fitted, held = look.parts(observation)
-    prior = default_prior(model, torque_scales(observation, fitted))
+    prior = default_prior(model, torque_scales(observation, fitted), fitting.sizes)
     answer = estimate(base, system, prior, options.estimate)
     tell("assess", 0.7)
     precision = assess(system, used.memory, used.columns_of, answer.base)
@@ -105,7 +183,7 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     tell("validate", 0.9)
     return Identification(
         logs=request.logs,
-        motions=motions,
+        motions=look.motions,
         base=base,
         observation=observation,
         estimate=answer,
@@ -136,6 +214,15 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
     without = [base.model.parameters[column].name for column in base.without_effect]
     document = {"counts": counts, "base_parameters": rows, "without_effect": without}
     return {key: plain(value) for key, value in document.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class _Fitting:
+    """Hold a model to be fitted: its look at the data, its base parameters, and sizes known otherwise."""
+
+    look: "_Look"
+    base: BaseModel
+    sizes: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

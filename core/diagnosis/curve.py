@@ -3,6 +3,7 @@
 import numpy as np
 
 from core.arrays import JointSeries
+from core.diagnosis.cause import Site
 from core.diagnosis.diagnosis import Curve
 from core.diagnosis.equations import Columns
 from core.diagnosis.hypothesis import Hypothesis
@@ -11,6 +12,7 @@ from core.diagnosis.residual.coordinates import coordinate
 from core.dynamics.prediction import Prediction
 
 BINS = 36
+STAND_IN = {"load_jerk": "torque_rate", "load_rate": "torque_rate"}
 
 
 def curve(
@@ -31,9 +33,10 @@ def curve(
     member = chosen.members[place]
     torque = {joint: part @ chosen.fit.values[chosen.columns_of(place)] for joint, part in columns.items()}
     joint = max(torque, key=lambda one: _share(torque[one], left[0][:, one], look.usable[:, one]))
-    along = coordinate(look, believed, member.cause.coordinate, joint + 1) or coordinate(
-        look, believed, "time", joint + 1
-    )
+    name = STAND_IN.get(member.cause.coordinate, member.cause.coordinate)
+    if name == "other_velocity":
+        name = _of_other(joint, member.site)
+    along = coordinate(look, believed, name, joint + 1) or coordinate(look, believed, "time", joint + 1)
     if along is None:
         return None
     rows = np.flatnonzero(look.clear[:, joint])
@@ -51,6 +54,12 @@ def curve(
             [float(np.std(left[1][group, joint]) / np.sqrt(len(group))) for group in groups]
         ),
     )
+
+
+def _of_other(joint: int, site: Site) -> str:
+    """Name the velocity of the other joint of a pair."""
+    others = [one for one in site if one != joint + 1]
+    return f"velocity_of_joint_{others[0]}" if others else "velocity"
 
 
 def _share(torque: np.ndarray, residual: np.ndarray, usable: np.ndarray) -> float:

@@ -6,6 +6,7 @@ leaves open. "Possible" alone lets links of tonnes pass, whose effect on the tor
 Cortesao 2014; Wensing, Kim & Slotine 2018.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -135,11 +136,20 @@ def check_links(bounds: Bounds, model: DynamicModel) -> None:
         )
 
 
-def default_prior(model: DynamicModel, torque_rms: Vector) -> Prior:
-    """Believe the robot's own prior; where it has none, small balls in proportion to torques and lengths."""
+def default_prior(model: DynamicModel, torque_rms: Vector, sizes: Mapping[str, float] | None = None) -> Prior:
+    """Believe the robot's own prior; where it has none, small balls in proportion to torques and lengths.
+
+    Parameters
+    ----------
+    sizes
+        By name, what counts as one unit of deviation of parameters whose size is known otherwise.
+    """
     length, mass, effort = _proportions(model, torque_rms)
     units = {"kg m2": mass * length**2, "kg m": mass * length, "kg": mass}
-    scale = np.array([units.get(parameter.unit, effort) for parameter in model.parameters])
+    known = sizes or {}
+    scale = np.array(
+        [known.get(parameter.name) or units.get(parameter.unit, effort) for parameter in model.parameters]
+    )
     centre = np.zeros(len(model.parameters))
     believed = model.robot.prior
     ball = from_mass_properties(mass, np.zeros(3), 0.4 * mass * (0.3 * length) ** 2 * np.eye(3))

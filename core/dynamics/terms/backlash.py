@@ -32,6 +32,7 @@ class Backlash(AllJointsTerm):
     band_hz: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("half_width", "rad", 0.0),)
     kind: ClassVar[str] = "backlash"
+    remembers: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per rad of half width."""

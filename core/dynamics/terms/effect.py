@@ -25,6 +25,8 @@ class OneJointTerm:
     joint: int
     symbols: ClassVar[tuple[Symbol, ...]] = ()
     kind: ClassVar[str] = ""
+    remembers: ClassVar[bool] = False
+    """Whether the torque depends on the motion before the instant, and not on the instant alone."""
 
     @property
     def name(self) -> str:
@@ -64,6 +66,8 @@ class AllJointsTerm:
     joint: int
     symbols: ClassVar[tuple[Symbol, ...]] = ()
     kind: ClassVar[str] = ""
+    remembers: ClassVar[bool] = False
+    """Whether the torque depends on the motion before the instant, and not on the instant alone."""
 
     @property
     def name(self) -> str:

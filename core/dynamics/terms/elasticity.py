@@ -26,6 +26,7 @@ class Elasticity(AllJointsTerm):
     band_hz: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
     kind: ClassVar[str] = "joint_elasticity"
+    remembers: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per unit of compliance, by a small shift."""

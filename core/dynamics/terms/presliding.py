@@ -30,6 +30,7 @@ class Presliding(OneJointTerm):
     presliding_distance: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("coulomb_level", "N m", 0.0),)
     kind: ClassVar[str] = "friction_presliding"
+    remembers: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give Dahl's state minus sign(v)."""

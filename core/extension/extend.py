@@ -1,0 +1,44 @@
+"""Let the causes that were found join the model: their terms become columns like all others.
+
+The base parameters of the standard model keep their names and groupings; every parameter of a finding stands
+for itself, because its evidence is what the standard columns do not span.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core.diagnosis.diagnosis import Diagnosis, Finding
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import Term
+from core.reduction.base import BaseModel
+
+
+def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
+    """Give the terms of the findings that have one."""
+    return tuple(
+        one.member.cause.term(diagnosis.look, diagnosis.believed, one.member.site, one.member.scalars)
+        for one in diagnosis.findings
+        if one.member is not None
+    )
+
+
+def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
+    """Append terms to a model and their parameters to its base parameters."""
+    model: DynamicModel = base.model
+    for term in terms:
+        model = model.with_term(term)
+    old, new = len(base.model.parameters), len(model.parameters)
+    grouping = np.zeros((len(base.kept) + new - old, new))
+    grouping[: len(base.kept), :old] = base.grouping
+    grouping[len(base.kept) :, old:] = np.eye(new - old)
+    return replace(base, model=model, kept=(*base.kept, *range(old, new)), grouping=grouping)
+
+
+def remembers(finding: Finding, diagnosis: Diagnosis) -> bool:
+    """Tell whether a finding's torque depends on the motion before the instant, not on the instant alone."""
+    if finding.member is None:
+        return False
+    member = finding.member
+    term = member.cause.term(diagnosis.look, diagnosis.believed, member.site, member.scalars)
+    return bool(getattr(term, "remembers", False))

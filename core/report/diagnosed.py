@@ -1,0 +1,34 @@
+"""Hold everything that a diagnosis job found out: the model before, the causes, the model after."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.diagnosis import Diagnosis
+from core.extension.gain import JointGain
+from core.report.identification import Identification
+from core.simulation.multistep import Comparison
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosed:
+    """Hold everything that a diagnosis job found out.
+
+    Attributes
+    ----------
+    before
+        The model as it was believed, identified from the logs.
+    after
+        The extended model identified again under the same constraints; None where nothing was found.
+    gains
+        Per joint, in torque, on held-out blocks; empty where nothing was found.
+    motion
+        Simulated motion of both models on held-out blocks; None where the models cannot be simulated.
+    motion_note
+        Why not, where they cannot.
+    """
+
+    before: Identification
+    diagnosis: Diagnosis
+    after: Identification | None
+    gains: tuple[JointGain, ...]
+    motion: Comparison | None
+    motion_note: str
