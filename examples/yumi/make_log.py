@@ -1,10 +1,13 @@
-"""Record a log of a simulated YuMi arm, 30 s at 250 Hz, and write the truth beside it.
+"""Record logs of a simulated YuMi arm, 30 s at 250 Hz, and write the truth beside them.
+
+One log is of the arm as it is described; in the other it does two things that no standard model has.
 
 The arm is simulated once without noise (`simulate`); sensors are applied afterwards (`measure`), so that a
 study can draw as many noise realisations as it likes from one motion. Nothing of the product is imported
 here: engine and truth are outside it.
 
-Run ``python -m examples.yumi.make_log`` to write `log.csv`, `truth.json` and `robot.json` again.
+Run ``python -m examples.yumi.make_log`` to write `log.csv`, `truth.json` and `robot.json` again, and with
+``--hidden`` to write `hidden_log.csv` and `hidden_truth.json`.
 """
 
 import argparse
@@ -19,6 +22,7 @@ from scipy.signal import lfilter
 
 from examples.yumi import arm
 from examples.yumi.excitation import BASE_PERIOD, DURATION, Excitation, best_of_many
+from examples.yumi.hidden import EFFECTS, NOTHING, TWO_EFFECTS, Hidden
 from examples.yumi.plant import Plant, pinocchio_model, standard_parameters
 
 STEPS_PER_SAMPLE: Final = 16
@@ -26,6 +30,8 @@ STEPS_PER_SAMPLE: Final = 16
 
 SEED: Final = 2024
 NOISE_SEED: Final = 0
+HIDDEN_SEED: Final = 2025
+HIDDEN_NOISE_SEED: Final = 1
 
 WHITE_NOISE: Final = np.array([0.35, 0.35, 0.12, 0.12, 0.025, 0.011, 0.012])
 """Standard deviation of the torque's white noise, N m."""
@@ -53,7 +59,11 @@ class SimulatedMotion:
 
 
 def simulate(
-    seed: int = SEED, *, excitation: Excitation | None = None, until: float = DURATION
+    seed: int = SEED,
+    *,
+    excitation: Excitation | None = None,
+    until: float = DURATION,
+    hidden: Hidden = NOTHING,
 ) -> SimulatedMotion:
     """Search for a motion and let the arm follow it; give every sample at 250 Hz without noise.
 
@@ -65,13 +75,15 @@ def simulate(
         A motion found before, which spares the search.
     until
         Time in s after which to stop early.
+    hidden
+        What the arm does beside what is described.
     """
     model = pinocchio_model()
     motion = excitation or best_of_many(model, seed, WHITE_NOISE)
     step = 1.0 / (arm.RATE_HZ * STEPS_PER_SAMPLE)
     count = round(until / step)
     references = motion.at(step * np.arange(count))
-    plant = Plant(model, motion.centre.copy(), step)
+    plant = Plant(model, motion.centre.copy(), step, hidden)
     samples = []
     for index, reference in enumerate(zip(*references, strict=True)):
         torque = control(plant, reference)
@@ -155,15 +167,23 @@ def write_json(path: Path, document: dict[str, object]) -> None:
 
 def main() -> None:
     """Write the log, the truth and the robot's description."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--seed", type=int, default=SEED, help="decides the motion")
-    parser.add_argument("--noise-seed", type=int, default=NOISE_SEED, help="decides the torque noise")
-    parser.add_argument("--directory", type=Path, default=arm.HERE, help="where the three files go")
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seed", type=int, help="decides the motion")
+    parser.add_argument("--noise-seed", type=int, help="decides the torque noise")
+    parser.add_argument("--hidden", action="store_true", help="hide two effects, and write the second log")
+    parser.add_argument("--directory", type=Path, default=arm.HERE, help="where the files go")
     arguments = parser.parse_args()
-    motion = simulate(arguments.seed)
-    write_csv(arguments.directory / "log.csv", measure(motion, arguments.noise_seed))
-    write_json(arguments.directory / "truth.json", truth(motion, arguments.seed, arguments.noise_seed))
-    write_json(arguments.directory / "robot.json", arm.robot_description())
+    usual = (HIDDEN_SEED, HIDDEN_NOISE_SEED) if arguments.hidden else (SEED, NOISE_SEED)
+    seed = usual[0] if arguments.seed is None else arguments.seed
+    noise_seed = usual[1] if arguments.noise_seed is None else arguments.noise_seed
+    motion = simulate(seed, hidden=TWO_EFFECTS if arguments.hidden else NOTHING)
+    prefix = "hidden_" if arguments.hidden else ""
+    told = truth(motion, seed, noise_seed)
+    told |= {"hidden": EFFECTS} if arguments.hidden else {}
+    write_csv(arguments.directory / f"{prefix}log.csv", measure(motion, noise_seed))
+    write_json(arguments.directory / f"{prefix}truth.json", told)
+    if not arguments.hidden:
+        write_json(arguments.directory / "robot.json", arm.robot_description())
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
 from examples.yumi import arm
+from examples.yumi.hidden import NOTHING, Hidden
 
 
 def pinocchio_model() -> pin.Model:
@@ -94,12 +95,14 @@ class Plant:
     """Hold the arm's state and advance it step by step.
 
     Positions stand at full steps and velocities at half steps (leapfrog), which makes the step second-order
-    accurate: M (v+ - v-)/h + bias(q, v) + viscous (v+ + v-)/2 + Coulomb(v+) + offset = torque.
+    accurate: M (v+ - v-)/h + bias(q, v) + viscous (v+ + v-)/2 + Coulomb(v+) + offset + ripple(q) = torque. The
+    level of Coulomb friction follows the torque that the gears transmitted in the step before.
     """
 
     model: pin.Model
     position: np.ndarray
     step: float
+    hidden: Hidden = NOTHING
 
     def __post_init__(self) -> None:
         """Start at rest."""
@@ -118,10 +121,12 @@ class Plant:
         inertia = np.array(pin.crba(self.model, self.data, self.position))
         bias = pin.rnea(self.model, self.data, self.position, self.midpoint_velocity(), np.zeros(arm.JOINTS))
         damping = np.diag(0.5 * h * arm.VISCOUS)
-        drive = torque - bias - arm.OFFSET
+        drive = torque - bias - arm.OFFSET - self.hidden.ripple(self.position)
+        load = inertia @ self.acceleration - arm.ROTOR_INERTIA * self.acceleration + bias
+        bound = h * self.hidden.friction_level(load)
         before = self.velocity
         impulse = (inertia - damping) @ before + h * drive
-        self.velocity = velocity_under_friction(inertia + damping, impulse, h * arm.COULOMB, before)
+        self.velocity = velocity_under_friction(inertia + damping, impulse, bound, before)
         self.acceleration = (self.velocity - before) / h
         self.friction = drive - inertia @ self.acceleration
         self.position = self.position + h * self.velocity
