@@ -95,8 +95,8 @@ class Plant:
     """Hold the arm's state and advance it step by step.
 
     Positions stand at full steps and velocities at half steps (leapfrog), which makes the step second-order
-    accurate: M (v+ - v-)/h + bias(q, v) + viscous (v+ + v-)/2 + Coulomb(v+) + offset + ripple(q) = torque. The
-    level of Coulomb friction follows the torque that the gears transmitted in the step before.
+    accurate: M (v+ - v-)/h + bias(q, v) + viscous (v+ + v-)/2 + Coulomb(v+) + offset + ripple(q) = torque.
+    The level of Coulomb friction follows the torque that the gears transmitted in the step before.
     """
 
     model: pin.Model
