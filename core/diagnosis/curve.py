@@ -1,8 +1,14 @@
-"""Show a finding: one joint's residual over the coordinate that explains it, before and after."""
+"""Show a finding: one joint's residual over the coordinate that explains it, before and after.
+
+Friction's sign follows the direction of motion, so that over a load or an angle its effects of both
+directions cancel. Where the coordinate alone does not tell what a finding adds, each direction has its curve.
+"""
+
+from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import JointSeries
+from core.arrays import Indices, JointSeries, Vector
 from core.diagnosis.cause import Site
 from core.diagnosis.diagnosis import Curve
 from core.diagnosis.equations import Columns
@@ -12,6 +18,8 @@ from core.diagnosis.residual.coordinates import coordinate
 from core.dynamics.prediction import Prediction
 
 BINS = 36
+TOLD = 0.8
+"""A coordinate that tells less than this share of what a finding adds needs the direction beside it."""
 STAND_IN = {"load_jerk": "torque_rate", "load_rate": "torque_rate"}
 
 
@@ -40,19 +48,22 @@ def curve(
     if along is None:
         return None
     rows = np.flatnonzero(look.clear[:, joint])
-    order = rows[np.argsort(along.values[rows], kind="stable")]
-    groups = [group for group in np.array_split(order, BINS) if len(group) >= 2]
+    own, forward = torque[joint][rows], look.state.velocity[rows, joint] > 0.0
+    together, apart = _binned(rows, along.values), _apart(rows, forward, along.values)
+    split = _told(own, rows, together) < TOLD and _told(own, rows, apart) > _told(own, rows, together)
+    groups = apart if split else together
     return Curve(
         coordinate=along.name,
         unit=along.unit,
         joint=joint + 1,
-        centre=np.array([float(np.median(along.values[group])) for group in groups]),
-        before=np.array([float(np.mean(left[0][group, joint])) for group in groups]),
-        after=np.array([float(np.mean(left[1][group, joint])) for group in groups]),
-        model=np.array([float(np.mean(torque[joint][group])) for group in groups]),
-        standard_error=np.array(
-            [float(np.std(left[1][group, joint]) / np.sqrt(len(group))) for group in groups]
-        ),
+        centre=_over(groups, along.values, np.median),
+        before=_over(groups, left[0][:, joint], np.mean),
+        after=_over(groups, left[1][:, joint], np.mean),
+        model=_over(groups, torque[joint], np.mean),
+        standard_error=_over(groups, left[1][:, joint], np.std) / np.sqrt([len(group) for group in groups]),
+        direction=_over(groups, np.sign(look.state.velocity[:, joint]), np.median)
+        if split
+        else np.zeros(len(groups)),
     )
 
 
@@ -60,6 +71,32 @@ def _of_other(joint: int, site: Site) -> str:
     """Name the velocity of the other joint of a pair."""
     others = [one for one in site if one != joint + 1]
     return f"velocity_of_joint_{others[0]}" if others else "velocity"
+
+
+def _binned(rows: Indices, along: Vector, bins: int = BINS) -> list[Indices]:
+    """Sort rows along a coordinate into groups of equal size."""
+    order = rows[np.argsort(along[rows], kind="stable")]
+    return [group for group in np.array_split(order, bins) if len(group) >= 2]
+
+
+def _apart(rows: Indices, forward: np.ndarray, along: Vector) -> list[Indices]:
+    """Do the same for backward and for forward motion, one after the other."""
+    return [
+        group for part in (rows[~forward], rows[forward]) for group in _binned(part, along, max(BINS // 2, 1))
+    ]
+
+
+def _told(torque: Vector, rows: Indices, groups: list[Indices]) -> float:
+    """Give the share of a torque's variation over some rows that the means of groups show."""
+    total = float(np.var(torque)) * len(rows)
+    place = np.empty(int(rows.max(initial=0)) + 1, dtype=int)
+    place[rows] = np.arange(len(rows))
+    within = sum(float(np.var(torque[place[group]])) * len(group) for group in groups)
+    return 1.0 - within / max(total, 1e-300)
+
+
+def _over(groups: list[Indices], values: Vector, measure: Callable[[Vector], np.floating]) -> Vector:
+    return np.array([float(measure(values[group])) for group in groups])
 
 
 def _share(torque: np.ndarray, residual: np.ndarray, usable: np.ndarray) -> float:

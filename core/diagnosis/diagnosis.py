@@ -56,6 +56,8 @@ class Curve:
     centre, before, after, model, standard_error
         Per bin: coordinate, mean residual without and with the finding, what the finding says, and the
         standard error of the means (N m or N).
+    direction
+        Per bin: 1 where only forward motion counts, -1 where only backward motion does, 0 where both do.
     """
 
     coordinate: str
@@ -66,6 +68,7 @@ class Curve:
     after: Vector
     model: Vector
     standard_error: Vector
+    direction: Vector
 
 
 @dataclass(frozen=True, eq=False)
