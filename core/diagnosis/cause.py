@@ -71,6 +71,8 @@ class Cause(Protocol):
         The motion that would show it where the present one does not.
     coordinate
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
+    event
+        Whether it happens at some time, and so need not show on held-out rows.
     near_reversals
         Whether its evidence lies next to velocity reversals, where other causes do not look.
     """
@@ -80,6 +82,12 @@ class Cause(Protocol):
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
     near_reversals: ClassVar[bool]
+    event: ClassVar[bool]
+
+    @property
+    def units(self) -> tuple[tuple[str, str], ...]:
+        """List name and unit of every number it reports."""
+        ...
 
     @property
     def cure(self) -> Cure:

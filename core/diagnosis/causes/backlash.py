@@ -17,7 +17,7 @@ SMOOTHING_OVER_BAND = 1.5
 
 @dataclass(frozen=True)
 class Backlash(OwnJointCause):
-    """Suspect backlash."""
+    """Suspect play between a motor and its link."""
 
     id = "backlash"
     title = "The transmission has play"

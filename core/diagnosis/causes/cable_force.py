@@ -49,7 +49,7 @@ class CableForce(OwnJointCause):
 
     def possible(self, solved: Solved) -> bool:
         """Want a cable that pulls back."""
-        return bool(solved.values[0] > 0.0)
+        return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Give stiffness and angle of engagement."""

@@ -21,12 +21,13 @@ class OwnJointCause:
     id: ClassVar[str]
     title: ClassVar[str]
     units: ClassVar[tuple[tuple[str, str], ...]]
-    """Unit of every linear parameter and every scanned scalar, by name, in the order of reporting."""
+    """Unit of every number that is reported, by name and in order: linear parameters and scanned scalars."""
     cure: ClassVar[Cure] = "term"
     confusions: ClassVar[tuple[Confusion, ...]] = ()
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
     near_reversals: ClassVar[bool] = False
+    event: ClassVar[bool] = False
     settled: ClassVar[tuple[str, ...]] = ()
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
@@ -70,4 +71,15 @@ def named(quantities: Sequence[Quantity]) -> dict[str, Quantity]:
 def shown(quantity: Quantity) -> str:
     """Write a quantity with its unit and uncertainty."""
     unit = "" if quantity.unit == "1" else f" {quantity.unit}"
-    return f"{quantity.value:.3g} ± {quantity.standard_deviation:.1g}{unit}"
+    return f"{rounded(quantity.value, 3)} ± {rounded(quantity.standard_deviation)}{unit}"
+
+
+def rounded(value: float, digits: int = 1) -> str:
+    """Write a number with so many digits that count, as people write it.
+
+    Examples
+    --------
+    >>> rounded(0.0123), rounded(12.3), rounded(1234.5, 3)
+    ('0.01', '10', '1230')
+    """
+    return f"{float(f'{value:.{digits}g}'):g}"

@@ -39,6 +39,7 @@ class DroppedSamples:
     id: ClassVar[str] = "dropped_samples"
     title: ClassVar[str] = "Rows repeat the row before"
     cure: ClassVar[Cure] = "signal"
+    units: ClassVar[tuple[tuple[str, str], ...]] = (("fraction", "1"),)
     confusions: ClassVar[tuple[Confusion, ...]] = (
         Confusion(
             "timestamp_jitter",
@@ -63,7 +64,7 @@ class DroppedSamples:
                 site=(),
                 quantities=(Quantity("fraction", None, "1", fraction, deviation),),
                 statement=(
-                    f"{lost} of {rows} rows ({100.0 * fraction:.2g} %) repeat all positions and torques of "
+                    f"{lost} of {rows} rows ({100.0 * fraction:.3g} %) repeat all positions and torques of "
                     "the row before while the robot moves; they are left out and bridged"
                 ),
                 statistic=float(lost),

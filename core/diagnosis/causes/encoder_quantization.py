@@ -27,6 +27,7 @@ class EncoderQuantization:
     id: ClassVar[str] = "encoder_quantization"
     title: ClassVar[str] = "The encoder's steps are too coarse"
     cure: ClassVar[Cure] = "signal"
+    units: ClassVar[tuple[tuple[str, str], ...]] = (("lsb", "rad"),)
     confusions: ClassVar[tuple[Confusion, ...]] = (
         Confusion(
             "timestamp_jitter",
@@ -53,7 +54,7 @@ def _finding(joint: int, step: float, share: JointVector) -> RawFinding:
         quantities=(Quantity("lsb", joint + 1, "rad", step, 0.0),),
         statement=(
             f"Joint {joint + 1}'s encoder has steps of {step:.3g} rad; differentiated, their rounding makes "
-            f"{100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s residual"
+            f"{100.0 * min(1.0, float(share.max())):.3g} % of joint {int(share.argmax()) + 1}'s residual"
         ),
         statistic=float(share.max()),
         p_value=BY_CHANCE**FEWEST_INCREMENTS,

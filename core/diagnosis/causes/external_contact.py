@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.causes.events import find_events
 from core.diagnosis.causes.sites import end_links
 from core.diagnosis.look import Look
@@ -24,10 +24,12 @@ LONGEST_LEVER = 0.5
 
 @dataclass(frozen=True)
 class ExternalContact(OwnJointCause):
-    """Suspect contact."""
+    """Suspect pushes of something outside against the last link."""
 
     id = "external_contact"
+    event = True
     title = "Something pushed against the robot"
+    units = (("force", "N"), ("start", "s"), ("end", "s"))
     settled = tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end"))
     confusions = (
         Confusion(
@@ -96,7 +98,7 @@ class ExternalContact(OwnJointCause):
         when = ", ".join(f"{start:.3g} s to {end:.3g} s" for start, end in _spans(solved.scalars))
         return (
             f"Something pushed against joint {solved.site[0]}'s link with up to {found['force'].value:.3g} ± "
-            f"{found['force'].standard_deviation:.1g} N, from {when}"
+            f"{rounded(found['force'].standard_deviation)} N, from {when}"
         )
 
 

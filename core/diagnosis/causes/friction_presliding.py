@@ -55,7 +55,7 @@ class FrictionPresliding(OwnJointCause):
 
     def possible(self, solved: Solved) -> bool:
         """Want friction that builds up, not one that falls."""
-        return bool(solved.values[0] > 0.0)
+        return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: Solved) -> str:
         """Say over which distance how much friction builds up."""

@@ -46,7 +46,7 @@ class FrictionStribeck(OwnJointCause):
 
     def possible(self, solved: Solved) -> bool:
         """Want an excess, not a lack."""
-        return bool(solved.values[0] > 0.0)
+        return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: Solved) -> str:
         """Say how much friction is lost at which speed."""

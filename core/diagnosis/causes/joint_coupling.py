@@ -66,7 +66,7 @@ class JointCoupling(OwnJointCause):
     def possible(self, solved: Solved) -> bool:
         """Want inertia and friction that are not negative beyond doubt, and at least one of them positive."""
         size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
-        return bool(size.min() > -DOUBT and size.max() > DOUBT)
+        return super().possible(solved) and bool(size.min() > -DOUBT and size.max() > DOUBT)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Give the motor's inertia and friction under the number of the joint that it drives."""

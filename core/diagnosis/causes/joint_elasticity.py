@@ -39,7 +39,7 @@ class JointElasticity(OwnJointCause):
 
     def possible(self, solved: Solved) -> bool:
         """Want a spring that gives way."""
-        return bool(solved.values[0] > 0.0)
+        return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report the stiffness; its relative deviation is the compliance's."""

@@ -23,6 +23,7 @@ class KinematicError(OwnJointCause):
     id = "kinematic_error"
     title = "An entry of the kinematic table is wrong"
     cure = "robot"
+    units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
     settled = ("entry",)
     confusions = (
         Confusion(

@@ -43,7 +43,7 @@ class RotorInertiaMissing(OwnJointCause):
 
     def possible(self, solved: Solved) -> bool:
         """Want an inertia."""
-        return bool(solved.values[0] > 0.0)
+        return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: Solved) -> str:
         """Say how much inertia is missing."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
@@ -61,7 +61,5 @@ class TimeDelay(OwnJointCause):
         """Say how late, in milliseconds."""
         found = named(self.quantities(solved))["delay"]
         late = "behind" if found.value > 0.0 else "ahead of"
-        return (
-            f"The torque channel runs {1e3 * abs(found.value):.3g} ± {1e3 * found.standard_deviation:.1g} ms "
-            f"{late} the positions on all joints"
-        )
+        size, doubt = rounded(1e3 * abs(found.value), 3), rounded(1e3 * found.standard_deviation)
+        return f"The torque channel runs {size} ± {doubt} ms {late} the positions on all joints"

@@ -15,6 +15,7 @@ from scipy.stats import norm
 
 from core.arrays import JointSeries
 from core.diagnosis.cause import Confusion, Cure, Quantity
+from core.diagnosis.causes.common import rounded
 from core.diagnosis.look import Look
 from core.diagnosis.raw import LEVEL, RawFinding, Spoil, residual_share
 from core.dynamics.prediction import Prediction
@@ -38,6 +39,7 @@ class TimestampJitter:
     id: ClassVar[str] = "timestamp_jitter"
     title: ClassVar[str] = "Sampling instants scatter about their stamps"
     cure: ClassVar[Cure] = "signal"
+    units: ClassVar[tuple[tuple[str, str], ...]] = (("std", "s"),)
     confusions: ClassVar[tuple[Confusion, ...]] = (
         Confusion(
             "encoder_quantization",
@@ -69,8 +71,9 @@ class TimestampJitter:
 
 
 def _statement(found: Quantity) -> str:
+    doubt = rounded(1e3 * found.standard_deviation)
     return (
-        f"Samples were taken {1e3 * found.value:.3g} ± {1e3 * found.standard_deviation:.1g} ms (standard "
+        f"Samples were taken {1e3 * found.value:.3g} ± {doubt} ms (standard "
         "deviation) about their stamps: all joints' positions err by velocity times one time error"
     )
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
@@ -64,5 +64,5 @@ class TorqueFilterLag(OwnJointCause):
         found = named(self.quantities(solved))["time_constant"]
         return (
             f"The torque channel is low-pass filtered on all joints: time constant {1e3 * found.value:.3g} ± "
-            f"{1e3 * found.standard_deviation:.1g} ms, the positions are not"
+            f"{rounded(1e3 * found.standard_deviation)} ms, the positions are not"
         )

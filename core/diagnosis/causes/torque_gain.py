@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named
+from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -55,5 +55,5 @@ class TorqueGain(OwnJointCause):
         way = "much" if found.value > 0.0 else "little"
         return (
             f"Joint {solved.site[0]}'s torque channel reads {100.0 * abs(found.value):.3g} ± "
-            f"{100.0 * found.standard_deviation:.1g} % too {way} against the other joints"
+            f"{rounded(100.0 * found.standard_deviation)} % too {way} against the other joints"
         )

@@ -51,7 +51,7 @@ class TorqueSaturation(OwnJointCause):
 
     def possible(self, solved: Solved) -> bool:
         """Want commands that are larger than what is applied."""
-        return bool(solved.values[0] > 0.0)
+        return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Give the limit."""

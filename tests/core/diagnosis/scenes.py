@@ -1,0 +1,112 @@
+"""Make looks at small robots and at the shipped arm, whose truth is known, for the laws of the diagnosis."""
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from core.diagnosis.cause import Cause, Scalars, Site
+from core.diagnosis.look import Look, look_at
+from core.dynamics.model import standard_model
+from core.dynamics.prediction import Prediction
+from core.log.reader import log_from_arrays
+from core.robot.description import robot_from_description
+from core.robot.model import RobotModel
+from tests.core.dynamics.terms.motions import swinging
+from tests.tools import Motion, pinocchio_torque, random_bodies
+
+UNTOUCHED = 0.1
+"""Columns that change by less than this share of themselves hold no measured torque."""
+SHOVE = (6.0, 6.8)
+"""When something pushes, s: long enough to be seen, short enough to be an event."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Hold a look and what is believed."""
+
+    look: Look
+    believed: Prediction
+
+
+def skew_arm() -> RobotModel:
+    """Give three links with skew axes by their modified DH rows; the first joint's rotor is not declared."""
+    row = {"type": "revolute", "theta_offset": 0.0}
+    joints = [
+        {**row, "alpha": 0.4, "d": 0.0, "r": 0.2, "rotor_inertia": False},
+        {**row, "alpha": -1.3, "d": 0.1, "r": 0.05},
+        {**row, "alpha": 1.1, "d": 0.3, "r": 0.1},
+    ]
+    return robot_from_description({"name": "skew", "joints": joints})
+
+
+@cache
+def eventful_scene() -> Scene:
+    """Look at 12 s of three joints in which every cause has somewhere to look.
+
+    The first joint lacks its rotor inertia, and something pushes against the arm for a while.
+    """
+    time, position, torque = recording()
+    torque[(time > SHOVE[0]) & (time < SHOVE[1])] += [4.0, -3.0, 2.0]
+    return scene_of(time, position, torque)
+
+
+@cache
+def spoilt_scenes() -> tuple[Scene, ...]:
+    """Look at logs whose samples are not in order: late and early ones, coarse ones, repeated ones."""
+    stamps, position, torque = recording()
+    rng = np.random.default_rng(4)
+    late = recording(jitter=2e-3)
+    coarse = 1e-3 * np.round(position / 1e-3)
+    lost = np.maximum.accumulate(np.where(rng.random(len(stamps)) < 0.02, 0, np.arange(len(stamps))))
+    return (
+        scene_of(stamps, *late[1:]),
+        scene_of(stamps, coarse, torque),
+        scene_of(stamps, position[lost], torque[lost]),
+    )
+
+
+def recording(jitter: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Record time, position and pinocchio's torque with noise of 0.05 N m; instants scatter by `jitter` s."""
+    state = swinging(3, 12.0)
+    time, rng = np.asarray(state.time), np.random.default_rng(3)
+    really = time + jitter * rng.normal(size=len(time))
+    series = [CubicSpline(time, one)(really) for one in (state.position, state.velocity, state.acceleration)]
+    torque = pinocchio_torque(skew_arm(), bodies_of_skew_arm(), Motion(*series))
+    return time, series[0], torque + 0.05 * rng.normal(size=torque.shape)
+
+
+def scene_of(time: np.ndarray, position: np.ndarray, torque: np.ndarray) -> Scene:
+    """Look at a log of the skew arm, its last fifth held out, and believe its true bodies."""
+    robot = skew_arm()
+    log = log_from_arrays("scene", time, position, torque)
+    look = look_at(standard_model(robot), (log,), held_out=frozenset({(0, 4)}), blocks=5)
+    return Scene(look, Prediction(standard_model(robot, ("rigid_body",)), bodies_of_skew_arm().ravel()))
+
+
+def bodies_of_skew_arm() -> np.ndarray:
+    """Give the arm's true bodies."""
+    return random_bodies(np.random.default_rng(2), 3)
+
+
+def first_choice(cause: Cause, scene: Scene) -> tuple[Site, Scalars]:
+    """Give a cause's first site and grid point."""
+    site = cause.sites(scene.look, scene.believed)[0]
+    return site, cause.grid(scene.look, scene.believed, site)[0]
+
+
+def change_with_measurement(cause: Cause, scene: Scene) -> float:
+    """Give the share by which columns change when noise of half the torque's size is measured on top.
+
+    A cause may look at the residual to choose where to search, so that a little change is no fault; a column
+    that holds the measured torque changes by about as much.
+    """
+    look, (site, scalars) = scene.look, first_choice(cause, scene)
+    noise = np.random.default_rng(5).normal(size=look.torque.shape) * 0.5 * np.std(look.torque, axis=0)
+    both = [
+        one.columns([cause.term(one, scene.believed, site, scalars)])[0]
+        for one in (look, replace(look, torque=look.torque + noise))
+    ]
+    before, after = (np.hstack([one[joint] for joint in sorted(one)]) for one in both)
+    return float(np.linalg.norm(after - before) / np.linalg.norm(before))

@@ -1,0 +1,220 @@
+"""Hold every cause to the same contract, found by listing the files of `core/diagnosis/causes`.
+
+Nothing here depends on which causes there are, but for the public enumeration: taking an id out of it, or
+putting one in, changes what users were promised.
+"""
+
+import inspect
+import re
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.diagnosis.catalogue import BY_ID, CAUSES, RAW_CAUSES
+from core.diagnosis.cause import Cause, Solved
+from core.diagnosis.curve import STAND_IN
+from core.diagnosis.raw import RawCause
+from core.diagnosis.residual.coordinates import coordinate, coordinate_names
+from tests.core.diagnosis.scenes import (
+    UNTOUCHED,
+    Scene,
+    change_with_measurement,
+    eventful_scene,
+    first_choice,
+    spoilt_scenes,
+)
+
+FOLDER = Path(__file__).parents[3] / "core" / "diagnosis" / "causes"
+SHARED_PARTS = {"__init__", "common", "events", "harmonics", "sites", "waves"}
+FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
+PUBLIC = {
+    *("friction_stribeck", "friction_viscous_nonlinear", "friction_asymmetric", "friction_load_dependent"),
+    *("friction_temperature", "friction_position_dependent", "friction_presliding", "joint_elasticity"),
+    *("backlash", "joint_coupling", "rotor_inertia_missing", "torque_ripple", "torque_gain"),
+    *("torque_gain_nonlinear", "torque_offset_drift", "torque_saturation", "time_delay", "torque_filter_lag"),
+    *("timestamp_jitter", "dropped_samples", "encoder_offset", "encoder_eccentricity"),
+    *("encoder_quantization", "kinematic_error", "gravity_misalignment", "payload_change"),
+    *("spring_compensator", "cable_force", "external_contact"),
+}
+VERDICTS_NOT_CAUSES = {"none", "unexplained", "ambiguous"}
+ODD_UNITS = {"ms", "%", "N m per N m", "times per turn"}
+"""How a sentence may write s, a share, a ratio and a harmonic."""
+
+every_cause = pytest.mark.parametrize("cause", BY_ID.values(), ids=BY_ID)
+every_raw_cause = pytest.mark.parametrize("cause", RAW_CAUSES, ids=lambda one: one.id)
+every_torque_cause = pytest.mark.parametrize("cause", CAUSES, ids=lambda one: one.id)
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return eventful_scene()
+
+
+def solved(cause: Cause, scene: Scene, value: float) -> Solved:
+    """Give all linear parameters at the cause's first site the same value, known to a fifth."""
+    site, scalars = first_choice(cause, scene)
+    count = len(cause.term(scene.look, scene.believed, site, scalars).parameters(scene.look.robot))
+    covariance = (0.2 * value) ** 2 * np.eye(count) if np.isfinite(value) else np.eye(count)
+    return Solved(site, np.full(count, value), covariance, scalars, dict.fromkeys(scalars, 0.1))
+
+
+def base_name(name: str) -> str:
+    """Take the number off a quantity of which there are several: start_2 is a start."""
+    return re.sub(r"_\d+$", "", name)
+
+
+def causes_of_file(stem: str) -> list[type]:
+    module = import_module(f"core.diagnosis.causes.{stem}")
+    return [
+        one
+        for _, one in inspect.getmembers(module, inspect.isclass)
+        if one.__module__ == module.__name__ and hasattr(one, "id")
+    ]
+
+
+@pytest.mark.parametrize("stem", FILES)
+def test_a_file_of_causes_holds_one_cause_of_its_own_name_and_the_catalogue_has_it(stem):
+    (kind,) = causes_of_file(stem)
+    assert kind.id == stem
+    assert kind.__name__ == "".join(word.capitalize() for word in stem.split("_"))
+    assert type(BY_ID[stem]) is kind
+
+
+def test_the_catalogue_has_no_cause_twice_and_none_without_a_file():
+    listed = [one.id for one in (*CAUSES, *RAW_CAUSES)]
+    assert sorted(listed) == FILES
+
+
+def test_the_causes_are_the_published_ones():
+    assert set(BY_ID) == PUBLIC
+    assert not set(BY_ID) & VERDICTS_NOT_CAUSES
+
+
+@every_cause
+def test_a_cause_says_what_it_is_what_it_cures_and_what_would_show_it(cause):
+    assert cause.title[0].isupper()
+    assert not cause.title.endswith(".")
+    assert cause.cure in ("term", "signal", "robot")
+    assert len(cause.experiment) > 20
+    assert inspect.getdoc(inspect.getmodule(cause)).split()[0] == "Suspect"
+
+
+@every_cause
+def test_a_cause_names_its_numbers_once_each_with_a_unit(cause):
+    names = [name for name, _ in cause.units]
+    assert names
+    assert len(set(names)) == len(names)
+    assert all(unit for _, unit in cause.units)
+
+
+@every_cause
+def test_a_confusion_names_another_known_cause_why_and_an_experiment(cause):
+    assert cause.confusions
+    for one in cause.confusions:
+        assert one.cause in set(BY_ID) - {cause.id}
+        assert len(one.why) > 20
+        assert len(one.experiment) > 20
+
+
+@every_torque_cause
+def test_a_cause_is_shown_over_a_coordinate_that_there_is(cause, scene):
+    name = STAND_IN.get(cause.coordinate, cause.coordinate)
+    if name == "other_velocity":
+        name = "velocity_of_joint_2"
+    assert name in coordinate_names(scene.look)
+    assert coordinate(scene.look, scene.believed, name, 1) is not None
+
+
+@every_torque_cause
+def test_sites_are_joints_of_the_robot_each_named_once(cause, scene):
+    sites = cause.sites(scene.look, scene.believed)
+    assert sites
+    assert len(set(sites)) == len(sites)
+    assert all(1 <= joint <= scene.look.joints for site in sites for joint in site)
+
+
+@every_torque_cause
+def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scene):
+    for site in cause.sites(scene.look, scene.believed):
+        grid = cause.grid(scene.look, scene.believed, site)
+        assert grid
+        assert len({frozenset(one.items()) for one in grid}) == len(grid)
+        assert {frozenset(one) for one in grid} == {frozenset(grid[0])}
+        assert all(np.isfinite(value) for one in grid for value in one.values())
+
+
+@every_torque_cause
+def test_a_scan_gives_finite_columns_of_one_width_that_are_not_all_nothing(cause, scene):
+    look, believed = scene.look, scene.believed
+    site = cause.sites(look, believed)[-1]
+    grid = cause.grid(look, believed, site)
+    terms = [cause.term(look, believed, site, scalars) for scalars in grid]
+    widths = {len(term.parameters(look.robot)) for term in terms}
+    assert len(widths) == 1
+    for columns in look.columns(terms):
+        assert columns
+        assert set(columns) <= set(range(look.joints))
+        for column in columns.values():
+            assert column.shape == (len(look.time), *widths)
+            assert np.isfinite(column).all()
+    assert any(np.abs(column).max() > 0.0 for one in look.columns(terms) for column in one.values())
+
+
+@every_torque_cause
+def test_columns_come_from_the_prediction_and_not_from_the_measured_torque(cause, scene):
+    assert change_with_measurement(cause, scene) < UNTOUCHED
+
+
+@every_torque_cause
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_nature_has_no_parameter_that_is_not_finite(cause, scene, value):
+    assert not cause.possible(solved(cause, scene, value))
+
+
+@every_torque_cause
+def test_nature_allows_some_size(cause, scene):
+    sizes = [sign * 10.0**power for power in range(-6, 2) for sign in (1.0, -1.0)]
+    assert any(cause.possible(solved(cause, scene, size)) for size in sizes)
+
+
+@every_torque_cause
+def test_the_numbers_of_a_finding_are_those_announced_with_unit_and_deviation(cause, scene):
+    found = cause.quantities(solved(cause, scene, 1e-3))
+    announced = {name: unit.split(" or ") for name, unit in cause.units}
+    assert len({one.name for one in found}) == len(found) > 0
+    for one in found:
+        assert one.unit in announced[base_name(one.name)]
+        assert np.isfinite(one.value)
+        assert one.standard_deviation >= 0.0
+
+
+@every_torque_cause
+def test_a_finding_is_one_sentence_that_names_the_joint_and_a_number_with_its_unit(cause, scene):
+    found = solved(cause, scene, 1e-3)
+    text = cause.statement(found)
+    units = {one.unit for one in cause.quantities(found)} - {"1"} | ODD_UNITS
+    assert text[0].isupper()
+    assert not text.endswith(".")
+    assert len(text) < 240
+    assert not re.search(r"nan|inf\b|\d\.?\d*e\+", text)
+    assert re.search(r"\d ± [\d.e-]+ ", text)
+    assert any(unit in text for unit in units) or "times" in text
+    if found.site:
+        assert re.search(rf"[Jj]oints? (\d and )?{max(found.site)}\b", text)
+
+
+@every_raw_cause
+def test_a_fault_of_the_samples_is_found_where_it_is_and_not_in_samples_in_order(cause: RawCause):
+    clean = eventful_scene()
+    assert cause.examine(clean.look, clean.believed) == ()
+    announced = dict(cause.units)
+    found = [one for spoilt in spoilt_scenes() for one in cause.examine(spoilt.look, spoilt.believed)]
+    assert found
+    for one in found:
+        assert re.search(r"\d", one.statement)
+        assert 0.0 <= one.p_value < 1e-4
+        assert np.isfinite(one.residual_share).all()
+        assert all(part.unit == announced[part.name] for part in one.quantities)
+        assert all(part.standard_deviation >= 0.0 for part in one.quantities)
