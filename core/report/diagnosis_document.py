@@ -1,0 +1,106 @@
+"""Compose the result document of a diagnosis: the identification's, what it gets wrong, why, and the cure.
+
+Names are those that clients are written against; fields may be added, never renamed. What a figure needs is
+in the document, so that a report can be drawn from it alone, at any time.
+"""
+
+from core.diagnosis.verdict import UNEXPLAINED_SHARE
+from core.extension.extension import Diagnosed
+from core.extension.gain import JointGain
+from core.report.document import base_parameter_rows, identification_document
+from core.report.finding import finding_row, not_identifiable_row
+from core.report.identification import Identification
+from core.report.numbers import plain
+from core.report.remainder import dependence_rows, spectrum_rows, unexplained
+from core.simulation.multistep import Comparison, MultiStep
+
+
+def diagnosis_document(found: Diagnosed, *, version: str, options: object) -> dict[str, object]:
+    """Compose the document; what is said of the robot in it is of the model as it was before the cure."""
+    document = identification_document(found.before, version=version, options=options)
+    return document | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}
+
+
+def _diagnosis(found: Diagnosed) -> dict[str, object]:
+    diagnosis = found.diagnosis
+    return {
+        "verdict": diagnosis.verdict,
+        "findings": [finding_row(one) for one in diagnosis.findings],
+        "not_identifiable": [not_identifiable_row(one) for one in diagnosis.not_identifiable],
+        "unexplained": unexplained(diagnosis, least=UNEXPLAINED_SHARE),
+        "gain": [_gain(one) for one in found.gains],
+        "before": _side(found.before),
+        "after": {"validation": [], "base_parameters": []}
+        if found.after is None
+        else _side(found.after) | _extended(found.before, found.after),
+        "simulation": _simulation(found.motion),
+        "atlas": dependence_rows(diagnosis.atlas),
+        "spectra": spectrum_rows(diagnosis.atlas),
+        "search": [
+            {
+                "action": step.action,
+                "cause": step.candidate.cause.id,
+                "joints": step.candidate.site,
+                "statistic": step.statistic,
+            }
+            for step in diagnosis.selection.steps
+        ],
+        "band_hz": diagnosis.look.band_hz,
+    }
+
+
+def _gain(gain: JointGain) -> dict[str, object]:
+    return {
+        "joint": gain.joint,
+        "rms_residual_before": gain.rms_before,
+        "rms_residual_after": gain.rms_after,
+        "improvement_percent": gain.improvement_percent,
+        "interval_95": gain.interval_95,
+        "held_out": True,
+    }
+
+
+def _side(found: Identification) -> dict[str, object]:
+    return {
+        "fit": found.fit,
+        "fit_total_percent": found.fit_total_percent,
+        "validation": found.validation,
+        "validation_total_percent": found.validation_total_percent if found.validation else None,
+    }
+
+
+def _extended(before: Identification, after: Identification) -> dict[str, object]:
+    old = set(before.base.names)
+    solution = after.estimate.solution
+    return {
+        "base_parameters": [row | {"new": row["name"] not in old} for row in base_parameter_rows(after)],
+        "feasible": after.feasible,
+        "solver": {
+            "status": "optimal" if solution is None else solution.status,
+            "objective": after.estimate.objective,
+            "objective_ols": after.estimate.objective_unconstrained,
+        },
+    }
+
+
+def _simulation(motion: Comparison | None) -> dict[str, object]:
+    if motion is None:
+        return {"before": {}, "after": {}}
+    return {
+        "held_out": True,
+        "before": _moved(motion.before),
+        "after": _moved(motion.after),
+        "improvement_percent": motion.gain_percent,
+        "improvement_total_percent": motion.total_gain_percent,
+    }
+
+
+def _moved(found: MultiStep) -> dict[str, object]:
+    """Tabulate errors by horizon (rows) and joint (columns); `steady_rms` is that of keeping the velocity."""
+    return {
+        "horizons_s": found.horizons,
+        "windows": len(found.keys),
+        "position_rms": found.position_rms,
+        "velocity_rms": found.velocity_rms,
+        "steady_rms": found.still_rms,
+    }

@@ -1,0 +1,113 @@
+"""Tell each finding: what is wrong, how large, how sure, what it gains, and which other causes were weighed."""
+
+from collections.abc import Sequence
+
+from core.report.page.figures import finding_figure
+from core.report.page.markup import Html, listing, section, table, tag, together
+from core.report.page.words import (
+    Document,
+    chance,
+    cure,
+    interval,
+    joints,
+    number,
+    percent,
+    uncertain,
+    unit_of_effort,
+)
+
+
+def findings_section(document: Document) -> Html | None:
+    """Write all findings, the surest first as the document has them."""
+    found = document["diagnosis"]["findings"]
+    if not found:
+        return None
+    cards = [_card(place, one, document) for place, one in enumerate(found, start=1)]
+    return section("What is wrong, and why", *cards)
+
+
+def _card(place: int, finding: Document, document: Document) -> Html:
+    curve = finding.get("curve")
+    return tag(
+        "article",
+        tag("h3", f"{place}. {finding['title']}, {joints(finding['joints'])}"),
+        tag("p", f"{finding['statement']}.", class_="statement"),
+        _key_figures(finding),
+        finding_figure(curve, unit_of_effort(document, curve["joint"])) if curve else None,
+        _parameters(finding),
+        tag("h4", "Why this cause"),
+        listing(_reasons(finding)),
+        _undecided(finding["ambiguous_with"]),
+        _refuted(finding["refuted"]),
+        class_="finding",
+    )
+
+
+def _key_figures(finding: Document) -> Html:
+    gain = finding.get("gain")
+    told = [(percent(100.0 * finding["confidence"]), "confidence that this is the cause")]
+    if gain:
+        told += [
+            (
+                percent(gain.get("improvement_total_percent")),
+                f"smaller error on data that no fit has seen (95 %: {interval(gain['interval_95'])})",
+            )
+        ]
+    told += [
+        (
+            percent(100.0 * finding["explained_residual_fraction"]),
+            "of the residual's mean square explained",
+        ),
+        (chance(finding["p_value"]), "chance of so clear a trace by luck"),
+    ]
+    return tag("div", *(tag("div", tag("b", big), tag("span", small)) for big, small in told), class_="key")
+
+
+def _parameters(finding: Document) -> Html | None:
+    rows = [
+        (
+            one["name"].replace("_", " "),
+            uncertain(one["value"], one["standard_deviation"]),
+            percent(one.get("relative_deviation_percent")),
+            tag("span", "" if one["unit"] == "1" else one["unit"]),
+        )
+        for one in finding["parameters"]
+    ]
+    if not rows:
+        return None
+    return table("How large it is", ("", "value ± standard deviation", "%P", "unit"), rows)
+
+
+def _reasons(finding: Document) -> list[str]:
+    cured = f"What has to be mended: {cure(finding['cure'])}."
+    return [*(_reason(one) for one in finding["evidence"]), cured]
+
+
+def _reason(evidence: Document) -> str:
+    value = evidence["value"]
+    shown = "beyond any number" if value is None else number(value)
+    return f"{evidence['statement']}: {shown} ({evidence['statistic']})."
+
+
+def _undecided(rivals: Sequence[Document]) -> Html | None:
+    if not rivals:
+        return None
+    items = [
+        together(
+            [
+                tag("b", f"{one['title']}, {joints(one['joints'])}"),
+                f": {one['why']}. ",
+                tag("i", "Experiment that separates the two: "),
+                f"{one['separating_experiment']}.",
+            ]
+        )
+        for one in rivals
+    ]
+    return together([tag("h4", "This log cannot tell it apart from"), listing(items)])
+
+
+def _refuted(rivals: Sequence[Document]) -> Html | None:
+    if not rivals:
+        return tag("p", "No other cause comes near to explaining the same trace.", class_="note")
+    items = [f"{one['title']}, {joints(one['joints'])}: {one['why']}." for one in rivals]
+    return together([tag("h4", "Refuted"), listing(items)])

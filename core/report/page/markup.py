@@ -1,0 +1,78 @@
+"""Write HTML and SVG elements so that no text can become markup by accident.
+
+Every child that is not an `Html` is escaped, because names of robots, logs and joints come from users.
+"""
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+Cell = str | float | None
+
+
+class Html(str):
+    """Mark text that is markup already."""
+
+    __slots__ = ()
+
+
+def tag(name: str, *children: object, **attributes: object) -> Html:
+    """Write an element; an attribute's trailing underscore is dropped, others become hyphens.
+
+    Attributes that are None are left out.
+
+    Examples
+    --------
+    >>> tag("p", "a < b", class_="note")
+    '<p class="note">a &lt; b</p>'
+    >>> tag("p", tag("b", "bold"), " text")
+    '<p><b>bold</b> text</p>'
+    """
+    written = "".join(
+        f' {key.rstrip("_").replace("_", "-")}="{escape(str(value))}"'
+        for key, value in attributes.items()
+        if value is not None
+    )
+    return Html(f"<{name}{written}>{together(children)}</{name}>")
+
+
+def together(parts: Iterable[object]) -> Html:
+    """Join parts, escaping those that are no markup; None and empty parts vanish.
+
+    Examples
+    --------
+    >>> together(["<", tag("i", "x"), None])
+    '&lt;<i>x</i>'
+    """
+    return Html(
+        "".join(part if isinstance(part, Html) else escape(str(part)) for part in parts if part is not None)
+    )
+
+
+def listing(items: Iterable[object]) -> Html | None:
+    """Write a list; None where there is nothing to list."""
+    written = [tag("li", item) for item in items]
+    return tag("ul", *written) if written else None
+
+
+def table(
+    caption: str, headings: Sequence[object], rows: Iterable[Sequence[object]], *, note: object = None
+) -> Html:
+    """Write a table whose first column heads its rows; numbers are expected as text already."""
+    head = tag("tr", *(tag("th", heading, scope="col") for heading in headings))
+    body = [
+        tag(
+            "tr",
+            tag("th", row[0], scope="row"),
+            *(tag("td", "" if cell is None else cell) for cell in row[1:]),
+        )
+        for row in rows
+    ]
+    inside = (tag("caption", caption), tag("thead", head), tag("tbody", *body))
+    return together(
+        [tag("div", tag("table", *inside), class_="wide"), tag("p", note, class_="note") if note else None]
+    )
+
+
+def section(heading: str, *parts: object) -> Html:
+    """Write a section with a heading."""
+    return tag("section", tag("h2", heading), *parts)

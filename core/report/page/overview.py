@@ -1,0 +1,154 @@
+"""Say in one sentence what a diagnosis came to, and show all joints before and after, in torque and motion."""
+
+from collections.abc import Sequence
+
+from core.report.page.figures import joint_bars
+from core.report.page.markup import Html, section, table, tag
+from core.report.page.words import (
+    Document,
+    count,
+    interval,
+    joints,
+    lower,
+    number,
+    percent,
+    series,
+    unit_of_effort,
+)
+
+_REAL = 1.0
+"""Improvements below one percent are not worth a word in the headline."""
+
+
+def headline(document: Document) -> str:
+    """Give the verdict as a sentence or two."""
+    diagnosis, name = document["diagnosis"], document["robot"]["name"]
+    found, left = diagnosis["findings"], diagnosis["unexplained"]["joints"]
+    if not found:
+        if diagnosis["verdict"] == "nothing_found":
+            return f"Nothing that this log can show is wrong with the simulation of {name}."
+        return (
+            f"The simulation of {name} leaves structure in the torque of {joints(left)}, and no known cause "
+            "explains it."
+        )
+    titles = series([f"{lower(one['title'])} ({joints(one['joints'])})" for one in found])
+    several = len(found) > 1
+    what = f"{count(len(found))} things" if several else "one thing"
+    sentence = f"The simulation of {name} gets {what} wrong: {titles}."
+    if diagnosis["verdict"] == "unexplained" and left:
+        sentence += f" Part of what is left on {joints(left)} has no known cause."
+    return sentence
+
+
+def gained(document: Document) -> str | None:
+    """Say what the cure gained on unseen data, joint by joint."""
+    diagnosis = document["diagnosis"]
+    helped = [
+        one
+        for one in diagnosis.get("gain") or []
+        if one["improvement_percent"] > _REAL and (one["interval_95"] or [0.0])[0] > 0.0
+    ]
+    if not diagnosis["findings"] or not helped:
+        return None
+    parts = [
+        f"by {percent(one['improvement_percent'])} on joint {one['joint']} (95 %: {interval(one['interval_95'])})"
+        for one in helped
+    ]
+    return f"With the cure in the model, the torque error on data that no fit has seen falls {series(parts)}."
+
+
+def joints_section(document: Document) -> Html | None:
+    """Tabulate every joint before and after on held-out data, in torque and in simulated motion."""
+    diagnosis = document["diagnosis"]
+    old, new = (_by_joint(diagnosis[side].get("validation") or []) for side in ("before", "after"))
+    if not old:
+        return None
+    measured = {one["joint"]: one for one in diagnosis.get("gain") or []}
+    rows = [_row(document, joint, (row, new.get(joint)), measured.get(joint)) for joint, row in old.items()]
+    caption = "Error of the predicted torque on data that no fit has seen"
+    headings = (
+        "joint",
+        "torque RMS",
+        "error before",
+        "error after",
+        "before, % of RMS",
+        "after",
+        "improvement",
+        "95 %",
+    )
+    parts: list[object] = [table(caption, headings, rows, note=_TORQUE_NOTE)]
+    if new:
+        parts.insert(0, _bars(old, new))
+    return section("Joint by joint, in torque and in motion", *parts, _motion_table(document))
+
+
+_TORQUE_NOTE = (
+    "Torque in N m (N where a joint slides). The interval comes from drawing whole blocks of time anew; an "
+    "interval that holds zero means that the cure makes no difference on that joint."
+)
+
+
+def _row(
+    document: Document, joint: int, sides: tuple[Document, Document | None], gain: Document | None
+) -> list[object]:
+    old, new = sides
+    unit = unit_of_effort(document, joint)
+    return [
+        str(joint),
+        f"{number(old['rms_torque'])} {unit}",
+        f"{number(old['rms_residual'])} {unit}",
+        f"{number(new['rms_residual'])} {unit}" if new else "",
+        percent(old["nrmse_of_rms_percent"]),
+        percent(new["nrmse_of_rms_percent"]) if new else "",
+        _improvement(gain["improvement_percent"], gain["interval_95"]) if gain else "",
+        interval(gain["interval_95"]) if gain else "",
+    ]
+
+
+def _bars(old: dict[int, Document], new: dict[int, Document]) -> Html:
+    before, after = (
+        [float(row["nrmse_of_rms_percent"] or 0.0) for row in side.values()] for side in (old, new)
+    )
+    return joint_bars(
+        "Error per joint", before, after, "Error of the predicted torque, % of the torque's RMS, unseen data"
+    )
+
+
+def _motion_table(document: Document) -> Html | None:
+    simulation = document["diagnosis"].get("simulation") or {}
+    old, new = simulation.get("before") or {}, simulation.get("after") or {}
+    if not old:
+        return None
+    horizons = old["horizons_s"]
+    headings = [
+        "joint",
+        *(f"{side} {1000.0 * one:.0f} ms" for one in horizons for side in ("before,", "after,")),
+    ]
+    rows = [
+        [
+            f"{joint + 1}",
+            *(
+                f"{number(1000.0 * side['position_rms'][place][joint])}"
+                for place in range(len(horizons))
+                for side in (old, new)
+            ),
+            _improvement((simulation.get("improvement_total_percent") or [None] * 99)[joint], None),
+        ]
+        for joint in range(len(old["position_rms"][0]))
+    ]
+    note = (
+        f"From {old['windows']} measured states in unseen data, both models were driven by the measured torque; the "
+        "error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm where a joint slides)."
+    )
+    return table("Error of the simulated motion", (*headings, "improvement"), rows, note=note)
+
+
+def _improvement(value: float | None, ends: Sequence[float] | None) -> Html:
+    sure = ends is None or (None not in ends and ends[0] * ends[1] > 0.0)
+    if value is None or not sure or abs(value) < _REAL:
+        return tag("span", percent(value))
+    return tag("span", percent(value), class_="better" if value > 0.0 else "worse")
+
+
+def _by_joint(rows: Sequence[Document]) -> dict[int, Document]:
+    return {int(row["joint"]): row for row in rows}

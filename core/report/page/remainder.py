@@ -1,0 +1,69 @@
+"""Tell what a diagnosis leaves: what is still predictable and where, and what this motion could not have shown."""
+
+from core.report.page.markup import Html, listing, section, table, tag, together
+from core.report.page.words import Document, coordinate, interval, joints, number, percent
+
+_SOURCES = {
+    "repeats": "repeats of the motion",
+    "high_band": "torque above the motion's band",
+    "none": "unknown",
+}
+
+
+def unexplained_section(document: Document) -> Html:
+    """Tabulate per joint what a generic learner still predicts, beside the noise floor."""
+    left = document["diagnosis"]["unexplained"]
+    shares = left["predictable_residual_fraction"]
+    marked = left["joints"]
+    said = (
+        f"On {joints(marked)} part of the residual still follows the motion: a cause that is not in the list, or "
+        "one that this log cannot separate."
+        if marked
+        else "Nothing that follows the motion is left: a generic learner, given angles, speeds, loads and time, cannot "
+        "predict the residual of any joint on data it has not seen. No extension of the model would gain much."
+    )
+    rows = [
+        (
+            str(joint + 1),
+            number(left["rms_residual"][joint]),
+            number(left["noise_floor"][joint]),
+            _SOURCES.get(left["noise_floor_source"][joint], left["noise_floor_source"][joint]),
+            percent(100.0 * shares[joint]),
+            interval([100.0 * end for end in left["interval_95"][joint]]),
+            _where(left["places"][joint], joint + 1),
+        )
+        for joint in range(len(shares))
+    ]
+    headings = ("joint", "residual RMS", "noise floor", "floor from", "predictable share", "95 %", "where")
+    note = (
+        "RMS in N m (N where a joint slides), in the diagnosis's band, which is wider than the fit's. The share is of "
+        "the residual's mean square."
+    )
+    return section("What stays unexplained", tag("p", said), table("What is left", headings, rows, note=note))
+
+
+def not_shown_section(document: Document) -> Html | None:
+    """List the causes that this motion could not have shown, with the motion that would."""
+    listed = document["diagnosis"]["not_identifiable"]
+    if not listed:
+        return None
+    items = [
+        together(
+            [
+                tag("b", f"{one.get('title', one['cause'])}, {joints(one['joints'])}"),
+                f": {one['why']}. ",
+                tag("i", "Motion that would show it: "),
+                f"{one['separating_experiment']}.",
+            ]
+        )
+        for one in listed
+    ]
+    return section("What this motion could not have shown", listing(items))
+
+
+def _where(places: list[Document], joint: int) -> str:
+    if not places:
+        return ""
+    place = places[0]
+    name = coordinate(place["coordinate"], joint)
+    return f"{name} from {number(place['low'])} to {number(place['high'])} {place['unit']}"

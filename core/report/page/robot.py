@@ -1,0 +1,98 @@
+"""Tell an identification: what was found, how well it is known, and whether such a robot can exist."""
+
+from collections.abc import Sequence
+
+from core.report.page.markup import Html, listing, section, table, tag
+from core.report.page.words import Document, number, percent, uncertain, unit_of_effort
+
+
+def headline(document: Document) -> str:
+    """Give the result as a sentence."""
+    counts, held = document["counts"], document.get("validation_total_percent")
+    on = "unseen data" if held is not None else "the data it was fitted to"
+    error = held if held is not None else document.get("fit_total_percent")
+    exists = document["feasibility"].get("feasible")
+    can = {True: "a robot that can exist", False: "a robot that cannot exist"}.get(exists, "a robot")
+    return (
+        f"{document['robot']['name']} is identified as {can}: {counts['base']} base parameters, torque error "
+        f"{percent(error)} on {on}."
+    )
+
+
+def scores_section(document: Document) -> Html | None:
+    """Tabulate the error of the predicted torque per joint, fitted and held out."""
+    fit, held = (_by_joint(document.get(name) or []) for name in ("fit", "validation"))
+    if not fit:
+        return None
+    rows = [
+        (
+            str(joint),
+            f"{number(row['rms_torque'])} {unit_of_effort(document, joint)}",
+            number(row["rms_residual"]),
+            percent(row["nrmse_of_range_percent"]),
+            percent(row["nrmse_of_rms_percent"]),
+            *(
+                (number(held[joint]["rms_residual"]), percent(held[joint]["nrmse_of_rms_percent"]))
+                if joint in held
+                else ("", "")
+            ),
+        )
+        for joint, row in fit.items()
+    ]
+    headings = ("joint", "torque RMS", "error, fitted", "% of range", "% of RMS", "error, unseen", "% of RMS")
+    return section("How well it predicts torque", table("Error of the predicted torque", headings, rows))
+
+
+def existence_section(document: Document) -> Html | None:
+    """Say whether the robot can exist, and what that cost."""
+    found, solver = document.get("feasibility") or {}, document.get("solver") or {}
+    if not found:
+        return None
+    smallest = [one for one in found.get("pseudo_inertia_min_eigenvalue") or [] if one is not None]
+    mass = found.get("mass_matrix_min_eigenvalue") or {}
+    told = [
+        f"The identified robot {'can' if found.get('feasible') else 'cannot'} exist; plain least squares gives one "
+        f"that {'can' if found.get('ols_feasible') else 'cannot'}.",
+        f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(smallest))}." if smallest else None,
+        f"Smallest eigenvalue of the mass matrix in {mass['configurations']} configurations of the workspace: "
+        f"{number(mass['workspace'])}."
+        if mass.get("configurations")
+        else None,
+        f"Solver: {solver.get('status')}; objective {number(solver.get('objective'), 4)} beside "
+        f"{number(solver.get('objective_ols'), 4)} of least squares.",
+        f"Bounds that the estimate touches: {', '.join(found['active_constraints'])}."
+        if found.get("active_constraints")
+        else None,
+    ]
+    return section("Whether such a robot can exist", listing(one for one in told if one))
+
+
+def doubts_section(document: Document) -> Html | None:
+    """List what does not look right."""
+    doubts = document.get("doubts") or []
+    return section("What deserves a second look", listing(f"{one}." for one in doubts)) if doubts else None
+
+
+def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
+    """Tabulate base parameters with %P; a star marks the essential ones."""
+    if not rows:
+        return None
+    listed = [
+        (
+            f"{row['name']}{'*' if row.get('essential') else ''}",
+            uncertain(row["value"], row["standard_deviation"]),
+            percent(row.get("relative_deviation_percent")),
+            tag("span", "" if row["unit"] == "1" else row["unit"]),
+            tag("span", row.get("grouping") or "", class_="meta"),
+        )
+        for row in rows
+    ]
+    headings = ("parameter", "value ± standard deviation", "%P", "unit", "what is grouped in it")
+    return section(
+        heading,
+        table("Base parameters", headings, listed, note="* essential; %P: relative standard deviation"),
+    )
+
+
+def _by_joint(rows: Sequence[Document]) -> dict[int, Document]:
+    return {int(row["joint"]): row for row in rows}

@@ -1,0 +1,169 @@
+"""Draw plots as SVG on the server: axes with round ticks, curves, bands and points; nothing needs a script.
+
+Colours are classes, so that one style sheet serves a light screen, a dark one and paper.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, floor, log10
+
+from core.report.page.markup import Html, tag, together
+from core.report.page.words import MINUS
+
+_MOST_TICKS = 6
+_MARGIN_LEFT, _MARGIN_RIGHT, _MARGIN_TOP, _MARGIN_BOTTOM = 62.0, 12.0, 26.0, 44.0
+
+Values = Sequence[float]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Place a plot in a picture, and turn data into pixels.
+
+    Attributes
+    ----------
+    left, top, width, height
+        The whole plot with its labels, pixels.
+    x, y
+        Lowest and highest value shown on either axis.
+    """
+
+    left: float
+    top: float
+    width: float
+    height: float
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Give the pixels of a point, kept within the frame."""
+        across = min(max((x - self.x[0]) / (self.x[1] - self.x[0]), 0.0), 1.0)
+        up = min(max((y - self.y[0]) / (self.y[1] - self.y[0]), 0.0), 1.0)
+        return round(self._begin + across * self._wide, 1), round(self._floor - up * self._high, 1)
+
+    @property
+    def _begin(self) -> float:
+        return self.left + _MARGIN_LEFT
+
+    @property
+    def _wide(self) -> float:
+        return self.width - _MARGIN_LEFT - _MARGIN_RIGHT
+
+    @property
+    def _floor(self) -> float:
+        return self.top + self.height - _MARGIN_BOTTOM
+
+    @property
+    def _high(self) -> float:
+        return self.height - _MARGIN_TOP - _MARGIN_BOTTOM
+
+    def axes(self, title: str, x_label: str, y_label: str) -> Html:
+        """Draw the grid, the numbers beside it, and what they are."""
+        middle = self._begin + self._wide / 2.0
+        side = (self.left + 13.0, self._floor - self._high / 2.0)
+        return together(
+            [
+                *(self._tick_across(value) for value in ticks(*self.x)),
+                *(self._tick_up(value) for value in ticks(*self.y)),
+                tag("text", title, x=self._begin, y=self.top + 14.0, class_="title"),
+                tag("text", x_label, x=middle, y=self._floor + 36.0, text_anchor="middle"),
+                tag(
+                    "text",
+                    y_label,
+                    x=side[0],
+                    y=side[1],
+                    text_anchor="middle",
+                    transform=f"rotate(-90 {side[0]} {side[1]})",
+                ),
+            ]
+        )
+
+    def line(self, x: Values, y: Values, kind: str) -> Html:
+        """Draw a curve."""
+        return tag(
+            "polyline",
+            points=_points([self.at(*one) for one in zip(x, y, strict=True)]),
+            class_=f"line {kind}",
+        )
+
+    def band(self, x: Values, low: Values, high: Values, kind: str) -> Html:
+        """Fill what lies between two curves."""
+        there = [self.at(*one) for one in zip(x, low, strict=True)]
+        back = [self.at(*one) for one in zip(x, high, strict=True)]
+        return tag("polygon", points=_points([*there, *reversed(back)]), class_=f"band {kind}")
+
+    def dots(self, x: Values, y: Values, kind: str) -> Html:
+        """Draw points."""
+        pixels = [self.at(*one) for one in zip(x, y, strict=True)]
+        return together(
+            tag("circle", cx=across, cy=down, r=3.2, class_=f"dot {kind}") for across, down in pixels
+        )
+
+    def zero(self) -> Html | None:
+        """Draw the line on which nothing is left, where it is in sight."""
+        if not self.y[0] < 0.0 < self.y[1]:
+            return None
+        return self.line(self.x, (0.0, 0.0), "zero")
+
+    def _tick_across(self, value: float) -> Html:
+        across, down = self.at(value, self.y[0])
+        rule = tag("line", x1=across, x2=across, y1=down, y2=round(down - self._high, 1), class_="grid")
+        return together([rule, tag("text", _short(value), x=across, y=down + 16.0, text_anchor="middle")])
+
+    def _tick_up(self, value: float) -> Html:
+        across, down = self.at(self.x[0], value)
+        rule = tag("line", x1=across, x2=round(across + self._wide, 1), y1=down, y2=down, class_="grid")
+        return together([rule, tag("text", _short(value), x=across - 6.0, y=down + 4.0, text_anchor="end")])
+
+
+def picture(title: str, description: str, size: tuple[float, float], *parts: object) -> Html:
+    """Put drawn parts in a picture that a screen reader can tell of."""
+    width, height = size
+    return tag(
+        "svg",
+        tag("title", title),
+        tag("desc", description),
+        *parts,
+        viewBox=f"0 0 {width:g} {height:g}",
+        role="img",
+        xmlns="http://www.w3.org/2000/svg",
+    )
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """Give a few round values between two ends.
+
+    Examples
+    --------
+    >>> ticks(-0.23, 0.71)
+    [-0.2, 0.0, 0.2, 0.4, 0.6]
+    """
+    if not high > low:
+        return [low]
+    rough = (high - low) / _MOST_TICKS
+    scale = 10.0 ** floor(log10(rough))
+    step = next(scale * factor for factor in (1.0, 2.0, 5.0, 10.0) if scale * factor >= rough)
+    begin, end = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    return [round(place * step, 12) + 0.0 for place in range(begin, end + 1)]
+
+
+def span(*groups: Values, margin: float = 0.06) -> tuple[float, float]:
+    """Give ends that hold all values, with a little room.
+
+    Examples
+    --------
+    >>> span([0.0, 1.0], [2.0], margin=0.5)
+    (-1.0, 3.0)
+    """
+    values = [value for group in groups for value in group]
+    low, high = (min(values), max(values)) if values else (0.0, 1.0)
+    room = margin * (high - low) or max(abs(high), 1.0) * 0.1
+    return low - room, high + room
+
+
+def _points(pixels: Sequence[tuple[float, float]]) -> str:
+    return " ".join(f"{across:g},{down:g}" for across, down in pixels)
+
+
+def _short(value: float) -> str:
+    return f"{value:.6g}".replace("-", MINUS)

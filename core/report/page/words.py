@@ -1,0 +1,178 @@
+"""Write numbers, joints and coordinates for a reader; the page's only place that rounds."""
+
+from collections.abc import Mapping, Sequence
+from math import floor, log10
+from typing import Any
+
+Number = float | int | None
+Document = Mapping[str, Any]
+"""A result document, or a part of one."""
+MINUS = "\N{MINUS SIGN}"
+NOTHING = "-"
+"""What stands where there is no number."""
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+_COORDINATES = {
+    "time": "time",
+    "position": "angle",
+    "velocity": "speed",
+    "acceleration": "acceleration",
+    "load": "torque that the gear transmits, as predicted",
+    "torque": "torque, as predicted",
+    "torque_rate": "rate of the torque, as predicted",
+    "travel": "way since the last reversal",
+    "motor_phase": "angle of the motor",
+    "temperature": "temperature",
+}
+_CURES = {
+    "term": "a term is missing from the model",
+    "signal": "a signal of the log is not what it says",
+    "robot": "the description of the robot is wrong",
+}
+
+
+def number(value: Number, digits: int = 3) -> str:
+    """Write a few significant digits, a power of ten where the number is tiny or huge.
+
+    Examples
+    --------
+    >>> number(0.01234), number(1.2e-7), number(None), number(12345.0)
+    ('0.0123', '1.2·10⁻⁷', '-', '12345')
+    """
+    if value is None:
+        return NOTHING
+    if value and not 1e-4 <= abs(value) < 1e6:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+        return f"{mantissa}·10{str(int(exponent)).translate(_SUPERSCRIPTS)}".replace("-", MINUS)
+    decimals = max(digits - 1 - floor(log10(abs(value))), 0) if value else 0
+    return f"{value:.{decimals}f}".replace("-", MINUS)
+
+
+def uncertain(value: Number, deviation: Number, unit: str = "1") -> str:
+    """Write a value with its standard deviation, both to the digit that the deviation has.
+
+    Examples
+    --------
+    >>> uncertain(0.09953, 0.00206, "N m"), uncertain(9.04, 0.1)
+    ('0.0995 ± 0.0021 N m', '9.04 ± 0.10')
+    """
+    after = "" if unit in ("1", "") else f" {unit}"
+    if value is None or not deviation or not 1e-12 < deviation < 1e9:
+        return number(value) + after
+    decimals = max(1 - floor(log10(deviation)), 0)
+    if decimals > 6:
+        return f"{number(value)} ± {number(deviation, 2)}{after}"
+    return f"{value:.{decimals}f} ± {deviation:.{decimals}f}{after}".replace("-", MINUS)
+
+
+def percent(value: Number) -> str:
+    """Write a percentage as far as it says anything.
+
+    Examples
+    --------
+    >>> percent(3.14159), percent(66.8), percent(-0.004)
+    ('3.1 %', '67 %', '0.0 %')
+    """
+    if value is None:
+        return NOTHING
+    shown = f"{value:.0f}" if abs(value) >= 10.0 else f"{value:.1f}"
+    return f"{'0.0' if shown == '-0.0' else shown} %".replace("-", MINUS)
+
+
+def interval(ends: Sequence[Number] | None) -> str:
+    """Write an interval of percentages.
+
+    Examples
+    --------
+    >>> interval([53.6, 74.2]), interval(None)
+    ('54 to 74 %', '-')
+    """
+    if ends is None or None in ends:
+        return NOTHING
+    low, high = (percent(end).removesuffix(" %") for end in ends)
+    return f"{low} to {high} %"
+
+
+def chance(p_value: Number) -> str:
+    """Write a p-value; what is smaller than a number can hold is called so.
+
+    Examples
+    --------
+    >>> chance(0.0), chance(2e-9), chance(0.2)
+    ('below 10⁻³⁰⁰', '2·10⁻⁹', '0.20')
+    """
+    if p_value is None:
+        return NOTHING
+    if p_value < 1e-300:
+        return "below 10⁻³⁰⁰"
+    return number(p_value, 2)
+
+
+def joints(numbers: Sequence[int]) -> str:
+    """Name joints.
+
+    Examples
+    --------
+    >>> joints([2]), joints([5, 6]), joints([])
+    ('joint 2', 'joints 5 and 6', 'the whole robot')
+    """
+    if not numbers:
+        return "the whole robot"
+    return f"joint{'s' if len(numbers) > 1 else ''} {series([str(one) for one in numbers])}"
+
+
+def series(items: Sequence[str]) -> str:
+    """Join words by commas and a last "and".
+
+    Examples
+    --------
+    >>> series(["a"]), series(["a", "b", "c"])
+    ('a', 'a, b and c')
+    """
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def count(size: int) -> str:
+    """Write a small number as a word."""
+    return _COUNTS[size] if size < len(_COUNTS) else str(size)
+
+
+def lower(sentence: str) -> str:
+    """Begin with a small letter, unless a name stands there."""
+    return sentence[:1].lower() + sentence[1:]
+
+
+def coordinate(name: str, joint: int) -> str:
+    """Say in words what a figure's abscissa shows.
+
+    Examples
+    --------
+    >>> coordinate("position", 4), coordinate("velocity_of_joint_2", 3)
+    ('angle of joint 4', 'speed of joint 2')
+    """
+    if name.startswith("velocity_of_joint_"):
+        return f"speed of joint {name.removeprefix('velocity_of_joint_')}"
+    words = _COORDINATES.get(name, name.replace("_", " "))
+    return (
+        words
+        if name in ("time", "temperature")
+        else f"{words.partition(',')[0]} of joint {joint}{_tail(words)}"
+    )
+
+
+def cure(kind: str) -> str:
+    """Say what a cure mends."""
+    return _CURES.get(kind, kind)
+
+
+def unit_of_effort(document: Document, joint: int) -> str:
+    """Give N for a joint that slides, N m for one that turns."""
+    listed = document.get("robot", {}).get("joints") or []
+    kind = listed[joint - 1].get("type") if 0 < joint <= len(listed) else None
+    return "N" if kind == "prismatic" else "N m"
+
+
+def _tail(words: str) -> str:
+    _, comma, rest = words.partition(",")
+    return comma + rest
