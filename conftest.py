@@ -10,6 +10,7 @@ from jaxtyping import install_import_hook
 CHECKED_PACKAGES = (
     "core.dynamics",
     "core.estimate",
+    "core.extension",
     "core.log",
     "core.precision",
     "core.reduction",

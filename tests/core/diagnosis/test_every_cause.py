@@ -135,6 +135,16 @@ def test_sites_are_joints_of_the_robot_each_named_once(cause, scene):
     assert all(1 <= joint <= scene.look.joints for site in sites for joint in site)
 
 
+def test_terms_of_different_causes_and_sites_have_different_names_so_that_none_replaces_another(scene):
+    look, believed = scene.look, scene.believed
+    names = [
+        cause.term(look, believed, site, cause.grid(look, believed, site)[0]).name
+        for cause in CAUSES
+        for site in cause.sites(look, believed)
+    ]
+    assert len(set(names)) == len(names)
+
+
 @every_torque_cause
 def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scene):
     for site in cause.sites(scene.look, scene.believed):

@@ -1,21 +1,30 @@
-"""Hold every torque term to the same contract, found by listing the files of `core/dynamics/terms`."""
+"""Hold every torque term to the same contract, found by listing the files of `core/dynamics/terms`.
+
+A term is one of the standard model, asked for by name, or the cure of a cause of the diagnosis.
+"""
 
 import ast
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from core.diagnosis.catalogue import CAUSES
 from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
+from core.dynamics.term import Term
 from core.dynamics.terms.coulomb import Coulomb, direction
 from core.errors import OptionError
 from core.regressor.columns import all_columns
 from core.robot.model import Coupling, RobotModel
 from core.signals.state import MotionState
+from tests.core.diagnosis.scenes import eventful_scene
 from tests.tools import random_robot
 
 FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
-SHARED_PARTS = {"__init__", "own_joint"}
+SHARED_PARTS = {"__init__", "effect", "own_joint", "rounding"}
+FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
 TERMS = sorted(STANDARD_TERMS)
 
 
@@ -32,13 +41,49 @@ def state() -> MotionState:
     return MotionState(*(rng.normal(size=(40, 4)) for _ in range(3)))
 
 
-def test_every_file_of_terms_is_registered_under_its_own_name():
-    files = {path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS
-    assert files == set(STANDARD_TERMS)
+def file_of(term: Term) -> str:
+    return type(term).__module__.rsplit(".", 1)[-1]
+
+
+@cache
+def cures() -> tuple[Term, ...]:
+    """Give the term of every cause at one site, and once more with the joints' temperatures logged."""
+    scene = eventful_scene()
+    warm = replace(scene.look.state, temperature=np.full_like(scene.look.state.position, 30.0))
+    looks = (scene.look, replace(scene.look, state=warm))
+    return tuple(
+        cause.term(look, scene.believed, site, cause.grid(look, scene.believed, site)[0])
+        for look in looks
+        for cause in CAUSES
+        for site in [cause.sites(look, scene.believed)[-1]]
+    )
+
+
+def test_every_file_of_terms_is_a_standard_term_or_the_cure_of_a_cause():
+    assert set(FILES) == set(STANDARD_TERMS) | {file_of(term) for term in cures()}
     assert all(term().name == name for name, term in STANDARD_TERMS.items())
 
 
-@pytest.mark.parametrize("name", TERMS)
+@pytest.mark.parametrize("name", sorted(set(FILES) - set(STANDARD_TERMS)))
+def test_a_cure_keeps_the_contract_of_all_terms(name):
+    scene = eventful_scene()
+    robot, state = scene.look.robot, scene.look.stretches[0].state
+    terms = [one for one in cures() if file_of(one) == name]
+    assert terms
+    for term in terms:
+        assert isinstance(term, Term)
+        entries, parameters = term.entries(robot), term.parameters(robot)
+        series = term.series(robot, state)
+        assert series.shape == (len(entries), len(state.position))
+        assert np.isfinite(series).all()
+        assert len(set(entries)) == len(entries)
+        assert {parameter for _, parameter in entries} == set(range(len(parameters)))
+        assert all(0 <= joint < len(robot.joints) for joint, _ in entries)
+        assert len({parameter.name for parameter in parameters}) == len(parameters)
+        assert all(parameter.unit for parameter in parameters)
+
+
+@pytest.mark.parametrize("name", FILES)
 def test_a_term_says_where_it_comes_from(name):
     text = ast.get_docstring(ast.parse((FOLDER / f"{name}.py").read_text())) or ""
     assert "Source" in text
