@@ -22,6 +22,8 @@ DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultD
 DESCRIPTION = """From a robot's log to a robot that can physically exist.
 
 Create a robot (or use a built-in one), upload a log, ask for a job of kind `identify`, read its results.
+A job of kind `diagnose` also says what the simulation still gets wrong, why, and what curing it gains. Every
+successful job has a report for people at `/v1/jobs/{job_id}/report`.
 Units are SI, angles rad, joints counted from 1. Numbers are finite: no request and no answer holds NaN or
 Infinity. Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
 

@@ -32,7 +32,11 @@ def job_document(job: JobRecord) -> Document:
     path = f"/v1/jobs/{job.id}"
     links = {"self": path}
     if job.state == "successful":
-        links |= {"results": f"{path}/results", "parameters_csv": f"{path}/results/parameters.csv"}
+        links |= {
+            "results": f"{path}/results",
+            "report": f"{path}/report",
+            "parameters_csv": f"{path}/results/parameters.csv",
+        }
     return {
         "id": job.id,
         "kind": job.request.kind,

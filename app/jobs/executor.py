@@ -48,7 +48,7 @@ class ProcessExecutor:
         Modules that the server process loads before it forks.
     """
 
-    def __init__(self, work: Work = science.identify, *, preload: tuple[str, ...] = ("core.study",)) -> None:
+    def __init__(self, work: Work = science.compute, *, preload: tuple[str, ...] = ("core.study",)) -> None:
         self._work = work
         self._context = multiprocessing.get_context("forkserver")
         self._context.set_forkserver_preload(["app.jobs.worker", *preload])

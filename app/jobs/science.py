@@ -19,7 +19,7 @@ from core.robot.suspicions import suspicions
 from core.robot.urdf import robot_from_urdf
 from core.robot.writing import to_description
 
-KINDS = ("identify",)
+KINDS = ("identify", "diagnose")
 
 
 def built_in_descriptions() -> dict[str, Document]:
@@ -99,9 +99,24 @@ def check_options(kind: str, options: Document) -> None:
             evidence={"given": kind, "known": list(KINDS)},
             remedy="ask for one of the known kinds",
         )
-    from core.study import parse_options
+    from core import study
 
-    parse_options(options)
+    if kind == "diagnose":
+        study.parse_diagnose_options(options)
+    else:
+        study.parse_options(options)
+
+
+def reference_job(options: Document) -> str | None:
+    """Give the id of the job that a diagnosis compares with; None where it compares with no job.
+
+    Examples
+    --------
+    >>> reference_job({"reference": "job-1"}), reference_job({"reference": "prior"}), reference_job({})
+    ('job-1', None, None)
+    """
+    named = options.get("reference")
+    return str(named) if named not in (None, "prior") else None
 
 
 def base_parameters(description: Document) -> Document:
@@ -118,8 +133,8 @@ def base_parameters(description: Document) -> Document:
     return document
 
 
-def identify(computation: Computation, progress: Progress) -> Document:
-    """Identify a robot; the work of a job.
+def compute(computation: Computation, progress: Progress) -> Document:
+    """Identify a robot or diagnose its simulation; the work of a job.
 
     Raises
     ------
@@ -132,8 +147,16 @@ def identify(computation: Computation, progress: Progress) -> Document:
     logs = tuple(
         read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256) for log in computation.logs
     )
-    request = study.IdentifyRequest(robot=robot, logs=logs, options=computation.options)
-    document: Document = study.identify(request, progress)
+    document: Document
+    if computation.kind == "diagnose":
+        document = study.diagnose(
+            study.DiagnoseRequest(
+                robot=robot, logs=logs, options=computation.options, reference=computation.reference
+            ),
+            progress,
+        )
+    else:
+        document = study.identify(study.IdentifyRequest(robot, logs, computation.options), progress)
     return document
 
 

@@ -85,7 +85,8 @@ def _age(job: JobRecord, now: datetime) -> str:
 def _outcome(job: JobRecord) -> str:
     path = f"/v1/jobs/{job.id}"
     if job.state == "successful":
-        return _link(f"{path}/results", "result") + ", " + _link(f"{path}/results/parameters.csv", "table")
+        forms = (("report", "report"), ("results", "result"), ("results/parameters.csv", "table"))
+        return ", ".join(_link(f"{path}/{place}", word) for place, word in forms)
     if job.problem is not None:
         return _link(path, "problem") + ": " + escape(str(job.problem["cause"]))
     return ""

@@ -5,13 +5,14 @@ from typing import Annotated
 
 import anyio
 from fastapi import APIRouter, Header, Query, Request, Response
-from fastapi.responses import JSONResponse
+from fastapi.responses import HTMLResponse, JSONResponse
 
 from app.negotiation import matches, preferred, wait_seconds
 from app.openapi import body, problems, reference
 from app.problems import Problem
 from app.reading import check, parse_json, require_media_type
-from app.schemas.examples import JOB_REQUEST
+from app.reports import report_response
+from app.schemas.examples import JOB_REQUESTS
 from app.schemas.jobs import Job, JobList, JobRequest
 from app.schemas.results import ResultDocument
 from app.services import Services, ServicesOf
@@ -22,7 +23,7 @@ from app.waiting import wait_for
 
 ROUTER = APIRouter(prefix="/v1/jobs", tags=["jobs"])
 RETRY_AFTER_S = "1"
-RESULT_FORMS = ("application/json", "text/csv")
+RESULT_FORMS = ("application/json", "text/csv", "text/html")
 
 
 @ROUTER.post(
@@ -32,7 +33,7 @@ RESULT_FORMS = ("application/json", "text/csv")
     summary="Ask for a computation",
     responses=problems(400, 413, 415, 422)
     | {200: {"model": Job, "description": "It finished while the client waited"}},
-    openapi_extra=body({"application/json": {"schema": reference(JobRequest), "example": JOB_REQUEST}}),
+    openapi_extra=body({"application/json": {"schema": reference(JobRequest), "examples": JOB_REQUESTS}}),
 )
 async def create_job(
     request: Request,
@@ -88,15 +89,15 @@ def read_job(
     responses=problems(404, 406, 409)
     | {
         200: {
-            "content": {"text/csv": {"schema": {"type": "string"}}},
-            "description": "The result, or its base parameters as CSV",
+            "content": {form: {"schema": {"type": "string"}} for form in ("text/csv", "text/html")},
+            "description": "The result, its base parameters as CSV, or its report",
         }
     },
 )
 def read_results(
     services: ServicesOf, job_id: str, accept: Annotated[str | None, Header(include_in_schema=False)] = None
 ) -> Response:
-    """Read the result document; with Accept: text/csv its base parameters as a table."""
+    """Read the result document; with Accept: text/csv its base parameters, with text/html its report."""
     form = preferred(accept, RESULT_FORMS)
     if form is None:
         raise Problem(
@@ -110,7 +111,21 @@ def read_results(
     if form == "text/csv":
         table = ARTIFACTS["parameters.csv"](json.loads(content))
         return Response(table, media_type="text/csv", headers={"Vary": "Accept"})
+    if form == "text/html":
+        return report_response(content)
     return Response(content, media_type=form, headers=headers)
+
+
+@ROUTER.get(
+    "/{job_id}/report",
+    response_class=HTMLResponse,
+    summary="Read the report",
+    responses=problems(404, 409) | {200: {"description": "One HTML file that opens offline"}},
+)
+def read_report(services: ServicesOf, job_id: str) -> HTMLResponse:
+    """Read what came out as a page: figures, tables and sentences, without a script."""
+    content, _ = _result(services, job_id)
+    return report_response(content)
 
 
 @ROUTER.get(

@@ -1,7 +1,7 @@
 """Give the examples that fill /docs, so that "Try it out" works at once with the YuMi arm.
 
-The id of the example log follows from the bytes of the file that ships with the project; a test keeps the
-two together.
+The ids of the example logs follow from the bytes of the files that ship with the project, uploaded under
+their own names; a test keeps them together.
 """
 
 from core.robot.builtin import builtin_description
@@ -14,6 +14,18 @@ JOB_REQUEST: dict[str, object] = {
     "robot": "yumi-left",
     "logs": [EXAMPLE_LOG_ID],
     "options": {},
+}
+HIDDEN_LOG = "examples/yumi/hidden_log.csv"
+HIDDEN_LOG_ID = "log-a7b55ace1b0dad189dae"
+DIAGNOSE_REQUEST: dict[str, object] = {
+    "kind": "diagnose",
+    "robot": "yumi-left",
+    "logs": [HIDDEN_LOG_ID],
+    "options": {"reference": None},
+}
+JOB_REQUESTS: dict[str, object] = {
+    "identify": {"summary": "Identify the arm from the first shipped log", "value": JOB_REQUEST},
+    "diagnose": {"summary": "Find what the second shipped log hides", "value": DIAGNOSE_REQUEST},
 }
 PENDULUM_URDF = """<robot name="pendulum">
   <link name="base"/>

@@ -12,7 +12,7 @@ State = Literal["accepted", "running", "successful", "failed", "dismissed"]
 class JobRequest(Strict):
     """What to compute: the kind, a robot and logs by id, and options."""
 
-    kind: Annotated[Literal["identify"], Field(description="what to compute")]
+    kind: Annotated[Literal["identify", "diagnose"], Field(description="what to compute")]
     robot: Identity
     logs: Annotated[list[Identity], Field(min_length=1, max_length=100)]
     options: Options = Field(

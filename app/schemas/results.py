@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, JsonValue
 
 from app.schemas.common import Open
+from app.schemas.diagnosis import Diagnosis, JointFit
 
 
 class BaseParameter(Open):
@@ -31,16 +32,6 @@ class StandardParameter(Open):
     identifiable: Literal["individually", "in_combination", "no"]
 
 
-class JointFit(Open):
-    """How well the model predicts the torque of a joint."""
-
-    joint: int
-    rms_torque: float
-    rms_residual: float
-    nrmse_of_range_percent: float | None
-    nrmse_of_rms_percent: float | None
-
-
 class ResultDocument(Open):
     """The identified robot: its parameters, how well each is known, and how well it predicts."""
 
@@ -61,4 +52,4 @@ class ResultDocument(Open):
     doubts: Annotated[
         list[str], Field(description="sentences: what deserves a second look before it is used")
     ]
-    diagnosis: JsonValue = None
+    diagnosis: Annotated[Diagnosis | None, Field(description="of a job of kind diagnose")] = None

@@ -5,18 +5,9 @@ import threading
 from app.documents import json_bytes
 from app.jobs.computation import Failed, Finished, Stopped
 from app.problems import Problem
+from tests.core.report.documents import identified
 
-RESULT = {
-    "schema_version": "1.0",
-    "kind": "identify",
-    "base_parameters": [
-        {"name": "ZZR1", "joint": 1, "unit": "kg m2", "value": 0.5, "value_ols": 0.6, "essential": True,
-         "standard_deviation": 0.01, "relative_deviation_percent": 2.0, "grouping": "ZZ1 + YY2"},
-    ],
-    "standard_parameters": [
-        {"name": "ZZ1", "joint": 1, "unit": "kg m2", "value": 0.4, "identifiable": "in_combination"}
-    ],
-}  # fmt: skip
+RESULT = identified()
 
 
 class StubExecutor:

@@ -289,7 +289,7 @@ GOOD_JOB = {"kind": "identify", "robot": "yumi-left", "logs": ["log-none"], "opt
 @pytest.mark.parametrize(
     ("change", "pointer"),
     [
-        ({"kind": "diagnose"}, "/kind"),
+        ({"kind": "guess"}, "/kind"),
         ({"kind": None}, "/kind"),
         ({"robot": 7}, "/robot"),
         ({"robot": "x" * 100}, "/robot"),
@@ -307,8 +307,8 @@ def test_a_job_request_that_does_not_follow_the_contract_is_refused_at_the_spot(
 
 
 def test_an_unknown_kind_of_job_is_refused_with_the_known_ones(client):
-    problem = client.post("/v1/jobs", json=GOOD_JOB | {"kind": "diagnose"}).json()
-    assert "'identify'" in problem["evidence"]["errors"][0]["message"]
+    problem = client.post("/v1/jobs", json=GOOD_JOB | {"kind": "guess"}).json()
+    assert "'identify' or 'diagnose'" in problem["evidence"]["errors"][0]["message"]
 
 
 def test_a_robot_or_log_that_does_not_exist_is_named(client, log_id):

@@ -34,6 +34,7 @@ PROMISED = {
     "/v1/logs/{log_id}": {"GET", "DELETE"},
     "/v1/jobs": {"GET", "POST"},
     "/v1/jobs/{job_id}": {"GET", "DELETE"},
+    "/v1/jobs/{job_id}/report": {"GET"},
     "/v1/jobs/{job_id}/results": {"GET"},
     "/v1/jobs/{job_id}/results/{artifact}": {"GET"},
     "/v1/identify": {"POST"},
@@ -136,18 +137,26 @@ def test_answers_follow_the_documented_models(client, robot_id, log_id):
 
 
 def test_the_examples_of_the_contract_work(client):
-    JobRequest.model_validate(examples.JOB_REQUEST)
+    for example in examples.JOB_REQUESTS.values():
+        JobRequest.model_validate(example["value"])
     assert client.post("/v1/robots", json=examples.YUMI_LEFT).status_code == 201
     urdf = client.post("/v1/robots", content=examples.PENDULUM_URDF, headers={"Content-Type": "text/xml"})
     assert urdf.status_code == 201
     json.loads(examples.MAPPING)
 
 
-def test_the_example_job_names_the_log_that_ships_with_the_project(client):
-    content = (ROOT / examples.EXAMPLE_LOG).read_bytes()
-    answer = client.post("/v1/logs", files={"file": ("log.csv", content, "text/csv")})
-    assert answer.json()["id"] == examples.EXAMPLE_LOG_ID
-    assert client.post("/v1/jobs", json=examples.JOB_REQUEST).status_code == 202
+@pytest.mark.parametrize(
+    ("log", "identity", "kind"),
+    [
+        (examples.EXAMPLE_LOG, examples.EXAMPLE_LOG_ID, "identify"),
+        (examples.HIDDEN_LOG, examples.HIDDEN_LOG_ID, "diagnose"),
+    ],
+)
+def test_the_example_jobs_name_the_logs_that_ship_with_the_project(client, log, identity, kind):
+    path = ROOT / log
+    answer = client.post("/v1/logs", files={"file": (path.name, path.read_bytes(), "text/csv")})
+    assert answer.json()["id"] == identity
+    assert client.post("/v1/jobs", json=examples.JOB_REQUESTS[kind]["value"]).status_code == 202
 
 
 def test_the_id_of_a_log_depends_on_bytes_name_and_mapping_only():

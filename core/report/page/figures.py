@@ -89,6 +89,6 @@ def _caption(curve: Document) -> str:
         else "Dots: means of equally many samples."
     )
     return (
-        f"{dots} Curve: what the finding adds that the other parameters cannot take up; dots that lie on it are "
-        "explained. Shaded: where 95 of 100 such means would lie."
+        f"{dots} Curve: what the finding adds that the other parameters cannot take up; dots that lie on it "
+        "are explained. Shaded: where 95 of 100 such means would lie."
     )

@@ -1,4 +1,4 @@
-"""Tell each finding: what is wrong, how large, how sure, what it gains, and which other causes were weighed."""
+"""Tell each finding: what is wrong, how large, how sure, what it gains, and its rivals."""
 
 from collections.abc import Sequence
 
@@ -12,6 +12,7 @@ from core.report.page.words import (
     joints,
     number,
     percent,
+    share,
     uncertain,
     unit_of_effort,
 )
@@ -45,7 +46,7 @@ def _card(place: int, finding: Document, document: Document) -> Html:
 
 def _key_figures(finding: Document) -> Html:
     gain = finding.get("gain")
-    told = [(percent(100.0 * finding["confidence"]), "confidence that this is the cause")]
+    told = [(share(finding["confidence"]), "confidence that this is the cause")]
     if gain:
         told += [
             (
@@ -54,10 +55,7 @@ def _key_figures(finding: Document) -> Html:
             )
         ]
     told += [
-        (
-            percent(100.0 * finding["explained_residual_fraction"]),
-            "of the residual's mean square explained",
-        ),
+        (share(finding["explained_residual_fraction"]), "of the residual's mean square explained"),
         (chance(finding["p_value"]), "chance of so clear a trace by luck"),
     ]
     return tag("div", *(tag("div", tag("b", big), tag("span", small)) for big, small in told), class_="key")
@@ -85,7 +83,7 @@ def _reasons(finding: Document) -> list[str]:
 
 def _reason(evidence: Document) -> str:
     value = evidence["value"]
-    shown = "beyond any number" if value is None else number(value)
+    shown = "smaller than can be computed" if value is None else number(value)
     return f"{evidence['statement']}: {shown} ({evidence['statistic']})."
 
 

@@ -55,22 +55,35 @@ def listing(items: Iterable[object]) -> Html | None:
 
 
 def table(
-    caption: str, headings: Sequence[object], rows: Iterable[Sequence[object]], *, note: object = None
+    caption: str,
+    headings: Sequence[object],
+    rows: Iterable[Sequence[object]],
+    *,
+    note: object = None,
+    text: Sequence[int] = (),
 ) -> Html:
-    """Write a table whose first column heads its rows; numbers are expected as text already."""
-    head = tag("tr", *(tag("th", heading, scope="col") for heading in headings))
+    """Write a table whose first column heads its rows; numbers are expected as text already.
+
+    Parameters
+    ----------
+    text
+        Columns that hold words and begin at the left.
+    """
+    sides = ["text" if place in text else None for place in range(len(headings))]
+    head = tag(
+        "tr", *(tag("th", one, scope="col", class_=side) for one, side in zip(headings, sides, strict=True))
+    )
     body = [
         tag(
             "tr",
             tag("th", row[0], scope="row"),
-            *(tag("td", "" if cell is None else cell) for cell in row[1:]),
+            *(tag("td", cell, class_=side) for cell, side in zip(row[1:], sides[1:], strict=True)),
         )
         for row in rows
     ]
     inside = (tag("caption", caption), tag("thead", head), tag("tbody", *body))
-    return together(
-        [tag("div", tag("table", *inside), class_="wide"), tag("p", note, class_="note") if note else None]
-    )
+    below = tag("p", note, class_="note") if note else None
+    return together([tag("div", tag("table", *inside), class_="wide"), below])
 
 
 def section(heading: str, *parts: object) -> Html:

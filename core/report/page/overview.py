@@ -1,4 +1,4 @@
-"""Say in one sentence what a diagnosis came to, and show all joints before and after, in torque and motion."""
+"""Say in a sentence what a diagnosis came to, and show all joints before and after, in torque and motion."""
 
 from collections.abc import Sequence
 
@@ -51,7 +51,8 @@ def gained(document: Document) -> str | None:
     if not diagnosis["findings"] or not helped:
         return None
     parts = [
-        f"by {percent(one['improvement_percent'])} on joint {one['joint']} (95 %: {interval(one['interval_95'])})"
+        f"by {percent(one['improvement_percent'])} on joint {one['joint']} "
+        f"(95 %: {interval(one['interval_95'])})"
         for one in helped
     ]
     return f"With the cure in the model, the torque error on data that no fit has seen falls {series(parts)}."
@@ -137,8 +138,9 @@ def _motion_table(document: Document) -> Html | None:
         for joint in range(len(old["position_rms"][0]))
     ]
     note = (
-        f"From {old['windows']} measured states in unseen data, both models were driven by the measured torque; the "
-        "error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm where a joint slides)."
+        f"From {old['windows']} measured states in unseen data, both models were driven by the measured "
+        "torque; the error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm "
+        "where a joint slides)."
     )
     return table("Error of the simulated motion", (*headings, "improvement"), rows, note=note)
 

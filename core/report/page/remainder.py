@@ -1,7 +1,7 @@
-"""Tell what a diagnosis leaves: what is still predictable and where, and what this motion could not have shown."""
+"""Tell what a diagnosis leaves: what is still predictable and where, and what this motion could not show."""
 
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import Document, coordinate, interval, joints, number, percent
+from core.report.page.words import Document, coordinate, interval, joints, number, share
 
 _SOURCES = {
     "repeats": "repeats of the motion",
@@ -16,11 +16,12 @@ def unexplained_section(document: Document) -> Html:
     shares = left["predictable_residual_fraction"]
     marked = left["joints"]
     said = (
-        f"On {joints(marked)} part of the residual still follows the motion: a cause that is not in the list, or "
-        "one that this log cannot separate."
+        f"On {joints(marked)} part of the residual still follows the motion: a cause that is not in the "
+        "list, or one that this log cannot separate."
         if marked
-        else "Nothing that follows the motion is left: a generic learner, given angles, speeds, loads and time, cannot "
-        "predict the residual of any joint on data it has not seen. No extension of the model would gain much."
+        else "Nothing that follows the motion is left: a generic learner, given angles, speeds, loads and "
+        "time, cannot predict the residual of any joint on data it has not seen. No extension of the model "
+        "would gain much."
     )
     rows = [
         (
@@ -28,18 +29,22 @@ def unexplained_section(document: Document) -> Html:
             number(left["rms_residual"][joint]),
             number(left["noise_floor"][joint]),
             _SOURCES.get(left["noise_floor_source"][joint], left["noise_floor_source"][joint]),
-            percent(100.0 * shares[joint]),
-            interval([100.0 * end for end in left["interval_95"][joint]]),
+            share(shares[joint]),
+            interval([end and 100.0 * end for end in left["interval_95"][joint]]),
             _where(left["places"][joint], joint + 1),
         )
         for joint in range(len(shares))
     ]
     headings = ("joint", "residual RMS", "noise floor", "floor from", "predictable share", "95 %", "where")
     note = (
-        "RMS in N m (N where a joint slides), in the diagnosis's band, which is wider than the fit's. The share is of "
-        "the residual's mean square."
+        "RMS in N m (N where a joint slides), in the diagnosis's band, which is wider than the fit's. The "
+        "share is of the residual's mean square."
     )
-    return section("What stays unexplained", tag("p", said), table("What is left", headings, rows, note=note))
+    return section(
+        "What stays unexplained",
+        tag("p", said),
+        table("What is left", headings, rows, note=note, text=(3, 6)),
+    )
 
 
 def not_shown_section(document: Document) -> Html | None:

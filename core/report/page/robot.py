@@ -50,19 +50,16 @@ def existence_section(document: Document) -> Html | None:
         return None
     smallest = [one for one in found.get("pseudo_inertia_min_eigenvalue") or [] if one is not None]
     mass = found.get("mass_matrix_min_eigenvalue") or {}
+    workspace = f"{mass.get('configurations')} configurations of the workspace"
+    objectives = [number(solver.get(name), 4) for name in ("objective", "objective_ols")]
+    can, least = ("can" if found.get(name) else "cannot" for name in ("feasible", "ols_feasible"))
+    bounds = found.get("active_constraints") or []
     told = [
-        f"The identified robot {'can' if found.get('feasible') else 'cannot'} exist; plain least squares gives one "
-        f"that {'can' if found.get('ols_feasible') else 'cannot'}.",
-        f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(smallest))}." if smallest else None,
-        f"Smallest eigenvalue of the mass matrix in {mass['configurations']} configurations of the workspace: "
-        f"{number(mass['workspace'])}."
-        if mass.get("configurations")
-        else None,
-        f"Solver: {solver.get('status')}; objective {number(solver.get('objective'), 4)} beside "
-        f"{number(solver.get('objective_ols'), 4)} of least squares.",
-        f"Bounds that the estimate touches: {', '.join(found['active_constraints'])}."
-        if found.get("active_constraints")
-        else None,
+        f"The identified robot {can} exist; plain least squares gives one that {least}.",
+        smallest and f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(smallest))}.",
+        mass and f"Smallest eigenvalue of the mass matrix in {workspace}: {number(mass['workspace'])}.",
+        f"Solver: {solver.get('status')}; objective {objectives[0]} beside {objectives[1]} of least squares.",
+        bounds and f"Bounds that the estimate touches: {', '.join(bounds)}.",
     ]
     return section("Whether such a robot can exist", listing(one for one in told if one))
 
@@ -87,10 +84,11 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
         )
         for row in rows
     ]
+    note = "* essential; %P: relative standard deviation"
     headings = ("parameter", "value ± standard deviation", "%P", "unit", "what is grouped in it")
     return section(
         heading,
-        table("Base parameters", headings, listed, note="* essential; %P: relative standard deviation"),
+        table("Base parameters", headings, listed, note=note, text=(4,)),
     )
 
 

@@ -6,17 +6,18 @@ from core.report.page.markup import Html, listing, section, table, tag, together
 from core.report.page.words import Document, number
 
 _IDENTIFY = (
-    "Position is differentiated and torque filtered by the same zero-phase filters; the equations of motion are "
-    "linear in the parameters, and the parameters are the optimum of one semidefinite programme whose constraints "
-    "say that every link can exist. Standard deviations know the memory of the noise. Blocks of time that no fit "
-    "has seen are predicted to measure the error."
+    "Position is differentiated and torque filtered by the same zero-phase filters; the equations of motion "
+    "are linear in the parameters, and the parameters are the optimum of one semidefinite programme whose "
+    "constraints say that every link can exist. Standard deviations know the memory of the noise. Blocks of "
+    "time that no fit has seen are predicted to measure the error."
 )
 _DIAGNOSE = (
-    "First everything the standard model has was identified, so that what is left cannot be absorbed by any of its "
-    "parameters. Then every known cause was tried on every joint against the whitened residual, corrected for the "
-    "number of trials; causes joined the model one by one, each had to defend its place against being dropped and "
-    "against its rivals, and none was built from the measured torque. The extended model was identified again under "
-    "the same physical constraints and measured on blocks of time that no fit has seen."
+    "First everything the standard model has was identified, so that what is left cannot be absorbed by any "
+    "of its parameters. Then every known cause was tried on every joint against the whitened residual, "
+    "corrected for the number of trials; causes joined the model one by one, each had to defend its place "
+    "against being dropped and against its rivals, and none was built from the measured torque. The extended "
+    "model was identified again under the same physical constraints and measured on blocks of time that no "
+    "fit has seen."
 )
 
 
@@ -60,16 +61,6 @@ def method_section(document: Document) -> Html:
 
 
 def _defect(defect: Document) -> Html:
-    known = ("kind", "log", "statement", "message", "consequence")
-    told = next(
-        (str(defect[name]) for name in ("statement", "message", "consequence") if defect.get(name)), ""
-    )
-    rest = ", ".join(
-        f"{key} {value}" for key, value in defect.items() if key not in known and value not in (None, "", [])
-    )
-    return together(
-        [
-            tag("b", str(defect.get("kind", "")).replace("_", " ")),
-            f" (log {defect.get('log', '')}): {told} {rest}",
-        ]
-    )
+    where = "" if defect.get("joint") is None else f", joint {defect['joint']}"
+    head = tag("b", f"{defect['kind'].replace('_', ' ')}{where} (log {defect['log']})")
+    return together([head, f": {defect['statement']}."])

@@ -20,7 +20,8 @@ ul { padding-left: 1.25rem; }
 .finding { margin: 1.25rem 0; padding: 1rem 1.25rem 1.25rem; border: 1px solid var(--line);
   border-left: 5px solid var(--model); border-radius: 6px; background: var(--card); }
 .statement { font-size: 1.08rem; }
-.key { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .75rem; margin: .9rem 0; }
+.key { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .75rem;
+  margin: .9rem 0; }
 .key div { border-top: 2px solid var(--line); padding-top: .35rem; }
 .key b { display: block; font-size: 1.3rem; line-height: 1.25; }
 .key span { color: var(--soft); font-size: .85rem; }
@@ -29,7 +30,7 @@ table { border-collapse: collapse; margin: .6rem 0; font-size: .9rem; font-varia
 caption { text-align: left; font-weight: 600; padding-bottom: .3rem; }
 th, td { padding: .25rem .9rem .25rem 0; border-bottom: 1px solid var(--line); text-align: right;
   vertical-align: top; }
-th:first-child, td.text, th.text { text-align: left; }
+th:first-child, .text { text-align: left; }
 thead th { color: var(--soft); font-weight: 600; }
 tbody th { font-weight: 500; }
 .better { color: var(--good); font-weight: 600; }

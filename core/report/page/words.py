@@ -17,7 +17,7 @@ _COORDINATES = {
     "position": "angle",
     "velocity": "speed",
     "acceleration": "acceleration",
-    "load": "torque that the gear transmits, as predicted",
+    "load": "torque through the gear, as predicted",
     "torque": "torque, as predicted",
     "torque_rate": "rate of the torque, as predicted",
     "travel": "way since the last reversal",
@@ -78,6 +78,17 @@ def percent(value: Number) -> str:
         return NOTHING
     shown = f"{value:.0f}" if abs(value) >= 10.0 else f"{value:.1f}"
     return f"{'0.0' if shown == '-0.0' else shown} %".replace("-", MINUS)
+
+
+def share(fraction: Number) -> str:
+    """Write a fraction as a percentage.
+
+    Examples
+    --------
+    >>> share(0.41), share(None)
+    ('41 %', '-')
+    """
+    return percent(None if fraction is None else 100.0 * fraction)
 
 
 def interval(ends: Sequence[Number] | None) -> str:

@@ -1,0 +1,204 @@
+"""Two small result documents of a two-joint arm, whose second joint slides, with numbers to look for."""
+
+
+def scores(first=2.0, second=4.0):
+    names = ("samples", "rms_torque", "rms_residual", "nrmse_of_range_percent", "nrmse_of_rms_percent")
+    rows = ((100, 10.0, first / 10.0, first / 4.0, first), (100, 5.0, second / 20.0, second / 4.0, second))
+    return [{"joint": joint} | dict(zip(names, row, strict=True)) for joint, row in enumerate(rows, start=1)]
+
+
+def parameter(name="ZZR1", **changes):
+    return {
+        "name": name,
+        "unit": "kg m2",
+        "joint": 1,
+        "value": 0.5,
+        "value_ols": 0.6,
+        "standard_deviation": 0.01,
+        "relative_deviation_percent": 2.0,
+        "essential": True,
+        "grouping": "ZZ1 + YY2",
+    } | changes
+
+
+def identified(**changes):
+    return {
+        "schema_version": "1.0",
+        "kind": "identify",
+        "robot": {"name": "bench arm", "joints": [{"type": "revolute"}, {"type": "prismatic"}]},
+        "logs": [
+            {
+                "name": "swing.csv",
+                "samples": 2400,
+                "duration_s": 12.0,
+                "rate_hz": 200.0,
+                "filter": {"cutoff_hz": 9.5},
+            }
+        ],
+        "provenance": {"version": "0.1.0", "log_sha256": ["abc123"], "options": {"essential": True}},
+        "counts": {"standard": 22, "base": 12, "essential": 11},
+        "base_parameters": [parameter()],
+        "standard_parameters": [
+            {"name": "ZZ1", "joint": 1, "unit": "kg m2", "value": 0.4, "identifiable": "in_combination"}
+        ],
+        "feasibility": {
+            "feasible": True,
+            "ols_feasible": False,
+            "pseudo_inertia_min_eigenvalue": [0.002, 0.001],
+            "active_constraints": [],
+            "mass_matrix_min_eigenvalue": {"workspace": 0.07, "configurations": 10000},
+        },
+        "solver": {"status": "optimal", "iterations": 9, "objective": 2.5, "objective_ols": 2.4},
+        "fit": scores(1.5, 3.5),
+        "fit_total_percent": 2.25,
+        "validation": scores(),
+        "validation_total_percent": 2.75,
+        "condition_number": 40.0,
+        "defects": [
+            {
+                "log": 1,
+                "kind": "outliers",
+                "channel": "torque",
+                "joint": 2,
+                "count": 3,
+                "intervals": [],
+                "statement": "3 samples of torque 2 lie far from their neighbours",
+            }
+        ],
+        "doubts": ["The motion does not excite MX2"],
+        "diagnosis": None,
+    } | changes
+
+
+def finding(**changes):
+    return {
+        "cause": "friction_load_dependent",
+        "title": "Friction grows with the transmitted torque",
+        "joints": [1],
+        "statement": "Joint 1's friction grows by 0.07 N m per N m",
+        "confidence": 0.98,
+        "p_value": 1e-9,
+        "cure": "term",
+        "parameters": [
+            {
+                "name": "load_coefficient",
+                "joint": 1,
+                "unit": "1",
+                "value": 0.07,
+                "standard_deviation": 0.002,
+                "relative_deviation_percent": 2.857,
+            }
+        ],
+        "explained_residual_fraction": 0.41,
+        "evidence": [{"statement": "Rise of the likelihood", "statistic": "likelihood ratio", "value": 91.5}],
+        "ambiguous_with": [
+            rival("torque_gain", "The torque channel's scale is wrong", "run both directions")
+        ],
+        "refuted": [rival("torque_ripple", "The torque ripples along the angle", "")],
+        "gain": {
+            "rms_residual_before": [0.3, 0.2],
+            "rms_residual_after": [0.2, 0.2],
+            "held_out": True,
+            "improvement_percent": [33.3, 0.0],
+            "improvement_total_percent": 33.3,
+            "interval_95": [20.0, 45.0],
+        },
+        "curve": curve(),
+    } | changes
+
+
+def rival(cause, title, experiment):
+    why = f"the reason about {cause}"
+    return {
+        "cause": cause,
+        "title": title,
+        "joints": [1],
+        "statistic": 9.0,
+        "why": why,
+        "separating_experiment": experiment,
+    }
+
+
+def curve(**changes):
+    return {
+        "coordinate": "load",
+        "unit": "N m",
+        "joint": 1,
+        "centre": [-1.0, 1.0, -1.0, 1.0],
+        "before": [0.2, 0.1, -0.2, -0.1],
+        "after": [0.01, 0.0, -0.01, 0.0],
+        "model": [0.3, 0.3, -0.3, -0.3],
+        "standard_error": [0.01, 0.01, 0.01, 0.01],
+        "direction": [-1.0, -1.0, 1.0, 1.0],
+    } | changes
+
+
+def motion(scale):
+    rows = [[0.001 * scale, 0.002 * scale], [0.004 * scale, 0.003 * scale]]
+    return {
+        "horizons_s": [0.05, 0.2],
+        "windows": 60,
+        "position_rms": rows,
+        "velocity_rms": rows,
+        "steady_rms": rows,
+    }
+
+
+def diagnosis(**changes):
+    gains = [
+        {
+            "joint": 1,
+            "rms_residual_before": 0.2,
+            "rms_residual_after": 0.1,
+            "improvement_percent": 50.0,
+            "interval_95": [40.0, 60.0],
+            "held_out": True,
+        },
+        {
+            "joint": 2,
+            "rms_residual_before": 0.2,
+            "rms_residual_after": 0.2,
+            "improvement_percent": 0.4,
+            "interval_95": [-1.0, 2.0],
+            "held_out": True,
+        },
+    ]
+    return {
+        "verdict": "causes_found",
+        "findings": [finding()],
+        "not_identifiable": [
+            rival("encoder_offset", "The joint's zero is off", "turn the joint's neighbours")
+        ],
+        "unexplained": {
+            "joints": [],
+            "predictable_residual_fraction": [0.0, 0.02],
+            "interval_95": [[0.0, 0.0], [0.0, 0.05]],
+            "rms_residual": [0.1, 0.2],
+            "places": [[], []],
+            "noise_floor": [0.1, None],
+            "noise_floor_source": ["repeats", "none"],
+        },
+        "gain": gains,
+        "before": {"validation": scores()},
+        "after": {
+            "validation": scores(1.0, 4.0),
+            "base_parameters": [parameter(new=False), parameter("load_coefficient1", unit="1", new=True)],
+        },
+        "simulation": {
+            "held_out": True,
+            "before": motion(1.0),
+            "after": motion(0.5),
+            "improvement_total_percent": [50.0, 50.0],
+        },
+        "atlas": [],
+    } | changes
+
+
+def diagnosed(**changes):
+    return identified(kind="diagnose", diagnosis=diagnosis(**changes))
+
+
+def nothing_found():
+    after = {"validation": [], "base_parameters": []}
+    simulation = {"before": {}, "after": {}}
+    return diagnosed(verdict="nothing_found", findings=[], gain=[], after=after, simulation=simulation)

@@ -1,0 +1,224 @@
+"""The report: it says what the document says, needs nothing from elsewhere, and trusts no text."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from core.report.page.page import compose_page
+from tests.core.report.documents import (
+    curve,
+    diagnosed,
+    finding,
+    identified,
+    nothing_found,
+    rival,
+)
+
+VOID = {"meta"}
+EVIL = '<script>alert("1")</script>&\'"><img src=x onerror=alert(2)>'
+
+
+class Page(HTMLParser):
+    """Read a page: its words, its elements, and whether every element that opens also closes."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.attributes, self.words = [], [], [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += [(tag, *pair) for pair in attrs]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open[-1:] != ["style"]:
+            self.words.append(data)
+
+    @property
+    def text(self):
+        return " ".join(" ".join(self.words).split())
+
+
+DOCUMENTS = {
+    "identified": identified(),
+    "found": diagnosed(),
+    "nothing": nothing_found(),
+    "no figure": diagnosed(findings=[finding(curve=None, gain=None)]),
+    "on the whole robot": diagnosed(findings=[finding(joints=[], curve=curve(direction=[0.0] * 4))]),
+    "no rivals": diagnosed(findings=[finding(ambiguous_with=[], refuted=[])]),
+    "numbers that do not exist": diagnosed(
+        findings=[
+            finding(
+                p_value=0.0,
+                evidence=[{"statement": "Chance", "statistic": "log10 p", "value": None}],
+                parameters=[
+                    {"name": "stiffness", "joint": 1, "unit": "N m/rad", "value": 9.0,
+                     "standard_deviation": None, "relative_deviation_percent": None}
+                ],
+                explained_residual_fraction=None,
+            )
+        ]
+    ),
+}  # fmt: skip
+
+
+@pytest.fixture(params=DOCUMENTS, ids=str)
+def page(request):
+    return Page(compose_page(DOCUMENTS[request.param]))
+
+
+def test_every_element_that_opens_also_closes(page):
+    assert page.open == []
+
+
+def test_a_page_asks_for_nothing_from_elsewhere_and_runs_nothing(page):
+    assert not {"script", "link", "img", "iframe", "object", "embed", "form", "base"} & set(page.tags)
+    for tag, name, value in page.attributes:
+        assert name not in {"src", "href", "action", "style"}, (tag, name)
+        assert not name.startswith("on")
+        assert "url(" not in (value or "")
+    assert ("meta", "http-equiv", "Content-Security-Policy") in page.attributes
+
+
+def test_every_table_has_a_caption_and_says_what_its_headings_head(page):
+    assert page.tags.count("caption") == page.tags.count("table")
+    scopes = [value for tag, name, value in page.attributes if (tag, name) == ("th", "scope")]
+    assert len(scopes) == page.tags.count("th")
+
+
+def test_every_picture_can_be_told_to_who_does_not_see_it(page):
+    assert page.tags.count("svg") == page.tags.count("desc")
+    assert page.tags.count("title") == 1 + page.tags.count("svg")
+
+
+def test_no_number_is_shown_that_does_not_exist(page):
+    assert not re.search(r"\b(nan|inf|None)\b", page.text)
+
+
+def test_the_first_sentence_names_what_is_wrong_and_where():
+    text = Page(compose_page(diagnosed())).text
+    verdict = (
+        "The simulation of bench arm gets one thing wrong: friction grows with the transmitted torque "
+        "(joint 1)."
+    )
+    gain = "falls by 50 % on joint 1 (95 %: 40 to 60 %)."
+    assert verdict in text
+    assert gain in text
+    assert text.index(verdict) < text.index(gain) < text.index("Why this cause")
+
+
+def test_a_joint_whose_interval_holds_zero_is_not_said_to_have_gained():
+    text = Page(compose_page(diagnosed())).text
+    assert "on joint 2 (95 %" not in text
+
+
+def test_a_finding_is_told_with_its_size_its_reasons_and_its_rivals():
+    text = Page(compose_page(diagnosed())).text
+    assert "Joint 1's friction grows by 0.07 N m per N m." in text
+    assert "load coefficient 0.0700 ± 0.0020 2.9 %" in text
+    assert "Rise of the likelihood: 91.5 (likelihood ratio)." in text
+    undecided, refuted = text.index("This log cannot tell it apart from"), text.index("Refuted")
+    assert undecided < text.index("the reason about torque_gain") < refuted
+    assert refuted < text.index("the reason about torque_ripple")
+    assert "run both directions" in text
+
+
+def test_both_directions_of_motion_are_drawn_apart_where_the_document_has_them_apart():
+    apart, together = (
+        Page(compose_page(diagnosed(findings=[finding(curve=curve(direction=one))])))
+        for one in ([-1.0, -1.0, 1.0, 1.0], [0.0] * 4)
+    )
+    kinds = [
+        {value for tag, name, value in one.attributes if (tag, name) == ("circle", "class")}
+        for one in (apart, together)
+    ]
+    assert kinds == [{"dot backward", "dot forward"}, {"dot both"}]
+
+
+def test_the_curve_shows_what_the_finding_takes_away_so_that_explained_dots_lie_on_it():
+    shown = curve(centre=[0.0, 1.0], before=[1.0, 3.0], after=[0.0, 0.0], standard_error=[0.1, 0.1])
+    page = Page(compose_page(diagnosed(findings=[finding(curve=shown | {"direction": [0.0, 0.0]})])))
+    (line,) = [
+        points
+        for (tag, name, points), (_, _, kind) in zip(page.attributes, page.attributes[1:], strict=False)
+        if (tag, name, kind) == ("polyline", "points", "line model")
+    ]
+    across = [value for tag, name, value in page.attributes if (tag, name) == ("circle", "cx")][:2]
+    down = [value for tag, name, value in page.attributes if (tag, name) == ("circle", "cy")][:2]
+    dots = [(float(x), float(y)) for x, y in zip(across, down, strict=True)]
+    assert [tuple(float(one) for one in point.split(",")) for point in line.split()] == dots
+
+
+def test_torque_of_a_sliding_joint_is_a_force():
+    text = Page(compose_page(identified())).text
+    assert "1 10.0 N m" in text
+    assert "2 5.00 N " in text
+    assert "2 5.00 N m" not in text
+
+
+def test_motion_is_compared_at_every_horizon_in_thousandths():
+    text = Page(compose_page(diagnosed())).text
+    assert "before, 50 ms after, 50 ms before, 200 ms after, 200 ms improvement" in text
+    assert "1 1.00 0.500 4.00 2.00 50 %" in text
+    assert "From 60 measured states" in text
+
+
+def test_nothing_found_is_said_as_plainly_as_a_cause():
+    text = Page(compose_page(nothing_found())).text
+    assert "Nothing that this log can show is wrong with the simulation of bench arm." in text
+    assert "What is wrong, and why" not in text
+    assert "Nothing that follows the motion is left" in text
+    assert "The joint's zero is off" in text
+
+
+def test_structure_without_a_cause_is_said_with_its_joint_and_place():
+    place = {"coordinate": "velocity", "unit": "rad/s", "low": 0.1, "high": 0.4, "rms": 0.3}
+    left = diagnosed()["diagnosis"]["unexplained"] | {"joints": [1], "places": [[place], []]}
+    alone = Page(compose_page(diagnosed(verdict="unexplained", findings=[], unexplained=left))).text
+    assert "leaves structure in the torque of joint 1, and no known cause explains it" in alone
+    assert "speed of joint 1 from 0.100 to 0.400 rad/s" in alone
+    beside = Page(compose_page(diagnosed(verdict="unexplained", unexplained=left))).text
+    assert "gets one thing wrong" in beside
+    assert "Part of what is left on joint 1 has no known cause." in beside
+
+
+def test_the_page_tells_data_defects_doubts_and_origin():
+    text = Page(compose_page(identified())).text
+    data = ("swing.csv", "2400", "outliers, joint 2 (log 1) : 3 samples", "The motion does not excite MX2.")
+    origin = ("abc123", '{"essential": true}', "Veritorque 0.1.0")
+    for told in (*data, *origin):
+        assert told in text, told
+
+
+def test_an_identification_is_told_with_its_error_on_unseen_data_and_whether_the_robot_can_exist():
+    text = Page(compose_page(identified())).text
+    assert "bench arm is identified as a robot that can exist: 12 base parameters, torque error 2.8 %" in text
+    assert "on unseen data" in text
+    assert "plain least squares gives one that cannot" in text
+    seen = Page(compose_page(identified(validation=[], validation_total_percent=None))).text
+    assert "torque error 2.2 % on the data it was fitted to" in seen
+
+
+def test_the_parameters_of_a_diagnosis_are_those_of_the_extended_model():
+    assert "load_coefficient1" in Page(compose_page(diagnosed())).text
+
+
+def test_no_text_of_a_user_becomes_markup():
+    document = diagnosed(
+        findings=[finding(title=EVIL, statement=EVIL, refuted=[rival(EVIL, EVIL, EVIL)])],
+    )
+    document["robot"] = {"name": EVIL, "joints": []}
+    document["logs"] = [{"name": EVIL}]
+    document["doubts"] = [EVIL]
+    document["provenance"] = {"version": EVIL, "log_sha256": [EVIL], "options": {EVIL: EVIL}}
+    page = Page(compose_page(document))
+    assert page.open == []
+    assert not {"script", "img"} & set(page.tags)
+    assert EVIL in page.text
