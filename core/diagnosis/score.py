@@ -8,6 +8,7 @@ regressor).
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -30,9 +31,7 @@ class Score:
     values
         What its linear parameters would be.
     clear_share
-        The least share of a column's square that the fitted columns do not span.
-    projected
-        Its columns in the coordinates of the complement (for correlations between candidates).
+        The largest share of a column's square that neither fitted nor free columns span.
     """
 
     statistic: float
@@ -45,15 +44,17 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
     widths = [next(iter(one.values())).shape[1] for one in candidates]
     starts = np.concatenate([[0], np.cumsum(widths)]).astype(int)
     size, total = len(found.values), int(starts[-1])
-    cross, right = np.zeros((size, total)), np.zeros(total)
+    cross, right, squares = np.zeros((size, total)), np.zeros(total), np.zeros(total)
     grams = [np.zeros((width, width)) for width in widths]
     for joint, rows in enumerate(joints):
         present = [index for index, one in enumerate(candidates) if joint in one]
         if not present:
             continue
         raw = np.hstack([candidates[index][joint][rows.rows] for index in present])
-        white = found.joints[joint].cleared(found.joints[joint].noise.whitened(raw, rows.place))
+        white = found.joints[joint].noise.whitened(raw, rows.place)
         places = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in present])
+        squares[places] += np.sum(white**2, axis=0)
+        white = found.joints[joint].cleared(white)
         cross[:, places] += found.joints[joint].columns.T @ white
         right[places] += white.T @ (found.joints[joint].torque - found.joints[joint].columns @ found.values)
         begin = 0
@@ -62,18 +63,14 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
             grams[index] += part.T @ part
             begin += widths[index]
     reduced = solve_triangular(found.factor[0], cross / found.scale[:, None], lower=True)
+    own = [slice(start, stop) for start, stop in pairwise(starts)]
     return [
-        _judged(
-            grams[index],
-            reduced[:, starts[index] : starts[index + 1]],
-            right[starts[index] : starts[index + 1]],
-        )
-        for index in range(len(candidates))
+        _judged(gram, reduced[:, one], right[one], squares[one]) for gram, one in zip(grams, own, strict=True)
     ]
 
 
-def _judged(gram: Matrix, reduced: Matrix, right: Vector) -> Score:
-    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+def _judged(gram: Matrix, reduced: Matrix, right: Vector, squares: Vector) -> Score:
+    size = np.sqrt(np.maximum(squares, 1e-300))
     left = (gram - reduced.T @ reduced) / np.outer(size, size)
     clear = np.clip(np.diag(left), 0.0, 1.0)
     if not np.isfinite(left).all() or clear.max() < OPEN_SHARE:

@@ -1,0 +1,90 @@
+"""Hold generalised least squares on whitened rows to the same fit written with dense matrices."""
+
+import numpy as np
+import pytest
+from scipy.linalg import cho_factor, cho_solve
+
+from core.diagnosis.equations import fit, refit
+from tests.core.diagnosis.equations_world import BASE, FREE, NOISE, Equations, smooth
+
+CLOSE = 1e-6
+"""The ridge of 1e-10 of a column's own square, times the condition of the columns."""
+
+
+@pytest.fixture(scope="module")
+def equations() -> Equations:
+    return Equations()
+
+
+def dense_fit(columns: np.ndarray, torque: np.ndarray, covariance: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Give parameters, their covariance, and the logarithm of the density up to the usual constant."""
+    factor = cho_factor(covariance, lower=True)
+    gram = columns.T @ cho_solve(factor, columns)
+    values = np.linalg.solve(gram, columns.T @ cho_solve(factor, torque))
+    left = torque - columns @ values
+    log_density = -0.5 * left @ cho_solve(factor, left) - np.sum(np.log(np.diag(factor[0])))
+    return values, np.linalg.solve(gram, np.eye(len(gram))), log_density
+
+
+def test_a_fit_under_known_noise_is_the_generalised_least_squares_of_dense_matrices(equations):
+    """Free columns are in the dense fit with parameters of their own, and not in ours at all."""
+    found = fit(equations.joints, NOISE, rounds=0)
+    values, covariance, log_density = dense_fit(*equations.dense())
+    base = slice(0, len(BASE))
+    np.testing.assert_allclose(found.values, values[base], rtol=CLOSE)
+    np.testing.assert_allclose(found.covariance, covariance[base, base], rtol=CLOSE, atol=CLOSE * 1e-6)
+    assert found.log_likelihood == pytest.approx(log_density, rel=1e-9)
+
+
+def test_what_free_columns_can_stand_for_does_not_reach_the_parameters(equations):
+    other = Equations()
+    other.look.torque[:, 1] += other.free @ np.array([1e3, -1e3, 1e3])
+    moved = fit(other.again(), NOISE, rounds=0)
+    np.testing.assert_allclose(moved.values, fit(equations.joints, NOISE, rounds=0).values, rtol=1e-8)
+
+
+def test_a_candidate_fitted_on_top_is_the_dense_fit_with_its_column(equations):
+    column = {1: smooth(np.random.default_rng(9), equations.count, 2)}
+    found = fit(equations.with_columns(column), NOISE, rounds=0)
+    values, covariance, _ = dense_fit(*equations.dense(column))
+    np.testing.assert_allclose(found.values, values[:-FREE], rtol=CLOSE)
+    np.testing.assert_allclose(found.covariance, covariance[:-FREE, :-FREE], rtol=CLOSE, atol=1e-12)
+
+
+def test_fitting_only_the_joints_that_a_column_touches_is_fitting_all_of_them(equations):
+    column = {1: smooth(np.random.default_rng(10), equations.count, 1)}
+    rows = equations.with_columns(column)
+    before = fit(equations.joints, NOISE, rounds=0)
+    part, whole = refit(rows, before, frozenset({1}), rounds=0), fit(rows, NOISE, rounds=0)
+    np.testing.assert_allclose(part.values, whole.values, rtol=1e-9)
+    assert part.log_likelihood == pytest.approx(whole.log_likelihood, rel=1e-12)
+
+
+def test_the_noise_that_a_fit_learns_is_the_noise_that_is_there(equations):
+    found = fit(equations.joints)
+    for joint, noise in zip(found.joints, NOISE, strict=True):
+        assert joint.noise.deviations[-1] == pytest.approx(noise.deviations[-1], rel=0.1)
+
+
+def test_parameters_scatter_as_their_covariance_says():
+    scores = []
+    for seed in range(40):
+        equations = Equations(seed)
+        found = fit(equations.joints)
+        scores.append((found.values - BASE) / np.sqrt(np.diag(found.covariance)))
+    # 160 scores of unit variance: their mean square is known to 11 %.
+    assert np.mean(np.square(scores)) == pytest.approx(1.0, abs=0.34)
+
+
+def test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away():
+    """An autoregression that was learned with the effect in it takes the effect for noise."""
+    rng = np.random.default_rng(11)
+    shape = smooth(rng, Equations().count, 1)
+    effect = np.zeros((len(shape), 3))
+    effect[:, 0] = 3.0 * shape[:, 0]
+    equations = Equations(effect=effect)
+    before = fit(equations.joints)
+    after = refit(equations.with_columns({0: shape}), before, frozenset({0}))
+    assert before.joints[0].noise.deviations[-1] > 1.2
+    assert after.joints[0].noise.deviations[-1] == pytest.approx(1.0, abs=0.1)
+    assert after.values[-1] == pytest.approx(3.0, abs=0.3)
