@@ -37,7 +37,7 @@ $(READY): $(LOCK)
 	$(RUN) -m pip install --quiet --disable-pip-version-check --no-input --require-hashes -r $(LOCK)
 	@touch $(READY)
 
-demo: $(READY) ## identify a YuMi arm from its log through the service, and print the parameters
+demo: $(READY) ## identify a YuMi arm through the service, then diagnose a log in which something is hidden
 	$(RUN) -m examples.yumi.demo
 
 serve: $(READY) ## start the service on loopback and print its URL

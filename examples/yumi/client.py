@@ -96,20 +96,31 @@ class Client:
             raise ServiceError.from_problem(problem)
         return self._request("GET", f"/v1/jobs/{job}/results")
 
+    def report(self, job: str) -> bytes:
+        """Fetch a job's report: one HTML file."""
+        answer, status = self._send("GET", f"/v1/jobs/{job}/report")
+        if status >= 400:
+            self._document(answer, status)
+        return answer
+
     def _request(self, method: str, path: str, body: bytes | None = None, media_type: str = "") -> Document:
+        return self._document(*self._send(method, path, body, media_type))
+
+    def _send(
+        self, method: str, path: str, body: bytes | None = None, media_type: str = ""
+    ) -> tuple[bytes, int]:
         headers = {"Accept": "application/json"} | ({"Content-Type": media_type} if media_type else {})
         connection = self._connection(self._address, timeout=self._timeout)
         try:
             connection.request(method, self._prefix + path, body, headers)
             response = connection.getresponse()
-            answer = response.read()
+            return response.read(), response.status
         except (OSError, HTTPException) as error:
             raise ServiceError(
                 f"{self.url} does not answer", evidence={"reason": str(error)}, remedy="start the service"
             ) from error
         finally:
             connection.close()
-        return self._document(answer, response.status)
 
     def _document(self, answer: bytes, status: int) -> Document:
         try:

@@ -1,4 +1,6 @@
-"""Identify a YuMi arm from a log through the real HTTP service, and print what was found beside the truth.
+"""Identify a YuMi arm from a log through the real HTTP service, then diagnose one that hides something.
+
+What was found is printed beside the truth, and the report of the diagnosis is saved as one HTML file.
 
 Run ``python -m examples.yumi.demo``; ``--log`` and ``--robot`` take one's own files, ``--url`` a service that
 runs already.
@@ -18,11 +20,13 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from examples.yumi.client import Client, Document, ServiceError
+from examples.yumi.diagnosis import print_diagnosis
 from examples.yumi.service import ROOT, running_service
 from examples.yumi.summary import Truth, print_summary
 
 HERE: Final = Path(__file__).parent
 LOG: Final = HERE / "log.csv"
+HIDDEN_LOG: Final = HERE / "hidden_log.csv"
 BUILT_IN: Final = "yumi-left"
 
 
@@ -34,15 +38,22 @@ def read_truth(arguments: argparse.Namespace) -> Truth | None:
     return truth
 
 
-def identify(client: Client, arguments: argparse.Namespace, console: Console) -> Document:
-    """Upload, ask, follow, fetch."""
-    robot = client.add_robot(arguments.robot) if arguments.robot else BUILT_IN
-    summary = client.add_log(arguments.log)
+def read_hidden(arguments: argparse.Namespace) -> list[Document] | None:
+    """Give the hidden effects where the diagnosed log is the one that hides them."""
+    if arguments.log != LOG or arguments.robot is not None:
+        return None
+    effects: list[Document] = json.loads((HERE / "hidden_truth.json").read_text(encoding="utf-8"))["hidden"]
+    return effects
+
+
+def compute(client: Client, kind: str, log: Path, robot: str, console: Console) -> tuple[Document, str]:
+    """Upload, ask, follow, fetch; give the result document and the job's id."""
+    summary = client.add_log(log)
     console.print(
-        f"{escape(arguments.log.name)}: {summary['samples']} samples, {summary['duration_s']:.1f} s at "
+        f"{escape(log.name)}: {summary['samples']} samples, {summary['duration_s']:.1f} s at "
         f"{summary['rate_hz']:.0f} Hz, {summary['joints']} joints, {len(summary['defects'])} defects listed"
     )
-    job = client.start("identify", robot, [summary["id"]])
+    job = client.start(kind, robot, [summary["id"]])
     bar = Progress(
         TextColumn("{task.description:<24}"),
         BarColumn(),
@@ -52,27 +63,53 @@ def identify(client: Client, arguments: argparse.Namespace, console: Console) ->
     )
     with bar:
         task = bar.add_task("accepted", total=1.0)
-        return client.wait(
+        result = client.wait(
             job["id"], lambda stage, done: bar.update(task, description=escape(stage), completed=done)
         )
+    return result, str(job["id"])
 
 
 def demonstrate(arguments: argparse.Namespace, console: Console) -> None:
     """Run the whole story once and print it."""
-    truth = read_truth(arguments)
     if arguments.url is None:
         console.print("starting the service on loopback; the very first start compiles for about a minute")
     service = nullcontext(Client(arguments.url)) if arguments.url else running_service(arguments.data_dir)
     with service as client:
         console.print(f"service: {client.url}")
-        begin = time.monotonic()
-        result = identify(client, arguments, console)
-        seconds = time.monotonic() - begin
-    print_summary(console, result, truth)
+        robot = client.add_robot(arguments.robot) if arguments.robot else BUILT_IN
+        show_identification(client, arguments, robot, console)
+        show_diagnosis(client, arguments, robot, console)
+
+
+def show_identification(client: Client, arguments: argparse.Namespace, robot: str, console: Console) -> None:
+    """Identify the robot and print its parameters."""
+    console.rule("Identify")
+    begin = time.monotonic()
+    result, _ = compute(client, "identify", arguments.log, robot, console)
+    seconds = time.monotonic() - begin
+    print_summary(console, result, read_truth(arguments))
     console.print(f"Time from upload to result: {seconds:.1f} s.")
     if arguments.json is not None:
         arguments.json.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
         console.print(f"result document: {escape(str(arguments.json))}")
+
+
+def show_diagnosis(client: Client, arguments: argparse.Namespace, robot: str, console: Console) -> None:
+    """Diagnose a log, print what the simulation gets wrong, and save the report."""
+    console.rule("Diagnose")
+    hidden = read_hidden(arguments)
+    if hidden is not None:
+        console.print("Now a log of an arm that does more than its description says.")
+    log = arguments.log if hidden is None else HIDDEN_LOG
+    begin = time.monotonic()
+    result, job = compute(client, "diagnose", log, robot, console)
+    seconds = time.monotonic() - begin
+    print_diagnosis(console, result, hidden)
+    console.print(f"Time from upload to diagnosis: {seconds:.1f} s.")
+    target = arguments.report or arguments.data_dir / "diagnosis.html"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(client.report(job))
+    console.print(f"[bold]Open the report in a browser: {escape(str(target))}[/]")
 
 
 def print_problem(console: Console, error: ServiceError) -> None:
@@ -88,9 +125,10 @@ def parse(words: list[str] | None) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(prog="demo", description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--url", help="use the service that runs at this address")
-    parser.add_argument("--log", type=Path, default=LOG, help="log to identify from")
+    parser.add_argument("--log", type=Path, default=LOG, help="log to identify from and to diagnose")
     parser.add_argument("--robot", type=Path, help="description (JSON) or URDF of one's own robot")
-    parser.add_argument("--json", type=Path, help="save the result document here")
+    parser.add_argument("--json", type=Path, help="save the result document of the identification here")
+    parser.add_argument("--report", type=Path, help="save the report of the diagnosis here")
     parser.add_argument(
         "--data-dir", type=Path, default=ROOT / "data" / "demo", help="where the service keeps its data"
     )

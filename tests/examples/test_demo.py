@@ -8,8 +8,9 @@ from typing import ClassVar
 import pytest
 from rich.console import Console
 
-from examples.yumi import demo, service, summary
+from examples.yumi import demo, diagnosis, service, summary
 from examples.yumi.client import Client, ServiceError
+from tests.core.report.documents import diagnosed, nothing_found
 
 RESULT = {
     "counts": {"standard": 98, "base": 71, "essential": 57},
@@ -62,6 +63,36 @@ def test_without_a_truth_nothing_is_said_about_it(capsys):
     assert "true" not in page
 
 
+def told(capsys, result, hidden=None):
+    diagnosis.print_diagnosis(Console(width=200), result, hidden)
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
+    effect = {"cause": "torque_ripple", "joints": [4], "parameters": {"amplitude": 0.12}}
+    page = told(capsys, diagnosed(), [effect])
+    assert "1. Joint 1's friction grows by 0.07 N m per N m. Confidence 98 %." in page
+    assert "takes 33 % (20 to 45 %) of the error on the joint away, on data that no fit has seen." in page
+    assert (
+        "Not told apart from torque gain on joint 1; this would separate them: run both directions." in page
+    )
+    assert "Refuted: torque ripple on joint 1: the reason about torque_ripple." in page
+    assert "1 0.2 0.1 50.00 40.0 to 60.0" in page
+    assert "Nothing predictable is left" in page
+    assert page.endswith("Hidden was: torque ripple on joint 4 (amplitude 0.12).")
+
+
+def test_a_diagnosis_that_found_nothing_says_so(capsys):
+    assert "Nothing that this log can show is wrong with the simulation." in told(capsys, nothing_found())
+
+
+def test_what_stays_predictable_is_told_with_its_joint(capsys):
+    left = diagnosed()["diagnosis"]["unexplained"]
+    left |= {"joints": [2], "predictable_residual_fraction": [0.0, 0.2]}
+    page = told(capsys, diagnosed(verdict="unexplained", unexplained=left))
+    assert "Still predictable of what is left, without a known cause: 20 % on joint 2." in page
+
+
 class Answers(BaseHTTPRequestHandler):
     """Answer from a table of (method, path) to (status, document)."""
 
@@ -105,6 +136,14 @@ def test_waiting_tells_stage_and_fraction_and_ends_with_the_result(served, monke
     result = Client(served).wait("7", lambda *progress: told.append(progress), pause=0.0)
     assert told == [("estimate", 0.5), ("done", 1.0)]
     assert result == RESULT
+
+
+def test_a_report_is_fetched_as_it_is_and_its_absence_is_a_problem(served, monkeypatch):
+    table = {("GET", "/v1/jobs/7/report"): (200, {"any": "bytes"})}
+    monkeypatch.setattr(Answers, "table", table)
+    assert json.loads(Client(served).report("7")) == {"any": "bytes"}
+    with pytest.raises(ServiceError, match="the service answered 404"):
+        Client(served).report("8")
 
 
 def test_a_failed_job_says_cause_evidence_and_remedy(served, monkeypatch):
@@ -158,4 +197,10 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     distances = [abs(summary.deviations(row, truth)) for row in result["base_parameters"]]
     assert sum(distance <= 1.96 for distance in distances) >= 60  # of 71: 95 % expected, correlated
     assert max(distances) < 5.0
-    assert "Time from upload to result" in capsys.readouterr().out
+    page = capsys.readouterr().out
+    assert "Time from upload to result" in page
+    assert page.index("Time from upload to result") < page.index("hidden_log.csv") < page.index("Hidden was")
+    report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
+    assert "gets two things wrong" in report
+    assert "torque ripples along the angle (joint 4)" in report
+    assert "friction grows with the transmitted torque (joint 2)" in report
