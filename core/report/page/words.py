@@ -121,7 +121,7 @@ def chance(p_value: Number) -> str:
 
 
 def joints(numbers: Sequence[int]) -> str:
-    """Name joints.
+    """Name one or several joints.
 
     Examples
     --------
