@@ -153,6 +153,7 @@ class Simulation(Open):
     after: Motion
     improvement_percent: Matrix = Field(default=[])
     improvement_total_percent: PerJoint = Field(default=[])
+    interval_95: list[Interval] | None = None
 
 
 class Dependence(Open):

@@ -7,6 +7,7 @@ in the document, so that a report can be drawn from it alone, at any time.
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
 from core.extension.extension import Diagnosed
 from core.extension.gain import JointGain
+from core.extension.motion_gain import motion_intervals
 from core.report.document import base_parameter_rows, identification_document
 from core.report.finding import finding_row, not_identifiable_row
 from core.report.identification import Identification
@@ -92,6 +93,7 @@ def _simulation(motion: Comparison | None) -> dict[str, object]:
         "after": _moved(motion.after),
         "improvement_percent": motion.gain_percent,
         "improvement_total_percent": motion.total_gain_percent,
+        "interval_95": motion_intervals(motion),
     }
 
 

@@ -120,7 +120,8 @@ def _motion_table(document: Document) -> Html | None:
     old, new = simulation.get("before") or {}, simulation.get("after") or {}
     if not old:
         return None
-    horizons = old["horizons_s"]
+    horizons, number_of_joints = old["horizons_s"], len(old["position_rms"][0])
+    ends = simulation.get("interval_95") or [None] * number_of_joints
     headings = [
         "joint",
         *(f"{side} {1000.0 * one:.0f} ms" for one in horizons for side in ("before,", "after,")),
@@ -133,20 +134,21 @@ def _motion_table(document: Document) -> Html | None:
                 for place in range(len(horizons))
                 for side in (old, new)
             ),
-            _improvement((simulation.get("improvement_total_percent") or [None] * 99)[joint], None),
+            _improvement(simulation["improvement_total_percent"][joint], ends[joint]),
+            interval(ends[joint]),
         ]
-        for joint in range(len(old["position_rms"][0]))
+        for joint in range(number_of_joints)
     ]
     note = (
         f"From {old['windows']} measured states in unseen data, both models were driven by the measured "
         "torque; the error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm "
         "where a joint slides)."
     )
-    return table("Error of the simulated motion", (*headings, "improvement"), rows, note=note)
+    return table("Error of the simulated motion", (*headings, "improvement", "95 %"), rows, note=note)
 
 
 def _improvement(value: float | None, ends: Sequence[float] | None) -> Html:
-    sure = ends is None or (None not in ends and ends[0] * ends[1] > 0.0)
+    sure = ends is not None and None not in ends and ends[0] * ends[1] > 0.0
     if value is None or not sure or abs(value) < _REAL:
         return tag("span", percent(value))
     return tag("span", percent(value), class_="better" if value > 0.0 else "worse")

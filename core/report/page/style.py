@@ -57,6 +57,7 @@ svg text.title { fill: var(--ink); font-weight: 600; font-size: 13px; }
     --model: #c2410c; --one: #0a5ea8; --two: #7c3aed; --bad: #b3261e; --good: #1a7f45; }
   body { font-size: 10.5pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
+  .key { grid-template-columns: repeat(4, 1fr); }
   figure, tr, .key { break-inside: avoid; }
   h2, h3, h4 { break-after: avoid; }
   .wide { overflow: visible; }

@@ -189,6 +189,7 @@ def diagnosis(**changes):
             "before": motion(1.0),
             "after": motion(0.5),
             "improvement_total_percent": [50.0, 50.0],
+            "interval_95": [[45.0, 55.0], [-1.0, 80.0]],
         },
         "atlas": [],
     } | changes

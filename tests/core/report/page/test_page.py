@@ -165,9 +165,15 @@ def test_torque_of_a_sliding_joint_is_a_force():
 
 def test_motion_is_compared_at_every_horizon_in_thousandths():
     text = Page(compose_page(diagnosed())).text
-    assert "before, 50 ms after, 50 ms before, 200 ms after, 200 ms improvement" in text
-    assert "1 1.00 0.500 4.00 2.00 50 %" in text
+    assert "before, 50 ms after, 50 ms before, 200 ms after, 200 ms improvement 95 %" in text
+    assert "1 1.00 0.500 4.00 2.00 50 % 45 to 55 %" in text
     assert "From 60 measured states" in text
+
+
+def test_a_gain_is_marked_as_real_only_where_its_interval_leaves_zero_out():
+    page = compose_page(diagnosed())
+    assert page.count('<span class="better">50 %</span>') == 2  # joint 1 in torque and in motion
+    assert page.count("<span>50 %</span>") == 1  # joint 2 in motion
 
 
 def test_nothing_found_is_said_as_plainly_as_a_cause():

@@ -1,0 +1,1 @@
+"""Hold the laws of core.extension."""
