@@ -23,9 +23,7 @@ from core.errors import OptionError
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 from core.simulation import forward
-
-Bodies = tuple[np.ndarray, ...]
-"""What the kernels need of a robot, in the order of `kernel.ROBOT`."""
+from core.simulation.inverse import Bodies, bodies_of, columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,27 +68,11 @@ class Mechanism:
     @cached_property
     def bodies(self) -> Bodies:
         """Give the robot as the kernels need it; masses of whole subtrees come last."""
-        links = self.robot.links
-        table = np.zeros((len(links), 10))
+        table = np.zeros((len(self.robot.links), 10))
         for term, values in _parts(self.model, self.parameters):
             if isinstance(term, RigidBody):
                 table += values.reshape(-1, 10)
-        masses = table[:, 9].copy()
-        for number in range(len(links), 0, -1):
-            if links[number - 1].antecedent:
-                masses[links[number - 1].antecedent - 1] += masses[number - 1]
-        return (
-            np.array([link.kind == "prismatic" for link in links]),
-            np.array([link.antecedent for link in links]),
-            np.array([link.joint - 1 for link in links]),
-            np.array([link.ratio for link in links], dtype=float),
-            np.array([link.offset for link in links], dtype=float),
-            np.array([link.rotation for link in links], dtype=float),
-            np.array([link.translation for link in links], dtype=float),
-            np.array(self.robot.gravity, dtype=float),
-            table,
-            masses,
-        )
+        return bodies_of(self.robot, table)
 
     def mass_matrices(self, position: JointSeries) -> np.ndarray:
         """Give the mass matrix (kg m2), rotors included, for every row of positions."""
@@ -150,11 +132,6 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         others=DynamicModel(model.robot, tuple(term for term, _ in others)),
         other_parameters=np.concatenate([np.zeros(0), *(values for _, values in others)]),
     )
-
-
-def columns(series: JointSeries) -> np.ndarray:
-    """Turn (samples, joints) into the kernels' (joints, samples)."""
-    return np.ascontiguousarray(series.T, dtype=float)
 
 
 def _parts(model: DynamicModel, parameters: Parameters) -> Iterator[tuple[Term, Parameters]]:

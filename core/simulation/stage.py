@@ -12,7 +12,8 @@ import numpy as np
 from core.arrays import JointSeries
 from core.signals.state import MotionState
 from core.simulation import forward
-from core.simulation.mechanism import Mechanism, columns
+from core.simulation.inverse import columns
+from core.simulation.mechanism import Mechanism
 
 CREEP = 1e-9
 """Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""

@@ -59,12 +59,28 @@ def twist_of(free: Samples, step: float, half_width: float) -> Samples:
     array([ 1.5,  1.5,  1. , -0.5, -1.5, -1.5])
     """
     out = np.empty(len(free))
-    twist, rate = float(np.copysign(half_width, free[0])), 0.0
-    for sample, pull in enumerate(free.tolist()):
+    pulls, back, ahead = free.tolist(), _next(free < 0.0), _next(free > 0.0)
+    twist, rate, sample = float(np.copysign(half_width, free[0])), 0.0, 0
+    while sample < len(free):
+        if rate == 0.0 and abs(twist) == half_width:
+            leaves = back[sample] if twist > 0.0 else ahead[sample]
+            out[sample:leaves] = twist
+            sample = leaves
+            if sample == len(free):
+                break
+        pull = pulls[sample]
         rate += step * pull
         after = twist + step * rate - 0.5 * step * step * pull
         twist = min(max(after, -half_width), half_width)
         if twist != after:
             rate = 0.0
         out[sample] = twist
+        sample += 1
     return out
+
+
+def _next(marks: np.ndarray) -> list[int]:
+    """Give, for every sample, the first marked one from there on; their number where there is none."""
+    places = np.where(marks, np.arange(len(marks)), len(marks))
+    found: list[int] = np.minimum.accumulate(places[::-1])[::-1].tolist()
+    return found

@@ -27,6 +27,27 @@ def test_the_twist_never_leaves_the_gap_and_rests_on_the_side_of_the_load():
     np.testing.assert_array_equal(twist[settled], 1e-3 * np.sign(free[settled]))
 
 
+def stepped(free: np.ndarray, step: float, half_width: float) -> np.ndarray:
+    """Follow the twist sample by sample, whether it flies or rests."""
+    out = np.empty(len(free))
+    twist, rate = float(np.copysign(half_width, free[0])), 0.0
+    for sample, pull in enumerate(free):
+        rate += step * pull
+        after = twist + step * rate - 0.5 * step * step * pull
+        twist = min(max(after, -half_width), half_width)
+        rate = rate if twist == after else 0.0
+        out[sample] = twist
+    return out
+
+
+@pytest.mark.parametrize("half_width", [1e-4, 3e-3, 0.1, 10.0])
+def test_passing_over_the_time_in_contact_changes_nothing(half_width):
+    rng = np.random.default_rng(1)
+    free = np.repeat(rng.normal(size=80).cumsum(), 7) + 0.3 * rng.normal(size=560)
+    free[200:230] = 0.0
+    np.testing.assert_array_equal(twist_of(free, 0.01, half_width), stepped(free, 0.01, half_width))
+
+
 def test_under_a_load_of_one_sign_play_is_a_zero_error():
     believed, _ = believed_chain(2)
     robot = believed.model.robot

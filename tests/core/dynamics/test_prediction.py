@@ -1,0 +1,69 @@
+"""What a frozen model predicts, and that asking twice costs once."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.arrays import JointSeries, LinkTable
+from core.dynamics.model import standard_model
+from core.dynamics.newton_euler import inverse_dynamics
+from core.dynamics.prediction import Prediction
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+from tests.core.dynamics.terms.beliefs import motion_of
+from tests.tools import random_robot
+
+
+def believed_with_friction(seed: int) -> Prediction:
+    """Believe in numbers for every parameter of a standard model."""
+    rng = np.random.default_rng(seed)
+    model = standard_model(random_robot(rng, 4))
+    return Prediction(model, rng.normal(size=len(model.parameters)))
+
+
+def test_a_prediction_is_the_torque_of_its_model():
+    believed, state = believed_with_friction(1), motion_of(1)
+    expected = believed.model.torque(believed.standard, state)
+    np.testing.assert_allclose(believed.torque(state), expected, rtol=1e-12, atol=1e-12)
+
+
+def test_load_friction_and_rotors_add_up_to_the_torque():
+    believed, state = believed_with_friction(2), motion_of(2)
+    rotors = np.array([one.symbol == "IA" for one in believed.model.parameters])
+    alone = believed.model.torque(np.where(rotors, believed.standard, 0.0), state)
+    whole = believed.load(state) + believed.friction(state) + alone
+    np.testing.assert_allclose(believed.torque(state), whole, rtol=1e-12, atol=1e-12)
+
+
+def test_a_state_that_was_asked_for_is_not_computed_again():
+    asked = []
+
+    def counted(robot: RobotModel, links: LinkTable, state: MotionState) -> JointSeries:
+        asked.append(state)
+        return inverse_dynamics(robot, links, state)
+
+    believed, state = replace(believed_with_friction(3), newton_euler=counted), motion_of(3)
+    still = np.zeros((len(state.position), 1))
+    for _ in range(2):
+        believed.torque(state)
+        believed.load(state)
+    assert len(asked) == 1
+    believed.shifted(state, 0, MotionState(still + 0.1, still, still))
+    assert len(asked) == 2
+
+
+def test_what_is_kept_cannot_be_changed_by_who_asked():
+    believed, state = believed_with_friction(4), motion_of(4)
+    for series in (believed.torque(state), believed.load(state)):
+        with pytest.raises(ValueError, match="read-only"):
+            series[0] = 1.0
+
+
+def test_another_robot_with_the_same_bodies_is_computed_for_itself():
+    believed, state = believed_with_friction(5), motion_of(5)
+    weightless = replace(believed.model.robot, gravity=np.zeros(3))
+    bodies = believed.standard[: 10 * len(weightless.links)].reshape(-1, 10)
+    expected = inverse_dynamics(weightless, bodies, state)
+    np.testing.assert_array_equal(believed.load(state, weightless), expected)
+    assert np.abs(believed.load(state) - expected).max() > 1e-3
