@@ -79,16 +79,24 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
             f"{row['name']}{'*' if row.get('essential') else ''}",
             uncertain(row["value"], row["standard_deviation"]),
             percent(row.get("relative_deviation_percent")),
+            number(row.get("value_ols")),
             tag("span", "" if row["unit"] == "1" else row["unit"]),
             tag("span", row.get("grouping") or "", class_="meta"),
         )
         for row in rows
     ]
     note = "* essential; %P: relative standard deviation"
-    headings = ("parameter", "value ± standard deviation", "%P", "unit", "what is grouped in it")
+    headings = (
+        "parameter",
+        "value ± standard deviation",
+        "%P",
+        "least squares",
+        "unit",
+        "what is grouped in it",
+    )
     return section(
         heading,
-        table("Base parameters", headings, listed, note=note, text=(4,)),
+        table("Base parameters", headings, listed, note=note, text=(5,)),
     )
 
 

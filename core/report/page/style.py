@@ -33,6 +33,7 @@ th, td { padding: .25rem .9rem .25rem 0; border-bottom: 1px solid var(--line); t
 th:first-child, .text { text-align: left; }
 thead th { color: var(--soft); font-weight: 600; }
 tbody th { font-weight: 500; }
+td:not(.text) { white-space: nowrap; }
 .better { color: var(--good); font-weight: 600; }
 .worse { color: var(--bad); font-weight: 600; }
 figure { margin: .9rem 0; }
