@@ -17,8 +17,14 @@ from core.report.numbers import plain
 def finding(**changes):
     bins = np.arange(3.0)
     whole = {
-        "cause": "torque_ripple", "title": "The torque ripples along the angle", "joints": (4,), "cure": "term",
-        "statement": "Joint 4's torque ripples", "confidence": 0.9, "p_value": 1e-8, "explained_fraction": 0.4,
+        "cause": "torque_ripple",
+        "title": "The torque ripples along the angle",
+        "joints": (4,),
+        "cure": "term",
+        "statement": "Joint 4's torque ripples",
+        "confidence": 0.9,
+        "p_value": 1e-8,
+        "explained_fraction": 0.4,
         "quantities": (Quantity("amplitude", 4, "N m", -0.5, 0.05), Quantity("phase", 4, "rad", 0.0, 0.1)),
         "evidence": (Evidence("Rise", "likelihood ratio", 40.0),),
         "ambiguous_with": (Rival("encoder_eccentricity", (4,), 38.0, "alike", "add a payload"),),
@@ -26,7 +32,7 @@ def finding(**changes):
         "gain": Gain(np.ones(4), np.full(4, 0.5), np.full(4, 50.0), 50.0, (40.0, 60.0)),
         "curve": Curve("position", "rad", 4, *([bins] * 5), direction=np.zeros(3)),
         "member": None,
-    } | changes  # fmt: skip
+    } | changes
     return Finding(**whole)
 
 
