@@ -1,0 +1,103 @@
+"""Hold the search to what it is for: what is there is named, what is not is not, a wrong start is mended."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.cause import Confusion
+from core.diagnosis.rivals import standing
+from core.diagnosis.selection import Selection, select
+from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+SUSPECTED = ("friction_asymmetric", "friction_load_dependent", "spring_compensator", "torque_gain_nonlinear")
+QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
+"""Waves per radian: none of them is gravity."""
+
+CLEAN = None
+UNEVEN: Effect = lambda state: 0.15 * np.abs(state.velocity) * [0.0, 1.0, 0.0]  # noqa: E731
+SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731
+BOTH: Effect = lambda state: UNEVEN(state) + SPRUNG(state)  # noqa: E731
+
+
+def names(selection: Selection) -> list[tuple[str, tuple[int, ...]]]:
+    return sorted(one.key for one in selection.chosen.members)
+
+
+def searched(effect: Effect | None, seed: int) -> Selection:
+    return select(bench_of(measured_arm(effect, seed=seed), [BY_ID[name] for name in SUSPECTED]))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_nothing_is_named_where_nothing_is_hidden(seed):
+    assert names(searched(CLEAN, seed)) == []
+
+
+@pytest.mark.parametrize(
+    ("effect", "hidden"),
+    [
+        (UNEVEN, [("friction_asymmetric", (2,))]),
+        (SPRUNG, [("spring_compensator", (1,))]),
+        (BOTH, [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]),
+    ],
+    ids=["uneven", "sprung", "both"],
+)
+def test_what_is_hidden_is_named_with_its_joint_and_nothing_else(effect, hidden):
+    assert names(searched(effect, 5)) == hidden
+
+
+def test_the_size_that_is_found_is_the_size_that_was_hidden():
+    found = searched(UNEVEN, 6).chosen.solved(0)
+    assert abs(found.values[0] - 0.15) < 3.0 * np.sqrt(found.covariance[0, 0])
+
+
+@cache
+def misled() -> Selection:
+    """Offer two true waves, and a false one that alone explains more than either."""
+    causes = (
+        wave_cause("quick", {QUICK: 1.0}),
+        wave_cause("quicker", {QUICKER: 1.0}),
+        wave_cause("stand_in", {QUICK: 1.0, QUICKER: 1.0, SLOW: 0.5}),
+    )
+    return select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes))
+
+
+def test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found():
+    assert misled().steps[0].candidate.cause.id == "stand_in"
+    assert names(misled()) == [("quick", (2,)), ("quicker", (2,))]
+    assert {"dropped", "swapped"} & {step.action for step in misled().steps}
+
+
+def test_every_step_of_the_search_is_on_record():
+    added = [step.candidate.key for step in misled().steps if step.action in ("added", "swapped")]
+    assert {one.key for one in misled().chosen.members} <= set(added)
+
+
+@cache
+def twins():
+    """Offer one wave under two names, and another one; the wave of the twins is there."""
+    experiment = "move the joint while its twin rests"
+    causes = (
+        wave_cause("one", {QUICK: 1.0}, Confusion("other", "they are the same", experiment)),
+        wave_cause("other", {QUICK: 1.0}, Confusion("one", "they are the same", experiment)),
+        wave_cause("far", {QUICKER: 1.0}),
+    )
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
+    return select(bench), bench
+
+
+def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_equally_good():
+    selection, bench = twins()
+    ((name, site),) = names(selection)
+    (rival,) = standing(bench, selection.chosen, 0).ambiguous
+    assert {name, rival.cause} == {"one", "other"}
+    assert rival.joints == site
+    assert rival.separating_experiment == "move the joint while its twin rests"
+    assert standing(bench, selection.chosen, 0).margin == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_rival_that_explains_little_is_not_equally_good():
+    selection, bench = twins()
+    assert "far" not in {rival.cause for rival in standing(bench, selection.chosen, 0).ambiguous}

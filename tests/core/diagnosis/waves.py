@@ -1,0 +1,63 @@
+"""Make up causes that are waves over the angle of the second joint, so that what hides what is known."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.diagnosis.cause import Confusion
+from core.diagnosis.causes.common import OwnJointCause
+from core.dynamics.terms.effect import OneJointTerm
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+JOINT = 2
+
+
+@dataclass(frozen=True, eq=False)
+class WaveTerm(OneJointTerm):
+    """Add up waves over the joint's angle: amplitude in N m by waves per radian."""
+
+    waves: Mapping[float, float]
+    symbols = (("W", "N m", None),)
+    kind = "wave"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        angle = state.position[:, self.joint - 1]
+        return [sum(size * np.sin(rate * angle) for rate, size in self.waves.items())]
+
+
+class WaveCause(OwnJointCause):
+    """Suspect a sum of waves on the second joint."""
+
+    waves: ClassVar[Mapping[float, float]]
+    units = (("amplitude", "N m"),)
+    experiment = "any other motion"
+
+    def sites(self, look, believed):
+        return [(JOINT,)]
+
+    def term(self, look, believed, site, scalars):
+        return WaveTerm(site[0], self.waves)
+
+    def statement(self, solved):
+        return f"Joint {solved.site[0]} waves"
+
+
+def wave_cause(name: str, waves: Mapping[float, float], *confusions: Confusion) -> WaveCause:
+    """Make up a cause of a given name."""
+    own = {"id": name, "title": name, "waves": waves, "confusions": confusions}
+    return type(name, (WaveCause,), own)()
+
+
+def wave_effect(waves: Mapping[float, float]):
+    """Put waves on the second joint's torque."""
+
+    def effect(state: MotionState) -> np.ndarray:
+        out = np.zeros_like(state.position)
+        out[:, JOINT - 1] = sum(size * np.sin(rate * state.position[:, 1]) for rate, size in waves.items())
+        return out
+
+    return effect
