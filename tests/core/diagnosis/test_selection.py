@@ -5,14 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.catalogue import CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.rivals import standing
 from core.diagnosis.selection import Selection, select
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 
-SUSPECTED = ("friction_asymmetric", "friction_load_dependent", "spring_compensator", "torque_gain_nonlinear")
 QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
 
@@ -27,7 +26,7 @@ def names(selection: Selection) -> list[tuple[str, tuple[int, ...]]]:
 
 
 def searched(effect: Effect | None, seed: int) -> Selection:
-    return select(bench_of(measured_arm(effect, seed=seed), [BY_ID[name] for name in SUSPECTED]))
+    return select(bench_of(measured_arm(effect, seed=seed), CAUSES))
 
 
 @pytest.mark.parametrize("seed", range(4))
