@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Matrix
+from core.arrays import BaseParameters, Matrix, Vector
 from core.regressor.observe import Observation
 
 DRAWS = 1000
@@ -32,10 +32,10 @@ class JointGain:
 
 def gains(
     before: tuple[Observation, BaseParameters],
-    after: tuple[Observation, BaseParameters],
+    after: tuple[Observation, Vector],
     held: tuple[int, ...],
 ) -> tuple[JointGain, ...]:
-    """Compare two identified models on the held-out blocks of their observations."""
+    """Compare two identified models, the second with parameters of its own, on their held-out blocks."""
     old, rows = _squares(*before, held)
     new, _ = _squares(*after, held)
     found = []
