@@ -1,0 +1,44 @@
+"""Rows that are held out stay unseen: whatever stands in them, fits and scans come out the same."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.diagnosis.catalogue import CAUSES
+from core.diagnosis.cause import Cause
+from core.diagnosis.equations import Fit
+from tests.core.diagnosis.scenes import Scene, bench_of, eventful_scene, measured_arm
+
+
+def with_garbage(scene: Scene) -> Scene:
+    """Put torque that no arm needs into the rows that are held out."""
+    look = scene.look
+    garbage = 100.0 * np.random.default_rng(0).normal(size=look.torque.shape) * look.held_out[:, None]
+    return replace(scene, look=replace(look, torque=look.torque + garbage))
+
+
+def fitted(scene: Scene) -> Fit:
+    return bench_of(scene, ()).tried(()).fit
+
+
+def test_some_rows_are_held_out():
+    assert 0.1 < measured_arm().look.held_out.mean() < 0.3
+
+
+def test_a_fit_does_not_see_what_is_held_out():
+    scene = measured_arm()
+    np.testing.assert_array_equal(fitted(with_garbage(scene)).values, fitted(scene).values)
+
+
+@pytest.mark.parametrize("cause", CAUSES, ids=lambda one: one.id)
+def test_a_cause_settles_where_to_look_without_what_is_held_out(cause: Cause):
+    """Neither its grid nor the columns built on it may depend on rows that are to judge it."""
+    clean, spoilt = eventful_scene(), with_garbage(eventful_scene())
+    for site in cause.sites(clean.look, clean.believed):
+        grid = cause.grid(clean.look, clean.believed, site)
+        assert cause.grid(spoilt.look, spoilt.believed, site) == grid
+        terms = [cause.term(one.look, one.believed, site, grid[0]) for one in (clean, spoilt)]
+        before, after = clean.look.columns(terms)
+        for joint, column in before.items():
+            np.testing.assert_array_equal(after[joint], column)
