@@ -1,0 +1,140 @@
+"""Break the diagnosis on purpose, and see a law fail: a law that cannot fail holds nothing."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from core.diagnosis import misfit, selection
+from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.causes.torque_gain import TorqueGain
+from core.diagnosis.equations import joint_rows, refit
+from core.diagnosis.noise import JointNoise
+from core.dynamics.terms.effect import OneJointTerm
+from tests.core.diagnosis import (
+    equations_world,
+    test_equations,
+    test_every_cause,
+    test_held_out,
+    test_noise,
+    test_score,
+    test_selection,
+)
+from tests.core.diagnosis.equations_world import Equations
+from tests.core.diagnosis.processes import SLOW
+from tests.core.diagnosis.scenes import eventful_scene
+
+
+@dataclass(frozen=True, eq=False)
+class Measured(OneJointTerm):
+    """Give the measured torque for what is predicted."""
+
+    torque: np.ndarray
+    symbols = (("G", "1", None),)
+    kind = "measured"
+
+    def columns(self, robot, state):
+        rows = np.linspace(0.0, len(self.torque) - 1.0, len(state.position))
+        return [np.interp(rows, np.arange(len(self.torque)), self.torque[:, self.joint - 1])]
+
+
+class Endogenous(TorqueGain):
+    """Suspect a torque gain as one should not."""
+
+    def term(self, look, believed, site, scalars):
+        return Measured(site[0], look.torque)
+
+
+def test_a_column_of_measured_torque_is_seen():
+    law = test_every_cause.test_columns_come_from_the_prediction_and_not_from_the_measured_torque
+    law(TorqueGain(), eventful_scene())
+    with pytest.raises(AssertionError):
+        law(Endogenous(), eventful_scene())
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        lambda: test_noise.test_what_was_learned_from_coloured_noise_makes_it_white(SLOW, 0),
+        lambda: test_noise.test_the_likelihood_of_gappy_rows_is_that_of_the_dense_normal_distribution(SLOW),
+        lambda: (
+            test_equations.test_a_fit_under_known_noise_is_the_generalised_least_squares_of_dense_matrices(
+                Equations()
+            )
+        ),
+        test_equations.test_parameters_scatter_as_their_covariance_says,
+        test_score.test_where_nothing_is_hidden_and_the_noise_was_learned_small_chances_stay_rare,
+    ],
+    ids=["white", "likelihood", "dense", "scatter", "chances"],
+)
+def test_rows_taken_for_independent_are_seen(law, monkeypatch):
+    law()
+    monkeypatch.setattr(JointNoise, "whitened", lambda noise, columns, place: columns / noise.deviations[0])
+    with pytest.raises(AssertionError):
+        law()
+
+
+def test_a_row_that_looks_across_a_gap_is_seen(monkeypatch):
+    law = test_noise.test_a_row_after_a_gap_knows_nothing_of_the_rows_before_it
+    law()
+    honest = JointNoise.whitened
+    monkeypatch.setattr(
+        JointNoise, "whitened", lambda noise, columns, place: honest(noise, columns, np.arange(len(place)))
+    )
+    with pytest.raises(AssertionError):
+        law()
+
+
+def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
+    law = test_equations.test_what_free_columns_can_stand_for_does_not_reach_the_parameters
+    law(Equations())
+
+    def without_standstill(look, columns, mask):
+        bare = tuple(np.zeros((len(look.time), 0)) for _ in range(look.joints))
+        return joint_rows(replace(look, sticking=bare), columns, mask)
+
+    monkeypatch.setattr(equations_world, "joint_rows", without_standstill)
+    with pytest.raises(AssertionError):
+        law(Equations())
+
+
+def test_a_noise_model_that_was_learned_with_the_effect_in_it_is_seen(monkeypatch):
+    law = test_equations.test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away
+    law()
+    monkeypatch.setattr(test_equations, "refit", partial(refit, rounds=0))
+    with pytest.raises(AssertionError):
+        law()
+
+
+def test_a_fit_that_sees_what_is_held_out_is_seen(monkeypatch):
+    law = test_held_out.test_a_fit_does_not_see_what_is_held_out
+    law()
+    honest = test_held_out.bench_of
+
+    def all_rows(scene, causes):
+        seen = replace(scene.look, held_out=np.zeros_like(scene.look.held_out))
+        return honest(replace(scene, look=seen), causes)
+
+    monkeypatch.setattr(test_held_out, "bench_of", all_rows)
+    with pytest.raises(AssertionError):
+        law()
+
+
+def test_a_search_that_looks_at_what_is_held_out_is_seen(monkeypatch):
+    law = partial(
+        test_held_out.test_a_cause_settles_where_to_look_without_what_is_held_out, BY_ID["time_delay"]
+    )
+    law()
+    monkeypatch.setattr(misfit, "fitted_rows", lambda look: look.clear)
+    with pytest.raises(AssertionError):
+        law()
+
+
+def test_a_search_that_never_looks_back_is_seen(monkeypatch):
+    law = test_selection.test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found
+    law()
+    monkeypatch.setattr(test_selection, "misled", test_selection.misled.__wrapped__)
+    monkeypatch.setattr(selection, "_defended", lambda bench, now, *rest: now)
+    with pytest.raises(AssertionError):
+        law()
