@@ -9,14 +9,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Matrix
+from core.arrays import JointSeries
 from core.diagnosis.cause import Cause, Scalars
-from core.diagnosis.equations import Columns, Fit, JointRows, extended, fit, joint_rows, refit
+from core.diagnosis.equations import Columns, Fit, JointRows, extended, fit, joint_rows, refit, whitened
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 from core.diagnosis.look import Look
 from core.diagnosis.score import score
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
+from core.simulation.inverse import inverse_dynamics
 
 FINER = 9
 """Points laid between the neighbours of the best grid point, in each of two rounds."""
@@ -41,8 +42,11 @@ class Bench:
         self.look = look
         self.plan = plan
         self.causes = tuple(causes)
-        self.base = joint_rows(look, look.observed(plan), mask)
-        self.believed = Prediction(plan.model, np.zeros(len(plan.model.parameters)))
+        columns = look.observed(plan)
+        self.base = joint_rows(look, columns, mask)
+        self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
+        self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
+        self.believed = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
         self._columns: dict[object, Columns] = {}
         self._candidates: tuple[Candidate, ...] = ()
 
@@ -50,15 +54,20 @@ class Bench:
         """Take the base parameters of a fit for what is believed, and forget what was built on others."""
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.values[: len(self.plan.columns)]
-        self.believed = Prediction(self.plan.model, standard)
+        self.believed = Prediction(self.plan.model, standard, inverse_dynamics)
         self._columns = {place: one for place, one in self._columns.items() if not place[-1]}  # type: ignore[index]
         self._candidates = tuple(
-            Candidate(cause, site, scalars, len(grid))
+            Candidate(cause, site, scalars, cause.trials(grid, scalars))
             for cause in self.causes
             for site in cause.sites(self.look, self.believed)
             for grid in [tuple(cause.grid(self.look, self.believed, site))]
             for scalars in grid
         )
+
+    @property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """Give everything that is suspected under the present belief."""
+        return self._candidates
 
     @property
     def kinds(self) -> int:
@@ -116,10 +125,32 @@ class Bench:
                 candidate = self._refined(under, candidate, name)
         return candidate
 
-    def residual(self, under: Hypothesis, joint: int) -> Matrix:
-        """Give the residual of one joint's fitted rows (as one column), N m."""
-        rows = self._rows(under)[joint]
-        return np.asarray((rows.torque - rows.columns @ under.fit.values)[:, None])
+    def residual(self, under: Hypothesis) -> JointSeries:
+        """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N."""
+        rows = extended(self.everywhere, self.columns(under.members))
+        return np.column_stack([one.missed(under.fit.values) for one in rows])
+
+    def unseen_rise(self, now: Hypothesis, trial: Hypothesis) -> float:
+        """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise."""
+        missed = []
+        for one in (now, trial):
+            rows = extended(self.unseen, self.columns(one.members))
+            white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
+            missed.append(sum(float(np.sum((w.torque - w.columns @ one.fit.values) ** 2)) for w in white))
+        return missed[0] - missed[1]
+
+    def unseen_share(self, trial: Hypothesis) -> float:
+        """Give the square of the last member's torque on held-out rows over that on the fitted ones."""
+        columns = self.columns(trial.members)[-1]
+        values = trial.fit.values[trial.columns_of(len(trial.members) - 1)]
+        squares = []
+        for part in (self.unseen, self.base):
+            total = 0.0
+            for joint, one in columns.items():
+                torque = (one[part[joint].rows] @ values)[:, None]
+                total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
+            squares.append(total)
+        return squares[0] / max(squares[1], 1e-300)
 
     def _refined(self, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
         points = sorted({one.scalars[name] for one in self._grid(candidate)})
@@ -184,6 +215,7 @@ class Bench:
 
 def _neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
     """Give the points on either side; beyond an end, as far as the other neighbour."""
+    points = sorted({*points, here})
     place = points.index(here)
     if len(points) == 1:
         return 0.5 * here, 2.0 * here

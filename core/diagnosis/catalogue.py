@@ -67,4 +67,7 @@ CAUSES: tuple[Cause, ...] = (
 RAW_CAUSES: tuple[RawCause, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
 """Causes that show in the raw samples."""
 
-BY_ID: Mapping[str, Cause | RawCause] = {one.id: one for one in (*CAUSES, *RAW_CAUSES)}
+BY_ID: Mapping[str, Cause | RawCause] = {
+    **{one.id: one for one in CAUSES},
+    **{one.id: one for one in RAW_CAUSES},
+}

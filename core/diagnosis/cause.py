@@ -8,7 +8,7 @@ confused with, and which motion would separate the two.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 from core.arrays import SquareMatrix, Vector
 from core.diagnosis.look import Look
@@ -58,6 +58,7 @@ class Solved:
     deviations: Scalars
 
 
+@runtime_checkable
 class Cause(Protocol):
     """Offer one hypothesis about what a simulation misses.
 
@@ -71,8 +72,8 @@ class Cause(Protocol):
         The motion that would show it where the present one does not.
     coordinate
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
-    event
-        Whether it happens at some time, and so need not show on held-out rows.
+    excludes
+        Causes that are not named together with it: one of the two is enough to explain what either shows.
     near_reversals
         Whether its evidence lies next to velocity reversals, where other causes do not look.
     """
@@ -82,7 +83,7 @@ class Cause(Protocol):
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
     near_reversals: ClassVar[bool]
-    event: ClassVar[bool]
+    excludes: ClassVar[tuple[str, ...]]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:
@@ -114,6 +115,10 @@ class Cause(Protocol):
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give its torque per unit of its linear parameters."""
+        ...
+
+    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
+        """Count the trials that a point of the grid was picked from: what its p-value is corrected for."""
         ...
 
     def possible(self, solved: Solved) -> bool:

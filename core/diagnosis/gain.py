@@ -7,28 +7,11 @@ Neighbouring rows share noise and motion, so whole blocks are drawn, never rows.
 import numpy as np
 
 from core.arrays import JointSeries
-from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Gain
-from core.diagnosis.equations import extended, joint_rows
-from core.diagnosis.hypothesis import Hypothesis
 
 DRAWS = 400
 BLOCK_ROWS = 25
 SEED = 0
-
-
-def residuals(bench: Bench, hypothesis: Hypothesis, base: tuple[np.ndarray, ...]) -> JointSeries:
-    """Give measured minus predicted torque at all rows of the look, N m, stuck friction taken out.
-
-    Parameters
-    ----------
-    base
-        Per joint, the base columns at all rows.
-    """
-    look = bench.look
-    everywhere = np.ones_like(look.usable)
-    rows = extended(joint_rows(look, base, everywhere), bench.columns(hypothesis.members))
-    return np.column_stack([one.missed(hypothesis.fit.values) for one in rows])
 
 
 def gain(

@@ -26,7 +26,7 @@ class Candidate:
     cause: Cause
     site: Site
     scalars: Scalars
-    trials: int
+    trials: float
     deviations: Scalars = field(default_factory=dict)
 
     @property

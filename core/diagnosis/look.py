@@ -12,10 +12,11 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import Indices, JointMask, JointSeries, Samples, Series
+from core.arrays import Indices, JointMask, JointSeries, Samples
+from core.diagnosis.sticking import beside, resting, sticking
+from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
-from core.dynamics.terms.effect import step_of
 from core.errors import ExcitationError
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
@@ -39,33 +40,6 @@ REVERSAL_REACH = 1.0
 LONGEST_SECONDS = 120.0
 STRETCH_SECONDS = 30.0
 _BATCH = 256
-
-
-@dataclass(frozen=True, eq=False)
-class Stretch:
-    """Carry one contiguous stretch of motion with the parallel filter at its thinned rate.
-
-    Attributes
-    ----------
-    state
-        The motion at the thinned rate, the filter's reach included.
-    first, rows
-        Where the first kept instant lies in `state`, and which rows of the look the kept instants are.
-    """
-
-    state: MotionState
-    parallel: ParallelFilter
-    first: int
-    rows: slice
-
-    @property
-    def kept(self) -> int:
-        """Count the kept instants."""
-        return int(self.rows.stop - self.rows.start)
-
-    def filtered(self, series: Series) -> Series:
-        """Filter series of this stretch and keep its instants."""
-        return self.parallel.apply(np.ascontiguousarray(series), self.first, self.kept)
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,6 +132,7 @@ def look_at(
     *,
     held_out: frozenset[BlockKey],
     blocks: int,
+    width: float = BAND_OVER_MOTION,
 ) -> Look:
     """Condition the logs for a diagnosis.
 
@@ -167,15 +142,17 @@ def look_at(
         (log, block) pairs that are only predicted, never fitted.
     blocks
         Number of blocks each log is divided into.
+    width
+        The look's band over the motion's.
 
     Raises
     ------
     ExcitationError
         If no row is left to look at.
     """
-    motions = tuple(condition(log, model.robot, _options(log), blocks=blocks) for log in logs)
+    motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
     share = min(1.0, LONGEST_SECONDS / sum(log.duration for log in logs))
-    pieces = [_pieces(number, motion, share) for number, motion in enumerate(motions)]
+    pieces = [_pieces(number, motion, model.robot, share) for number, motion in enumerate(motions)]
     parts = [piece for one in pieces for piece in one]
     if not parts:
         raise ExcitationError(
@@ -204,7 +181,7 @@ def look_at(
         held_out=np.isin(log * blocks + block, sorted(keys)),
         state=_joined([part.state for part in parts]),
         sticking=tuple(
-            _stacked([part.sticking[joint] for part in parts]) for joint in range(len(model.robot.joints))
+            beside([part.sticking[joint] for part in parts]) for joint in range(len(model.robot.joints))
         ),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
@@ -224,10 +201,10 @@ class _Piece:
     sticking: tuple[np.ndarray, ...]
 
 
-def _options(log: JointLog) -> FilterOptions:
+def _options(log: JointLog, width: float) -> FilterOptions:
     """Choose the band of a diagnosis from the motion's own."""
     band = choose_recipe(log, FilterOptions()).motion_band_hz
-    cutoff = min(BAND_OVER_MOTION * band, log.rate_hz / RATE_OVER_BAND)
+    cutoff = min(width * band, log.rate_hz / RATE_OVER_BAND)
     return FilterOptions(
         cutoff_hz=cutoff,
         position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
@@ -235,7 +212,7 @@ def _options(log: JointLog) -> FilterOptions:
     )
 
 
-def _pieces(number: int, motion: Motion, share: float) -> list[_Piece]:
+def _pieces(number: int, motion: Motion, robot: RobotModel, share: float) -> list[_Piece]:
     out, done = [], 0
     for segment in motion.segments:
         step = segment.rate_hz / motion.recipe.decimation
@@ -243,12 +220,16 @@ def _pieces(number: int, motion: Motion, share: float) -> list[_Piece]:
         wanted = max(1, int(np.ceil(segment.kept * share / length)))
         size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
         firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
-        out += [_piece(number, motion, segment, (int(first), int(first) + size), done) for first in firsts]
+        out += [
+            _piece(number, motion, robot, segment, (int(first), int(first) + size), done) for first in firsts
+        ]
         done += segment.kept
     return out
 
 
-def _piece(number: int, motion: Motion, segment: Segment, kept: tuple[int, int], done: int) -> _Piece:
+def _piece(
+    number: int, motion: Motion, robot: RobotModel, segment: Segment, kept: tuple[int, int], done: int
+) -> _Piece:
     recipe = motion.recipe
     tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
     thin = _thinning(recipe.decimation, segment.rate_hz, recipe.cutoff_hz)
@@ -264,60 +245,14 @@ def _piece(number: int, motion: Motion, segment: Segment, kept: tuple[int, int],
     return _Piece(
         log=number,
         stretch=stretch,
-        sticking=sticking(stretch, recipe.still_speed, recipe.cutoff_hz),
+        sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),
         time=tile.time,
         block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
         torque=tile.filtered(np.ascontiguousarray(tile.torque.T)).T,
         usable=tile.usable,
-        clear=_clear(tile.state.velocity, at, segment.rate_hz, recipe.cutoff_hz, recipe.still_speed),
+        clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),
         state=_thinned(tile.state, at),
     )
-
-
-def sticking(stretch: Stretch, still: np.ndarray, band_hz: float) -> tuple[np.ndarray, ...]:
-    """Give, per joint, filtered columns for the friction of every stretch of time in which the joint rests.
-
-    While a joint sticks, friction is what balances the torque, between minus and plus its level; polynomials
-    with as many coefficients as the filter lets through stand for it.
-    """
-    out = []
-    for joint in range(stretch.state.velocity.shape[1]):
-        velocity = stretch.state.velocity[:, joint]
-        rests = np.abs(velocity) <= still[joint]
-        rests[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
-        series = [
-            row
-            for begin, end in _runs(rests)
-            for row in _polynomials(begin, end, len(velocity), band_hz * step_of(stretch.state))
-        ]
-        rows = np.array(series).reshape(-1, len(velocity))
-        out.append(stretch.filtered(rows).T if len(rows) else np.zeros((stretch.kept, 0)))
-    return tuple(out)
-
-
-def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
-    """List where marks begin and end, one sample wider on either side."""
-    edges = np.diff(np.pad(marks.astype(int), 1))
-    begins, ends = np.flatnonzero(edges == 1) - 1, np.flatnonzero(edges == -1) + 1
-    return [(max(int(begin), 0), min(int(end), len(marks))) for begin, end in zip(begins, ends, strict=True)]
-
-
-def _polynomials(begin: int, end: int, samples: int, band: float) -> list[np.ndarray]:
-    count = min(end - begin, 2 + int(np.ceil(2.0 * band * (end - begin))))
-    rows = np.zeros((count, samples))
-    rows[:, begin:end] = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1).T
-    return list(rows)
-
-
-def _stacked(parts: list[np.ndarray]) -> np.ndarray:
-    """Put columns of different stretches beside each other, each on its own rows."""
-    rows, columns = (sum(part.shape[axis] for part in parts) for axis in (0, 1))
-    out = np.zeros((rows, columns))
-    row = column = 0
-    for part in parts:
-        out[row : row + part.shape[0], column : column + part.shape[1]] = part
-        row, column = row + part.shape[0], column + part.shape[1]
-    return out
 
 
 def _thinning(decimation: int, rate_hz: float, cutoff_hz: float) -> int:
@@ -329,15 +264,14 @@ def _thinning(decimation: int, rate_hz: float, cutoff_hz: float) -> int:
     )
 
 
-def _clear(
-    velocity: JointSeries, at: Indices, rate_hz: float, cutoff_hz: float, still: np.ndarray
-) -> JointMask:
-    """Tell which kept instants are further from every reversal than the filter's main lobe."""
-    turns = np.abs(velocity) <= still
-    turns[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
-    reach = int(np.ceil(REVERSAL_REACH * rate_hz / cutoff_hz))
+def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
+    """Tell which kept instants are further from every reversal than the filter's main lobe.
+
+    `period` is that of the cut-off, in samples.
+    """
+    reach = int(np.ceil(REVERSAL_REACH * period))
     counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
-    low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(velocity))
+    low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
     return np.asarray(counts[high] == counts[low])
 
 

@@ -7,8 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import JointSeries, JointVector
+from core.arrays import Indices, JointSeries, JointVector, Vector
 from core.diagnosis.look import Look
+from core.diagnosis.noise import learn_noise, places
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 
@@ -27,6 +28,34 @@ def misfit(look: Look, believed: Prediction) -> JointSeries:
 def fitted_rows(look: Look) -> np.ndarray:
     """Mark, rows x joints, what a fit may see: clear of reversals and not held out."""
     return np.asarray(look.clear & ~look.held_out[:, None])
+
+
+def whitened_by_joint(
+    look: Look, columns: np.ndarray, left: JointSeries, mask: np.ndarray
+) -> tuple[np.ndarray, JointSeries]:
+    """Whiten columns (rows x columns x joints) and a misfit, the noise learned from its quieter half.
+
+    What happens once in a while is not to be learned as noise.
+    """
+    place = places(~look.starts)
+    columns, left = columns.copy(), left.copy()
+    for joint in range(look.joints):
+        basis = np.linalg.qr(look.sticking[joint])[0]
+        left[:, joint] -= basis @ (basis.T @ left[:, joint])
+        rows = _quiet(look, left[:, joint], np.flatnonzero(mask[:, joint]))
+        follows = (np.diff(rows, prepend=-2) == 1) & ~look.starts[rows]
+        noise = learn_noise(left[rows, joint], places(follows))
+        columns[:, :, joint] = noise.whitened(columns[:, :, joint], place)
+        left[:, joint] = noise.whitened(left[:, [joint]], place)[:, 0]
+    return columns, left
+
+
+def _quiet(look: Look, left: Vector, rows: Indices) -> Indices:
+    """Keep the rows of the blocks in which a misfit is smaller than in half of them."""
+    block = (look.log * (1 + look.block.max()) + look.block)[rows]
+    counts = np.maximum(np.bincount(block), 1)
+    power = np.bincount(block, left[rows] ** 2) / counts
+    return np.asarray(rows[power[block] <= np.median(power[np.unique(block)])])
 
 
 def size_of(left: JointSeries, mask: np.ndarray) -> JointVector:

@@ -7,7 +7,7 @@ first one did. Source: Kay, Fundamentals of Statistical Signal Processing I (199
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import ClassVar, Protocol
+from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -15,8 +15,9 @@ from scipy.signal import oaconvolve
 
 from core.arrays import JointSeries, JointVector
 from core.diagnosis.cause import Confusion, Cure, Quantity, Site
-from core.diagnosis.look import Look, Stretch
+from core.diagnosis.look import Look
 from core.diagnosis.misfit import fitted_rows, misfit
+from core.diagnosis.stretch import Stretch
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import step_of
 from core.signals.condition import Motion
@@ -54,12 +55,18 @@ class RawFinding:
     residual_share: JointVector
 
 
+@runtime_checkable
 class RawCause(Protocol):
     """Suspect a fault of the samples; the attributes are those of `Cause`."""
 
     id: ClassVar[str]
     title: ClassVar[str]
     experiment: ClassVar[str]
+
+    @property
+    def units(self) -> tuple[tuple[str, str], ...]:
+        """List name and unit of every number it reports."""
+        ...
 
     @property
     def cure(self) -> Cure:
@@ -78,15 +85,21 @@ class RawCause(Protocol):
 
 def residual_share(look: Look, believed: Prediction, spoil: Spoil) -> JointVector:
     """Spoil the smooth motion and give, per joint, the mean square of what that adds over the residual's."""
-    rng = np.random.default_rng(0)
     left, mask = misfit(look, believed), fitted_rows(look)
-    gained = np.zeros_like(left)
+    gained = disturbance(look, believed, spoil)
+    had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
+    return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
+
+
+def disturbance(look: Look, believed: Prediction, spoil: Spoil) -> JointSeries:
+    """Spoil the smooth motion and give what that adds to the torque at the look's rows, N m or N."""
+    rng = np.random.default_rng(0)
+    gained = np.zeros_like(look.torque)
     for stretch in look.stretches:
         state, motion = stretch.state, look.motions[look.log[stretch.rows.start]]
         spoilt = _spoilt(state, motion, spoil, rng)
         gained[stretch.rows] = _change(stretch, believed, spoilt)
-    had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
-    return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
+    return gained
 
 
 def _change(stretch: Stretch, believed: Prediction, spoilt: MotionState) -> JointSeries:

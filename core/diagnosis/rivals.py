@@ -15,6 +15,9 @@ from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.selection import merit, rise, with_candidate
 
 INDIFFERENCE = 6.0
+CONFUSED_SHARE, OTHER_SHARE = 0.15, 0.03
+"""Shares of a finding's rise below which a lead counts for nothing: for rivals known to be confused with it,
+and for others. Columns of a real robot are not exact, and what they miss grows with the effect."""
 WEIGHED = 6
 WORTH_NAMING = 0.1
 """A rival that reaches less than this share of the finding's own rise is not worth a line."""
@@ -43,10 +46,12 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
     """Weigh a member against the best of all other candidates in its place."""
     member = chosen.members[index]
     without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
-    own = bench.added(without, member)
+    own = bench.tried((*without.members, member), without)
     taken = {one.key for one in chosen.members}
     others = [one for one in bench.scanned(without) if one.candidate.key not in taken][:WEIGHED]
-    trials = [trial for one in others for trial in [with_candidate(bench, without, one)]]
+    trials = [
+        bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
+    ]
     ambiguous, refuted, margin = [], [], np.inf
     own_merit, own_rise = merit(without, own), rise(without, own)
     for trial in sorted(trials, key=lambda one: -merit(without, one)):
@@ -54,11 +59,16 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
         if trial.possible:
             margin = min(margin, behind)
         rival = trial.members[-1]
-        if trial.possible and behind < INDIFFERENCE:
+        if trial.possible and behind < _indifference(member, trial.members[-1], own_rise):
             ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
             refuted.append(_refuted(rival, rise(without, trial), own_rise, possible=trial.possible))
     return Standing(own_rise, float(margin), tuple(ambiguous), tuple(refuted), without)
+
+
+def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float:
+    confused = rival.cause.id in {one.cause for one in member.cause.confusions}
+    return max(INDIFFERENCE, (CONFUSED_SHARE if confused else OTHER_SHARE) * own_rise)
 
 
 def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float) -> Rival:
@@ -69,7 +79,7 @@ def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: fl
         rival.cause.id,
         rival.site,
         statistic,
-        f"its criterion differs by {behind:.1f}, less than {INDIFFERENCE:g}: {why}",
+        f"its criterion differs by only {behind:.1f}: {why}",
         experiment,
     )
 

@@ -6,19 +6,28 @@ rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
 from collections.abc import Callable
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.diagnosis.bench import Bench
+from core.diagnosis.cause import Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+
+Key = tuple[str, Site]
+NOTHING: frozenset[Key] = frozenset()
 
 LEVEL = 1e-3
 """Chance of naming anything in a log that hides nothing."""
 TRIED = 8
-"""Candidates of a scan that are fitted in full."""
+"""Candidates of a scan that are fitted, with the noise learned anew where they act."""
+FITTED_WHOLE = 4
+"""The best of them, fitted with the noise of all joints learned anew."""
 MOST = 5
 """Causes looked for at most."""
+UNSEEN_SHARE = 0.25
+"""Share of the rise to be expected on held-out rows that has to be seen there."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -45,32 +54,57 @@ def select(bench: Bench, progress: Callable[[float], None] | None = None) -> Sel
     """Search for the causes that explain the rows."""
     none = bench.tried(())
     bench.believe(none.fit)
-    now, steps = none, []
+    now, steps = none, list[Step]()
+    given_up: set[Key] = set()
     for number in range(MOST):
         if progress is not None:
             progress(number / MOST)
-        better = best_addition(bench, now)
+        better = best_addition(bench, now, given_up)
         if better is None:
             break
         steps.append(Step("added", better.members[-1], rise(now, better)))
-        bench.believe(better.fit)
-        now = bench.tried(better.members, better)
-        now = _defended(bench, now, steps)
+        now = _defended(bench, _settled(bench, better), steps, given_up)
     return Selection(none, now, tuple(steps))
 
 
-def best_addition(bench: Bench, now: Hypothesis) -> Hypothesis | None:
-    """Give the hypothesis with the one more cause that deserves it most; None where none does."""
-    taken = set(now.by_key)
+def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
+    """Believe what a hypothesis found, and settle its last member's scalars anew under that belief."""
+    bench.believe(better.fit)
+    before = bench.tried(better.members[:-1])
+    same = [one for one in bench.candidates if one.key == better.members[-1].key]
+    found = bench.scanned(before, [*same, better.members[-1]])[0]
+    again = with_candidate(bench, before, found)
+    return bench.tried(again.members, again)
+
+
+def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NOTHING) -> Hypothesis | None:
+    """Give the hypothesis with the one more cause that deserves it most; None where none does.
+
+    Parameters
+    ----------
+    given_up
+        Kinds that were chosen once and could not defend their place.
+    """
+    excluded = {name for one in now.members for name in one.cause.excludes}
+    taken = {*now.by_key, *given_up, *(one.key for one in bench.candidates if one.cause.id in excluded)}
     scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
     trials = [trial for one in scans[:TRIED] for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
-    worthy = [
-        trial
-        for trial in trials
-        if log_p(now, trial) + np.log(max(count, 1)) < np.log(LEVEL) and _share(now, trial) > LEAST_SHARE
-    ]
-    return max(worthy, key=lambda trial: merit(now, trial), default=None)
+    hurdle = np.log(LEVEL) - np.log(max(count, 1))
+    likely = sorted(
+        (trial for trial in trials if log_p(now, trial) < hurdle and _share(now, trial) > LEAST_SHARE),
+        key=lambda trial: -merit(now, trial),
+    )
+    # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
+    whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
+    ranked = sorted(whole, key=lambda trial: -merit(now, trial))
+    return next((trial for trial in ranked if trial.possible and _holds_unseen(bench, now, trial)), None)
+
+
+def _holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
+    """Tell whether a new member helps on held-out rows as far as it acts there."""
+    expected = bench.unseen_share(trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
+    return bench.unseen_rise(now, trial) >= UNSEEN_SHARE * expected
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
@@ -122,10 +156,10 @@ def _share(now: Hypothesis, trial: Hypothesis) -> float:
     return rise(now, trial) / rows
 
 
-def _defended(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis:
+def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Key]) -> Hypothesis:
     """Let every member defend its place against being dropped and against its rivals."""
     for _ in range(len(now.members)):
-        changed = _challenged(bench, now, steps)
+        changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
         bench.believe(changed.fit)
@@ -133,17 +167,19 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis:
     return now
 
 
-def _challenged(bench: Bench, now: Hypothesis, steps: list[Step]) -> Hypothesis | None:
-    for index, member in enumerate(now.members[:-1]):
+def _challenged(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Key]) -> Hypothesis | None:
+    for index, member in enumerate(now.members):
         without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
         if weight(now, index) < -2.0 * np.log(LEVEL):
             steps.append(Step("dropped", member, rise(without, now)))
+            given_up.add(member.key)
             return without
-        rival = best_addition(bench, without)
+        rival = best_addition(bench, without, given_up)
         if rival is None or rival.members[-1].key == member.key:
             continue
         if merit(without, rival) > merit(without, _last(now, index)) + 6.0:
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
+            given_up.add(member.key)
             return rival
     return None
 

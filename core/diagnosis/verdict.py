@@ -10,12 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import JointSeries
+from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import CAUSES, RAW_CAUSES
 from core.diagnosis.confidence import confidence
 from core.diagnosis.curve import curve
 from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Verdict
-from core.diagnosis.gain import gain, residuals
+from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.raw import RawCause, RawFinding
@@ -67,23 +68,18 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         If the logs are too short to hold anything out.
     """
     tell = progress or _say_nothing
-    look = look_at(question.model, question.logs, held_out=question.held_out, blocks=question.blocks)
+    raw, look = _looked(question)
     tell("search", 0.1)
     bench = Bench(look, question.plan, CAUSES, look.usable & ~look.held_out[:, None])
     selection = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
     tell("weigh rivals", 0.6)
-    base = look.observed(question.plan)
-    before = residuals(bench, selection.none, base)
-    after = residuals(bench, selection.chosen, base)
+    before, after = bench.residual(selection.none), bench.residual(selection.chosen)
     standings = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
     found = [
-        _finding(bench, selection, place, one, (residuals(bench, one.without, base), after))
+        _finding(bench, selection, place, one, (bench.residual(one.without), after))
         for place, one in enumerate(standings)
     ]
-    tell("examine samples", 0.75)
-    found += [
-        _raw_finding(cause, one, look) for cause in RAW_CAUSES for one in cause.examine(look, bench.believed)
-    ]
+    found += raw
     tell("learn what is left", 0.8)
     noise = tuple(one.noise for one in selection.chosen.fit.joints)
     predictable = predictable_share(look, after, bench.believed, noise)
@@ -100,6 +96,26 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         residual_before=before,
         residual_after=after,
     )
+
+
+def _looked(question: Question) -> tuple[list[Finding], Look]:
+    """Examine the raw samples in a wide look, then narrow it to where positions are not all noise."""
+    looks: list[Fitted] = []
+
+    def look_again(width: float) -> Fitted:
+        look = look_at(
+            question.model, question.logs, held_out=question.held_out, blocks=question.blocks, width=width
+        )
+        bench = Bench(look, question.plan, (), look.usable & ~look.held_out[:, None])
+        found = bench.tried(()).fit
+        bench.believe(found)
+        looks.append((look, bench.believed, tuple(one.noise for one in found.joints)))
+        return looks[-1]
+
+    look, _, _ = narrowed(look_again)
+    wide, believed, _ = looks[0]
+    raw = [_raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
+    return raw, look
 
 
 def _finding(
@@ -133,7 +149,7 @@ def _finding(
     )
 
 
-def _evidence(own: Standing, log_p: float, trials: int) -> tuple[Evidence, ...]:
+def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...]:
     return (
         Evidence(
             "Rise of twice the log-likelihood when it joins the model, the noise learned anew",
@@ -141,8 +157,8 @@ def _evidence(own: Standing, log_p: float, trials: int) -> tuple[Evidence, ...]:
             own.statistic,
         ),
         Evidence(
-            f"Logarithm of the chance of so large a rise by luck, corrected for {trials} scanned values and "
-            "all other candidates",
+            f"Logarithm of the chance of so large a rise by luck, corrected for {trials:.3g} scanned values "
+            "and all other candidates",
             "log10 p",
             log_p / float(np.log(10.0)),
         ),

@@ -27,7 +27,7 @@ class OwnJointCause:
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
     near_reversals: ClassVar[bool] = False
-    event: ClassVar[bool] = False
+    excludes: ClassVar[tuple[str, ...]] = ()
     settled: ClassVar[tuple[str, ...]] = ()
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
@@ -39,6 +39,11 @@ class OwnJointCause:
         """Scan nothing."""
         del look, believed, site
         return NOTHING
+
+    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
+        """Count what was tried where one point of the grid is given."""
+        del scalars
+        return float(len(grid))
 
     def possible(self, solved: Solved) -> bool:
         """Allow any finite value."""

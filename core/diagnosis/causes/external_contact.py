@@ -10,11 +10,13 @@ from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.causes.events import find_events
 from core.diagnosis.causes.sites import end_links
 from core.diagnosis.look import Look
-from core.diagnosis.misfit import fitted_rows, misfit, size_of
+from core.diagnosis.misfit import fitted_rows, misfit, whitened_by_joint
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.contact import WRENCH, Contact, Span, pushed
 
+SPANS_TRIED = 1200
+"""Spans of time that a log of half a minute is searched for."""
 MOST = 5
 """Contacts that are told apart."""
 STRONGEST = 1e4
@@ -27,7 +29,6 @@ class ExternalContact(OwnJointCause):
     """Suspect pushes of something outside against the last link."""
 
     id = "external_contact"
-    event = True
     title = "Something pushed against the robot"
     units = (("force", "N"), ("start", "s"), ("end", "s"))
     settled = tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end"))
@@ -48,10 +49,10 @@ class ExternalContact(OwnJointCause):
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Find when the residual is a wrench on the link for a while."""
-        left, mask = misfit(look, believed), fitted_rows(look)
-        weight = mask / size_of(left, mask)
-        push = pushed(look.robot, end_links(look.robot)[site[0]], look.state) * weight[:, None, :]
-        spans = sorted(find_events(look.time, push, left * weight, most=MOST))
+        mask = fitted_rows(look)
+        push = pushed(look.robot, end_links(look.robot)[site[0]], look.state)
+        push, left = whitened_by_joint(look, push, misfit(look, believed), mask)
+        spans = sorted(find_events(look.time, push * mask[:, None, :], left * mask, most=MOST))
         if not spans:
             return []
         return [
@@ -61,6 +62,11 @@ class ExternalContact(OwnJointCause):
                 for name, value in zip(("start", "end"), span, strict=True)
             }
         ]
+
+    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
+        """Count what was searched: every span of time, for every contact."""
+        del grid
+        return float(SPANS_TRIED) ** len(_spans(scalars))
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""

@@ -29,7 +29,6 @@ class PayloadChange(OwnJointCause):
     """
 
     id = "payload_change"
-    event = True
     title = "A body was attached to or taken off the last link"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))

@@ -21,6 +21,7 @@ class TimeDelay(OwnJointCause):
     """Suspect a delay of the torque channel."""
 
     id = "time_delay"
+    excludes = ("torque_filter_lag",)
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)

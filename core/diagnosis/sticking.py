@@ -1,0 +1,80 @@
+"""Let friction be anything while a joint is as good as at rest: columns of any size for these instants.
+
+While a joint sticks, friction balances the torque, anywhere between minus and plus its level, and the sign of
+a measured velocity says nothing about it. Polynomials over every such stretch of time, with as many
+coefficients as the filter lets through, take the place of rows that would have to be left out: what happens
+right beside a reversal stays evidence. Source: Frisch & Waugh 1933, for columns that are only to be rid of.
+"""
+
+import numpy as np
+
+from core.arrays import JointVector
+from core.diagnosis.stretch import Stretch
+from core.dynamics.terms.coupling import motor_speed
+from core.dynamics.terms.effect import step_of
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+SHAPES = 4.0
+"""Polynomials per period of the look's cut-off, twice what an ideal filter would let through."""
+STILL_SHARE = 0.01
+"""A coupled motor rests when it is slower than this share of its RMS speed."""
+
+
+def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.ndarray:
+    """Mark, samples x joints, where a joint or a motor coupled to it rests or turns round."""
+    marks = _rests(state.velocity, still)
+    for coupling in robot.couplings:
+        speed = motor_speed(coupling, state)[:, None]
+        motor = _rests(speed, STILL_SHARE * np.sqrt(np.mean(speed**2, axis=0)))
+        marks[:, [joint - 1 for joint in coupling.joints]] |= motor
+    return marks
+
+
+def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[np.ndarray, ...]:
+    """Give, per joint, filtered columns for the friction of every stretch of time in which it rests."""
+    band = band_hz * step_of(stretch.state)
+    out = []
+    for joint in range(marks.shape[1]):
+        series = [
+            row for begin, end in _runs(marks[:, joint]) for row in _polynomials(begin, end, len(marks), band)
+        ]
+        rows = np.array(series).reshape(-1, len(marks))
+        out.append(stretch.filtered(rows).T if len(rows) else np.zeros((stretch.kept, 0)))
+    return tuple(out)
+
+
+def beside(parts: list[np.ndarray]) -> np.ndarray:
+    """Put columns of different stretches beside each other, each on its own rows."""
+    rows, columns = (sum(part.shape[axis] for part in parts) for axis in (0, 1))
+    out = np.zeros((rows, columns))
+    row = column = 0
+    for part in parts:
+        out[row : row + part.shape[0], column : column + part.shape[1]] = part
+        row, column = row + part.shape[0], column + part.shape[1]
+    return out
+
+
+def _rests(velocity: np.ndarray, still: np.ndarray) -> np.ndarray:
+    marks = np.abs(velocity) <= still
+    marks[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
+    return np.asarray(marks)
+
+
+def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
+    """List where marks begin and end, a sample wider on either side; what then overlaps is one."""
+    edges = np.diff(np.pad(marks.astype(int), 1))
+    begins, ends = np.flatnonzero(edges == 1) - 1, np.flatnonzero(edges == -1) + 1
+    apart = np.append(True, begins[1:] > ends[:-1])
+    lasts = np.append(np.flatnonzero(apart)[1:] - 1, len(ends) - 1)
+    return [
+        (max(int(begin), 0), min(int(end), len(marks)))
+        for begin, end in zip(begins[apart], ends[lasts], strict=True)
+    ]
+
+
+def _polynomials(begin: int, end: int, samples: int, band: float) -> list[np.ndarray]:
+    count = min(end - begin, 2 + int(np.ceil(SHAPES * band * (end - begin))))
+    rows = np.zeros((count, samples))
+    rows[:, begin:end] = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1).T
+    return list(rows)
