@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden bench lock openapi
+.PHONY: help setup demo serve test check style types imports drift containers hidden bench lock openapi causes
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -81,3 +81,7 @@ lock: ## rewrite the locked requirements after a change of dependencies (needs u
 openapi: $(READY) ## rewrite openapi.json after a change of the API
 	$(RUN) -m app openapi > openapi.json.new
 	mv openapi.json.new openapi.json
+
+causes: $(READY) ## rewrite docs/causes.md after a change of the causes
+	$(RUN) -m core.diagnosis.guide > docs/causes.md.new
+	mv docs/causes.md.new docs/causes.md

@@ -17,10 +17,12 @@ OPENING = """\
 
 Written by `make causes` from the files of `core/diagnosis/causes`; change those, not this page.
 
-A finding of a diagnosis names one of these causes and the joint that it acts on. Where two of them explain a log equally well, both are
-named (`ambiguous_with`), with the experiment that separates them; where the log could not have shown a cause, the result says so
-(`not_identifiable`), with the experiment that would. Besides these, a verdict may be `nothing_found`: the residual is noise; or
-`unexplained`: a generic learner still predicts part of the residual on blocks that it has not seen, and no cause of this list explains it.
+A finding of a diagnosis names one of these causes and the joint that it acts on. Where two of them explain a
+log equally well, the other one is named beside it (`ambiguous_with`) with the experiment that separates them.
+Where the log could not have shown a cause, the result says so (`not_identifiable`), with the experiment that
+would. Besides `causes_found`, a verdict may be `nothing_found` (the residual is noise) or `unexplained`: a
+generic learner still predicts part of the residual on blocks that it has not seen, and no cause of this list
+explains that part.
 
 What a finding cures is one of three things, which are the three ways a simulation can be wrong.
 
@@ -61,7 +63,7 @@ def _section(cause: Cause | RawCause) -> str:
     units = "".join(f"| {name} | {_written(unit)} |\n" for name, unit in cause.units)
     return (
         f"\n## {cause.id}\n\n"
-        f"{cause.title}. Suspected: {suspected.removeprefix('Suspect ')}\n\n"
+        f"What is suspected: {suspected.removeprefix('Suspect ')}\n\n"
         f"| number | unit |\n|---|---|\n{units}\n"
         f"Shown by: {cause.experiment}.\n\n"
         "Confused with:\n\n" + "".join(_confusion(one) for one in cause.confusions)

@@ -14,6 +14,7 @@ from core.dynamics.terms.temperature_friction import TemperatureFriction, WarmUp
 
 SHARES = (0.05, 0.12, 0.3, 0.7, 3.0)
 """Time constants of a warm-up, as shares of the time looked at."""
+SLOPES = (("coulomb_slope", "N m"), ("viscous_slope", "N m s/rad"))
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,11 @@ class FrictionTemperature(OwnJointCause):
 
     id = "friction_temperature"
     title = "Friction changes with temperature"
-    units = (("coulomb_slope", "N m"), ("viscous_slope", "N m s/rad"), ("time_constant", "s"))
+    units = (
+        ("coulomb_slope", "N m or N m/K"),
+        ("viscous_slope", "N m s/rad or N m s/rad/K"),
+        ("time_constant", "s"),
+    )
     confusions = (
         Confusion(
             "torque_offset_drift",
@@ -59,7 +64,7 @@ class FrictionTemperature(OwnJointCause):
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         slopes = tuple(
             Quantity(name, solved.site[0], unit + per, float(value), float(deviation))
-            for (name, unit), value, deviation in zip(self.units[:2], solved.values, deviations, strict=True)
+            for (name, unit), value, deviation in zip(SLOPES, solved.values, deviations, strict=True)
         )
         return slopes + tuple(
             Quantity(name, solved.site[0], "s", value, solved.deviations.get(name, 0.0))
