@@ -33,19 +33,12 @@ class LogFile:
 
 @dataclass(frozen=True)
 class Computation:
-    """Describe a computation completely: equal computations give equal results.
-
-    Attributes
-    ----------
-    reference
-        The result document of the job that a diagnosis compares with; None where it names no job.
-    """
+    """Describe a computation completely: equal computations give equal results."""
 
     kind: str
     robot: Document
     logs: tuple[LogFile, ...]
     options: Document
-    reference: Document | None = None
 
 
 Work = Callable[[Computation, Progress], Document]

@@ -25,13 +25,10 @@ class Queue:
             If the kind or an option does not exist or makes no sense.
         LogError
             If a log has not as many joints as the robot.
-        Problem
-            If the job that is to be compared with does not exist or has no result (422).
         """
         science.check_options(kind, options)
         for log in logs:
             _check_joints(robot, log)
-        self._check_reference(options)
         request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
         job = self._store.jobs.add(request)
         self._runner.wake()
@@ -59,19 +56,6 @@ class Queue:
                 f"{robot or log} is needed by jobs that are not finished",
                 evidence={"jobs": len(users), "states": list(UNFINISHED)},
                 remedy="wait for these jobs or dismiss them",
-            )
-
-    def _check_reference(self, options: Document) -> None:
-        identity = science.reference_job(options)
-        if identity is None:
-            return
-        job = self._store.jobs.get(identity)
-        if job is None or job.result_sha256 is None:
-            raise Problem(
-                "unknown-reference",
-                f"there is no successful job {identity} to compare with",
-                evidence={"pointer": "/options/reference", "job": identity, "state": job and job.state},
-                remedy="name a job whose state is successful, or prior, or null",
             )
 
 

@@ -4,14 +4,12 @@ One thread per computation that may run at the same time; the computing itself h
 processes.
 """
 
-import json
 import logging
 import threading
 import time
 
 from app.jobs.computation import Computation, Failed, Finished, LogFile, Outcome
 from app.jobs.executor import Executor
-from app.jobs.science import reference_job
 from app.jobs.worker import mistake
 from app.problems import Problem, problem_of
 from app.store.records import Document, JobRecord
@@ -131,18 +129,7 @@ class Runner:
             robot=description,
             logs=tuple(self._log_file(identity) for identity in job.request.logs),
             options=job.request.options,
-            reference=self._reference(job),
         )
-
-    def _reference(self, job: JobRecord) -> Document | None:
-        identity = reference_job(job.request.options)
-        if identity is None:
-            return None
-        other = self._store.jobs.get(identity)
-        if other is None or other.result_sha256 is None:
-            raise _gone("job", identity)
-        document: Document = json.loads(self._store.blobs.path(other.result_sha256).read_bytes())
-        return document
 
     def _log_file(self, identity: str) -> LogFile:
         log = self._store.logs.get(identity)

@@ -99,24 +99,12 @@ def check_options(kind: str, options: Document) -> None:
             evidence={"given": kind, "known": list(KINDS)},
             remedy="ask for one of the known kinds",
         )
-    from core import study
+    from core.options import parse_diagnose_options, parse_options
 
     if kind == "diagnose":
-        study.parse_diagnose_options(options)
+        parse_diagnose_options(_without_reference(options))
     else:
-        study.parse_options(options)
-
-
-def reference_job(options: Document) -> str | None:
-    """Give the id of the job that a diagnosis compares with; None where it compares with no job.
-
-    Examples
-    --------
-    >>> reference_job({"reference": "job-1"}), reference_job({"reference": "prior"}), reference_job({})
-    ('job-1', None, None)
-    """
-    named = options.get("reference")
-    return str(named) if named not in (None, "prior") else None
+        parse_options(options)
 
 
 def base_parameters(description: Document) -> Document:
@@ -149,12 +137,8 @@ def compute(computation: Computation, progress: Progress) -> Document:
     )
     document: Document
     if computation.kind == "diagnose":
-        document = study.diagnose(
-            study.DiagnoseRequest(
-                robot=robot, logs=logs, options=computation.options, reference=computation.reference
-            ),
-            progress,
-        )
+        options = _without_reference(computation.options)
+        document = study.diagnose(study.IdentifyRequest(robot, logs, options), progress)
     else:
         document = study.identify(study.IdentifyRequest(robot, logs, computation.options), progress)
     return document
@@ -163,3 +147,8 @@ def compute(computation: Computation, progress: Progress) -> Document:
 def load() -> None:
     """Load the solver and the kernels; compiles them where the disk does not hold them yet."""
     import core.study  # noqa: F401  (the import is the work)
+
+
+def _without_reference(options: Document) -> Document:
+    """Take out a reference that names nothing, which asks what structure is missing."""
+    return {name: value for name, value in options.items() if name != "reference" or value is not None}

@@ -147,10 +147,11 @@ class Motion(Open):
 
 
 class Simulation(Open):
-    """The model before and after the cure, made to move; empty where nothing was cured."""
+    """The model before and after the cure, made to move; empty, with a `note`, where that was not done."""
 
     before: Motion
     after: Motion
+    note: str = ""
     improvement_percent: Matrix = Field(default=[])
     improvement_total_percent: PerJoint = Field(default=[])
     interval_95: list[Interval] | None = None

@@ -5,9 +5,9 @@ in the document, so that a report can be drawn from it alone, at any time.
 """
 
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
-from core.extension.extension import Diagnosed
 from core.extension.gain import JointGain
 from core.extension.motion_gain import motion_intervals
+from core.report.diagnosed import Diagnosed
 from core.report.document import base_parameter_rows, identification_document
 from core.report.finding import finding_row, not_identifiable_row
 from core.report.identification import Identification
@@ -34,7 +34,7 @@ def _diagnosis(found: Diagnosed) -> dict[str, object]:
         "after": {"validation": [], "base_parameters": []}
         if found.after is None
         else _side(found.after) | _extended(found.before, found.after),
-        "simulation": _simulation(found.motion),
+        "simulation": _simulation(found.motion, found.motion_note),
         "atlas": dependence_rows(diagnosis.atlas),
         "spectra": spectrum_rows(diagnosis.atlas),
         "search": [
@@ -84,11 +84,12 @@ def _extended(before: Identification, after: Identification) -> dict[str, object
     }
 
 
-def _simulation(motion: Comparison | None) -> dict[str, object]:
+def _simulation(motion: Comparison | None, note: str) -> dict[str, object]:
     if motion is None:
-        return {"before": {}, "after": {}}
+        return {"before": {}, "after": {}, "note": note}
     return {
         "held_out": True,
+        "note": note,
         "before": _moved(motion.before),
         "after": _moved(motion.after),
         "improvement_percent": motion.gain_percent,

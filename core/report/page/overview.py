@@ -119,7 +119,10 @@ def _motion_table(document: Document) -> Html | None:
     simulation = document["diagnosis"].get("simulation") or {}
     old, new = simulation.get("before") or {}, simulation.get("after") or {}
     if not old:
-        return None
+        told = simulation.get("note")
+        return (
+            tag("p", f"The motion of both models was not compared: {told}.", class_="note") if told else None
+        )
     horizons, number_of_joints = old["horizons_s"], len(old["position_rms"][0])
     ends = simulation.get("interval_95") or [None] * number_of_joints
     headings = [

@@ -71,7 +71,7 @@ def doubts_section(document: Document) -> Html | None:
 
 
 def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
-    """Tabulate base parameters with %P; a star marks the essential ones."""
+    """Tabulate base parameters with %P, new ones first; a star marks the essential ones."""
     if not rows:
         return None
     listed = [
@@ -81,9 +81,11 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
             percent(row.get("relative_deviation_percent")),
             number(row.get("value_ols")),
             tag("span", "" if row["unit"] == "1" else row["unit"]),
-            tag("span", row.get("grouping") or "", class_="meta"),
+            tag("b", "joined the model")
+            if row.get("new")
+            else tag("span", row.get("grouping") or "", class_="meta"),
         )
-        for row in rows
+        for row in sorted(rows, key=lambda row: not row.get("new"))
     ]
     note = "* essential; %P: relative standard deviation"
     headings = (

@@ -170,6 +170,12 @@ def test_motion_is_compared_at_every_horizon_in_thousandths():
     assert "From 60 measured states" in text
 
 
+def test_motion_that_was_not_compared_is_said_with_its_reason():
+    simulation = {"before": {}, "after": {}, "note": "a finding remembers the motion"}
+    text = Page(compose_page(diagnosed(simulation=simulation))).text
+    assert "The motion of both models was not compared: a finding remembers the motion." in text
+
+
 def test_a_gain_is_marked_as_real_only_where_its_interval_leaves_zero_out():
     page = compose_page(diagnosed())
     assert page.count('<span class="better">50 %</span>') == 2  # joint 1 in torque and in motion
@@ -213,7 +219,8 @@ def test_an_identification_is_told_with_its_error_on_unseen_data_and_whether_the
 
 
 def test_the_parameters_of_a_diagnosis_are_those_of_the_extended_model():
-    assert "load_coefficient1" in Page(compose_page(diagnosed())).text
+    text = Page(compose_page(diagnosed())).text
+    assert "load_coefficient1* 0.500 ± 0.010 2.0 % 0.600 joined the model ZZR1*" in text
 
 
 def test_no_text_of_a_user_becomes_markup():
