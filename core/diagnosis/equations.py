@@ -8,11 +8,13 @@ effect in question as noise. Sources: Aitken 1936; Cochrane & Orcutt 1949; Bruno
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from core.arrays import Indices, Matrix, SquareMatrix, Vector
+from core.diagnosis.free import Free, free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise, learn_noise, places
 
@@ -20,8 +22,6 @@ RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
 ROUNDS = 3
 TRIAL_ROUNDS = 2
-LEAST_FREE = 1e-6
-"""A free column smaller than this on the rows that may be used acts elsewhere."""
 
 Columns = Mapping[int, Matrix]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -37,21 +37,19 @@ class JointRows:
         Which rows of the look, and their places within runs.
     columns, torque
         What is fitted to what.
-    free, free_basis
-        Columns of any size (friction while the joint sticks), and an orthonormal basis of them.
+    free
+        Columns of any size: friction while the joint sticks.
     """
 
     rows: Indices
     place: Indices
     columns: Matrix
     torque: Vector
-    free: Matrix
-    free_basis: Matrix
+    free: Free
 
     def missed(self, values: Vector) -> Vector:
         """Give what the columns leave over, less what the free ones take."""
-        left = self.torque - self.columns @ values
-        return np.asarray(left - self.free_basis @ (self.free_basis.T @ left))
+        return self.free.cleared(self.torque - self.columns @ values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +60,12 @@ class Whitened:
     columns: Matrix
     torque: Vector
     log_deviations: float
-    free_basis: Matrix
+    free: Free
 
-    def cleared(self, columns: Matrix) -> Matrix:
-        """Take out of whitened columns what the free ones span."""
-        return np.asarray(columns - self.free_basis @ (self.free_basis.T @ columns))
+    @cached_property
+    def gram(self) -> SquareMatrix:
+        """Give the columns' products with each other."""
+        return np.asarray(self.columns.T @ self.columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,16 +107,13 @@ def joint_rows(look: Look, columns: Sequence[Matrix], mask: np.ndarray) -> tuple
         rows = np.flatnonzero(mask[:, joint])
         follows = np.diff(rows, prepend=-2) == 1
         follows &= ~look.starts[rows]
-        free = look.sticking[joint][rows]
-        free = free[:, np.linalg.norm(free, axis=0) > LEAST_FREE]
         out.append(
             JointRows(
                 rows,
                 places(follows),
                 columns[joint][rows],
                 look.torque[rows, joint],
-                free,
-                np.linalg.qr(free)[0],
+                free_of(independent(look.sticking[joint][rows])),
             )
         )
     return tuple(out)
@@ -137,10 +133,10 @@ def extended(joints: tuple[JointRows, ...], columns: Sequence[Columns]) -> tuple
 
 def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     """Whiten one joint's rows."""
-    basis = np.linalg.qr(noise.whitened(rows.free, rows.place))[0]
-    both = noise.whitened(np.column_stack([rows.columns, rows.torque]), rows.place)
-    both -= basis @ (basis.T @ both)
-    return Whitened(noise, both[:, :-1], both[:, -1], noise.log_deviations(rows.place), basis)
+    whitening = noise.whitening(rows.place)
+    free = free_of(whitening @ rows.free.columns)
+    both = free.cleared(whitening @ np.column_stack([rows.columns, rows.torque]))
+    return Whitened(noise, both[:, :-1], both[:, -1], noise.log_deviations(rows.place), free)
 
 
 def fit(
@@ -182,7 +178,9 @@ def refit(
     for joint, rows in enumerate(joints):
         old = before.joints[joint]
         new = rows.columns[:, old.columns.shape[1] :]
-        white = old.cleared(old.noise.whitened(new, rows.place)) if joint in touched else np.zeros_like(new)
+        white = (
+            old.free.cleared(old.noise.whitened(new, rows.place)) if joint in touched else np.zeros_like(new)
+        )
         parts.append(replace(old, columns=np.hstack([old.columns, white])))
     found = _solved(tuple(parts))
     for _ in range(rounds):
@@ -204,11 +202,11 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
 def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     """Count the degrees of freedom that a fit took from one joint's rows: its own and a share of the rest."""
     total = sum(len(one.rows) for one in joints)
-    return float(rows.free.shape[1] + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
+    return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
 def _solved(joints: tuple[Whitened, ...]) -> Fit:
-    gram = sum(one.columns.T @ one.columns for one in joints)
+    gram = np.sum([one.gram for one in joints], axis=0)
     right = sum(one.columns.T @ one.torque for one in joints)
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))

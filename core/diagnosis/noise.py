@@ -9,6 +9,7 @@ Sources: Burg 1975; Brockwell & Davis, Time Series (1991), ch. 5 and 8.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from core.arrays import Indices, Matrix, Vector
 
@@ -46,19 +47,20 @@ class JointNoise:
         place
             Per row, its place within its run, from 0.
         """
-        order = self.order
-        out = columns.copy()
-        for lag, weight in enumerate(self.predictors[order], start=1):
-            out[lag:] -= weight * columns[:-lag]
-        out /= self.deviations[order]
-        for known in range(order):
-            rows = np.flatnonzero(place == known)
-            if len(rows):
-                early = columns[rows].copy()
-                for lag, weight in enumerate(self.predictors[known], start=1):
-                    early -= weight * columns[rows - lag]
-                out[rows] = early / self.deviations[known]
-        return out
+        return np.asarray(self.whitening(place) @ columns)
+
+    def whitening(self, place: Indices) -> csr_array:
+        """Write the whitening as a matrix: each row less what the rows before it in its run predict."""
+        weights = np.zeros((self.order + 1, self.order + 1))
+        for known, predictor in enumerate(self.predictors):
+            weights[known, 0] = 1.0
+            weights[known, 1 : known + 1] = -predictor
+        weights /= self.deviations[:, None]
+        known, lags = np.minimum(place, self.order), np.arange(self.order + 1)
+        inside = lags <= known[:, None]
+        columns = (np.arange(len(place))[:, None] - lags)[inside]
+        starts = np.concatenate([[0], np.cumsum(known + 1)])
+        return csr_array((weights[known][inside], columns, starts), (len(place), len(place)))
 
     def log_deviations(self, place: Indices) -> float:
         """Give the sum over rows of the logarithm of their innovation's deviation."""

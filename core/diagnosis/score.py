@@ -54,7 +54,7 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
         white = found.joints[joint].noise.whitened(raw, rows.place)
         places = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in present])
         squares[places] += np.sum(white**2, axis=0)
-        white = found.joints[joint].cleared(white)
+        white = found.joints[joint].free.cleared(white)
         cross[:, places] += found.joints[joint].columns.T @ white
         right[places] += white.T @ (found.joints[joint].torque - found.joints[joint].columns @ found.values)
         begin = 0
