@@ -72,8 +72,6 @@ class Cause(Protocol):
         The motion that would show it where the present one does not.
     coordinate
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
-    excludes
-        Causes that are not named together with it: one of the two is enough to explain what either shows.
     near_reversals
         Whether its evidence lies next to velocity reversals, where other causes do not look.
     """
@@ -83,7 +81,6 @@ class Cause(Protocol):
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
     near_reversals: ClassVar[bool]
-    excludes: ClassVar[tuple[str, ...]]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:
@@ -98,6 +95,11 @@ class Cause(Protocol):
     @property
     def confusions(self) -> tuple[Confusion, ...]:
         """List what it is mistaken for."""
+        ...
+
+    @property
+    def excludes(self) -> tuple[str, ...]:
+        """List causes that are not named together with it: one of the two explains what either shows."""
         ...
 
     @property

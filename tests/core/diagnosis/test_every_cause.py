@@ -156,6 +156,20 @@ def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scen
 
 
 @every_torque_cause
+def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
+    site, scalars = first_choice(cause, scene)
+    grid = cause.grid(scene.look, scene.believed, site)
+    assert len(grid) <= cause.trials(grid, scalars) < np.inf
+
+
+@every_torque_cause
+def test_what_is_not_named_beside_a_cause_is_another_one_that_is_confused_with_it(cause):
+    """Each excludes the other, so that it does not matter which of them comes first."""
+    assert set(cause.excludes) <= {one.cause for one in cause.confusions}
+    assert all(cause.id in BY_ID[name].excludes for name in cause.excludes)
+
+
+@every_torque_cause
 def test_a_scan_gives_finite_columns_of_one_width_that_are_not_all_nothing(cause, scene):
     look, believed = scene.look, scene.believed
     site = cause.sites(look, believed)[-1]
