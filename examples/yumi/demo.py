@@ -8,6 +8,7 @@ runs already.
 
 import argparse
 import json
+import os
 import signal
 import sys
 import time
@@ -109,7 +110,7 @@ def show_diagnosis(client: Client, arguments: argparse.Namespace, robot: str, co
     target = arguments.report or arguments.data_dir / "diagnosis.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(client.report(job))
-    console.print(f"[bold]Open the report in a browser: {escape(str(target))}[/]")
+    console.print(f"[bold]Open the report in a browser: {escape(os.path.relpath(target))}[/]")
 
 
 def print_problem(console: Console, error: ServiceError) -> None:

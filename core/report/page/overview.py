@@ -44,18 +44,34 @@ def gained(document: Document) -> str | None:
     """Say what the cure gained on unseen data, joint by joint."""
     diagnosis = document["diagnosis"]
     helped = [
-        one
-        for one in diagnosis.get("gain") or []
-        if one["improvement_percent"] > _REAL and (one["interval_95"] or [0.0])[0] > 0.0
+        one for one in diagnosis.get("gain") or [] if _real(one["improvement_percent"], one["interval_95"])
     ]
-    if not diagnosis["findings"] or not helped:
+    if not helped:
         return None
     parts = [
         f"by {percent(one['improvement_percent'])} on joint {one['joint']} "
         f"(95 %: {interval(one['interval_95'])})"
         for one in helped
     ]
-    return f"With the cure in the model, the torque error on data that no fit has seen falls {series(parts)}."
+    torque = (
+        f"With the cure in the model, the torque error on data that no fit has seen falls {series(parts)}."
+    )
+    return torque + _moved_better(diagnosis.get("simulation") or {})
+
+
+def _moved_better(simulation: Document) -> str:
+    gains = simulation.get("improvement_total_percent") or []
+    ends = simulation.get("interval_95") or [None] * len(gains)
+    parts = [
+        f"{percent(gain)} less on joint {joint}"
+        for joint, (gain, own) in enumerate(zip(gains, ends, strict=True), start=1)
+        if _real(gain, own)
+    ]
+    return f" The simulated motion strays {series(parts)}." if parts else ""
+
+
+def _real(gain: float | None, ends: Sequence[float] | None) -> bool:
+    return gain is not None and gain > _REAL and ends is not None and ends[0] > 0.0
 
 
 def joints_section(document: Document) -> Html | None:
@@ -85,7 +101,7 @@ def joints_section(document: Document) -> Html | None:
 
 _TORQUE_NOTE = (
     "Torque in N m (N where a joint slides). The interval comes from drawing whole blocks of time anew; an "
-    "interval that holds zero means that the cure makes no difference on that joint."
+    "interval that holds zero means no difference on that joint that is sure."
 )
 
 
