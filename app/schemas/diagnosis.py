@@ -166,6 +166,7 @@ class Dependence(Open):
     centre: PerJoint
     mean: PerJoint
     standard_error: PerJoint
+    statistic: float | None
     p_value: float | None
 
 

@@ -44,6 +44,25 @@ def finding_figure(curve: Document, unit: str) -> Html:
     return tag("figure", drawn, tag("figcaption", _caption(curve)))
 
 
+def dependence_figure(dependence: Document, unit: str) -> Html:
+    """Show what is left of one joint's residual over one coordinate, with 95 % bars as a band about zero."""
+    joint, name = int(dependence["joint"]), coordinate(dependence["coordinate"], int(dependence["joint"]))
+    at, mean = dependence["centre"], dependence["mean"]
+    room = [_IN_95 * error for error in dependence["standard_error"]]
+    below = [-one for one in room]
+    frame = Frame(0.0, 0.0, _WIDE, _HIGH, span(at, margin=0.03), span(mean, room, below))
+    parts = (
+        frame.axes(f"joint {joint}: what is left", f"{name}, {dependence['unit']}", f"mean residual, {unit}"),
+        frame.band(at, below, room, "floor"),
+        frame.zero(),
+        frame.dots(at, mean, "both"),
+    )
+    title = f"Joint {joint}: what is left over the {name}"
+    told = f"Mean residual of joint {joint} over the {name}, with all findings in the model."
+    note = "Dots: means of equally many samples. Shaded: where 95 of 100 such means of noise alone would lie."
+    return tag("figure", picture(title, told, (_WIDE, _HIGH), *parts), tag("figcaption", note))
+
+
 def joint_bars(title: str, before: Sequence[float], after: Sequence[float], label: str) -> Html:
     """Compare one percentage per joint before and after as bars."""
     top, height = 34.0, 34.0 + _ROW * len(before) + 4.0

@@ -1,7 +1,8 @@
 """Tell what a diagnosis leaves: what is still predictable and where, and what this motion could not show."""
 
+from core.report.page.figures import dependence_figure
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import Document, coordinate, interval, joints, number, share
+from core.report.page.words import Document, coordinate, interval, joints, number, share, unit_of_effort
 
 _SOURCES = {
     "repeats": "repeats of the motion",
@@ -44,7 +45,20 @@ def unexplained_section(document: Document) -> Html:
         "What stays unexplained",
         tag("p", said),
         table("What is left", headings, rows, note=note, text=(3, 6)),
+        *_figures(document),
     )
+
+
+def _figures(document: Document) -> list[Html]:
+    """Show every joint with structure left over the coordinate that the structure follows most clearly."""
+    diagnosis = document["diagnosis"]
+    drawn = []
+    for joint in diagnosis["unexplained"]["joints"]:
+        listed = [one for one in diagnosis["atlas"] if one["joint"] == joint and one["p_value"] is not None]
+        if listed:
+            clearest = min(listed, key=lambda one: (one["p_value"], -one["statistic"]))
+            drawn.append(dependence_figure(clearest, unit_of_effort(document, joint)))
+    return drawn
 
 
 def not_shown_section(document: Document) -> Html | None:

@@ -133,6 +133,19 @@ def curve(**changes):
     } | changes
 
 
+def dependence(coordinate, joint, p_value):
+    return {
+        "coordinate": coordinate,
+        "joint": joint,
+        "unit": "rad/s",
+        "centre": [-1.0, 0.0, 1.0],
+        "mean": [0.1, -0.2, 0.1],
+        "standard_error": [0.01, 0.01, 0.01],
+        "statistic": 50.0,
+        "p_value": p_value,
+    }
+
+
 def motion(scale):
     rows = [[0.001 * scale, 0.002 * scale], [0.004 * scale, 0.003 * scale]]
     return {

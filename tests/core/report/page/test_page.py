@@ -8,6 +8,7 @@ import pytest
 from core.report.page.page import compose_page
 from tests.core.report.documents import (
     curve,
+    dependence,
     diagnosed,
     finding,
     identified,
@@ -199,6 +200,21 @@ def test_structure_without_a_cause_is_said_with_its_joint_and_place():
     beside = Page(compose_page(diagnosed(verdict="unexplained", unexplained=left))).text
     assert "gets one thing wrong" in beside
     assert "Part of what is left on joint 1 has no known cause." in beside
+
+
+def test_what_is_left_is_drawn_over_the_coordinate_that_it_follows_most_clearly():
+    left = diagnosed()["diagnosis"]["unexplained"] | {"joints": [2]}
+    atlas = [
+        dependence("time", 2, 1e-3),
+        dependence("velocity", 2, 1e-9),
+        dependence("position", 1, 1e-12),
+        dependence("temperature", 2, None),
+    ]
+    page = Page(compose_page(diagnosed(findings=[], verdict="unexplained", unexplained=left, atlas=atlas)))
+    assert "Joint 2: what is left over the speed of joint 2" in page.text
+    assert page.tags.count("circle") == 3
+    quiet = Page(compose_page(diagnosed(findings=[], atlas=atlas)))
+    assert "circle" not in quiet.tags
 
 
 def test_the_page_tells_data_defects_doubts_and_origin():
