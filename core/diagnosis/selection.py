@@ -18,7 +18,7 @@ from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 Key = tuple[str, Site]
 NOTHING: frozenset[Key] = frozenset()
 
-LEVEL = 1e-3
+LEVEL = 1e-4
 """Chance of naming anything in a log that hides nothing."""
 TRIED = 8
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""

@@ -1,13 +1,19 @@
 """Suspect a compliant gear between the motor's encoder and the link."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.elasticity import Elasticity
+
+LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
+DAMPING_RATIOS = (0.05, 0.2)
 
 
 @dataclass(frozen=True)
@@ -16,7 +22,7 @@ class JointElasticity(OwnJointCause):
 
     id = "joint_elasticity"
     title = "The gear is compliant"
-    units = (("stiffness", "N m/rad"),)
+    units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"))
     confusions = (
         Confusion(
             "time_delay",
@@ -32,10 +38,19 @@ class JointElasticity(OwnJointCause):
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
 
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the resonance from a few times the motion's band to beyond the look's, and the damping."""
+        del believed, site
+        ends = (LOWEST * look.motion_band_hz, HIGHEST * look.band_hz)
+        return [
+            {"resonance_hz": frequency, "damping_ratio": ratio}
+            for frequency in spread(*ends, POINTS)
+            for ratio in DAMPING_RATIOS
+        ]
+
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del scalars
-        return Elasticity(site[0], believed, 12.0 * look.motion_band_hz)
+        return Elasticity(site[0], believed, look.band_hz, scalars["resonance_hz"], scalars["damping_ratio"])
 
     def possible(self, solved: Solved) -> bool:
         """Want a spring that gives way."""
@@ -44,8 +59,12 @@ class JointElasticity(OwnJointCause):
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report the stiffness; its relative deviation is the compliance's."""
         compliance, deviation = float(solved.values[0]), float(solved.covariance[0, 0] ** 0.5)
+        angular = 2.0 * np.pi * solved.scalars["resonance_hz"]
+        damping = 2.0 * solved.scalars["damping_ratio"] / (angular * compliance)
+        doubt = solved.deviations.get("damping_ratio", 0.0) / solved.scalars["damping_ratio"]
         return (
             Quantity("stiffness", solved.site[0], "N m/rad", 1.0 / compliance, deviation / compliance**2),
+            Quantity("damping", solved.site[0], "N m s/rad", damping, damping * doubt),
         )
 
     def statement(self, solved: Solved) -> str:

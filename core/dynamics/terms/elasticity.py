@@ -1,8 +1,8 @@
 """Give what a compliant gear adds when the encoder sits on the motor: the link lags by torque over stiffness.
 
-The link's position is q - (load / K), to first order in the compliance 1 / K; what the load changes by is
-linear in 1 / K. A damper beside the spring makes the lag (load - D rate) / K, its column is the rate of the
-same shift. Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
+The link's position is q - H(load / K), to first order in the compliance 1 / K; H is the response of the
+link's inertia on spring and damper, one below their resonance. What the load changes by is linear in 1 / K.
+Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
 from dataclasses import dataclass
@@ -20,10 +20,20 @@ from core.signals.zero_phase import kernel
 
 @dataclass(frozen=True, eq=False)
 class Elasticity(AllJointsTerm):
-    """Model a compliant gear; loads are smoothed at `band_hz` before they are differentiated."""
+    """Model a compliant gear.
+
+    Attributes
+    ----------
+    band_hz
+        Loads are smoothed at it before they are differentiated.
+    resonance_hz, damping_ratio
+        Of the link's inertia on the gear's spring: below it the link follows the load at once.
+    """
 
     believed: Prediction
     band_hz: float
+    resonance_hz: float
+    damping_ratio: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
     kind: ClassVar[str] = "joint_elasticity"
     remembers: ClassVar[bool] = True
@@ -33,10 +43,22 @@ class Elasticity(AllJointsTerm):
         del robot
         own = self.joint - 1
         load = smoothed(self.believed.load(state)[:, [own]], state, self.band_hz)
+        load = swung(load, state, self.resonance_hz, self.damping_ratio)
         size = 1e-4 / max(float(np.abs(load).max()), 1e-12)
         first, second = rates(load, state)
         shift = MotionState(-size * load, -size * first, -size * second)
         return [self.believed.shifted(state, own, shift) / size]
+
+
+def swung(values: JointSeries, state: MotionState, resonance_hz: float, damping_ratio: float) -> JointSeries:
+    """Let columns pass a spring with a mass on it, gain one at rest; the series is mirrored at its ends."""
+    count = len(values)
+    mirrored = np.concatenate([values, values[::-1]])
+    ratio = np.fft.rfftfreq(2 * count, step_of(state)) / resonance_hz
+    response = 1.0 / (1.0 - ratio**2 + 2j * damping_ratio * ratio)
+    return np.asarray(
+        np.fft.irfft(np.fft.rfft(mirrored, axis=0) * response[:, None], 2 * count, axis=0)[:count]
+    )
 
 
 def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
