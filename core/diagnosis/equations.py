@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from core.arrays import Indices, Matrix, SquareMatrix, Vector
+from core.arrays import Indices, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.free import Free, free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise, learn_noise, places
@@ -22,6 +22,8 @@ RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
 ROUNDS = 3
 TRIAL_ROUNDS = 2
+SETTLED = 0.1
+"""Change of the log-likelihood below which the noise is learned: what decides changes it by three or more."""
 
 Columns = Mapping[int, Matrix]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -47,9 +49,10 @@ class JointRows:
     torque: Vector
     free: Free
 
-    def missed(self, values: Vector) -> Vector:
+    def missed(self, values: Weights) -> Vector:
         """Give what the columns leave over, less what the free ones take."""
-        return self.free.cleared(self.torque - self.columns @ values)
+        left = self.torque - self.columns @ values
+        return self.free.cleared(left[:, None])[:, 0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +68,11 @@ class Whitened:
     @cached_property
     def gram(self) -> SquareMatrix:
         """Give the columns' products with each other."""
-        return np.asarray(self.columns.T @ self.columns)
+        out = np.zeros((self.columns.shape[1], self.columns.shape[1]))
+        acting = np.flatnonzero(self.columns.any(axis=0))
+        columns = self.columns[:, acting]
+        out[np.ix_(acting, acting)] = columns.T @ columns
+        return out
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,8 +142,11 @@ def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     """Whiten one joint's rows."""
     whitening = noise.whitening(rows.place)
     free = free_of(whitening @ rows.free.columns)
-    both = free.cleared(whitening @ np.column_stack([rows.columns, rows.torque]))
-    return Whitened(noise, both[:, :-1], both[:, -1], noise.log_deviations(rows.place), free)
+    acting = np.flatnonzero(rows.columns.any(axis=0))
+    both = free.cleared(whitening @ np.column_stack([rows.columns[:, acting], rows.torque]))
+    columns = np.zeros_like(rows.columns)
+    columns[:, acting] = both[:, :-1]
+    return Whitened(noise, columns, both[:, -1], noise.log_deviations(rows.place), free)
 
 
 def fit(
@@ -157,9 +167,7 @@ def fit(
         rounds += 1
     found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)))
     everywhere = frozenset(range(len(joints)))
-    for _ in range(rounds):
-        found = _relearned(joints, found, everywhere)
-    return found
+    return _settled(joints, found, everywhere, rounds)
 
 
 def refit(
@@ -183,8 +191,15 @@ def refit(
         )
         parts.append(replace(old, columns=np.hstack([old.columns, white])))
     found = _solved(tuple(parts))
+    return _settled(joints, found, touched, rounds)
+
+
+def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int], rounds: int) -> Fit:
+    """Learn the noise of some joints again and again, until that hardly makes the rows more likely."""
     for _ in range(rounds):
-        found = _relearned(joints, found, touched)
+        before, found = found, _relearned(joints, found, touched)
+        if abs(found.log_likelihood - before.log_likelihood) < SETTLED:
+            break
     return found
 
 

@@ -24,9 +24,10 @@ RIDGE = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Free:
-    """Hold independent columns in the order of time, and the factor of their banded Gram matrix."""
+    """Hold independent columns in the order of time, their transpose, and the factor of their Gram matrix."""
 
     columns: csr_array
+    turned: csr_array
     factor: Matrix
 
     @property
@@ -38,9 +39,9 @@ class Free:
         """Take out of columns over the same rows what the free ones span."""
         if not self.count:
             return rows
-        turned = self.columns.T.tocsr()
         for _ in range(2):
-            rows = rows - self.columns @ cho_solve_banded((self.factor, True), turned @ rows)
+            along = cho_solve_banded((self.factor, True), self.turned @ rows, check_finite=False)
+            rows = rows - self.columns @ along
         return rows
 
 
@@ -53,13 +54,14 @@ def free_of(columns: csr_array) -> Free:
         In the order of time: what lies apart in the order must not overlap much.
     """
     scaled = _scaled(columns)
-    gram = (scaled.T @ scaled).tocoo()
+    turned = scaled.T.tocsr()
+    gram = (turned @ scaled).tocoo()
     below = gram.row >= gram.col
     row, column, value = gram.row[below], gram.col[below], gram.data[below]
     banded = np.zeros((int(np.max(row - column, initial=0)) + 1, gram.shape[0]))
     banded[row - column, column] = value
     banded[0] += RIDGE
-    return Free(scaled, cholesky_banded(banded, lower=True) if banded.size else banded)
+    return Free(scaled, turned, cholesky_banded(banded, lower=True) if banded.size else banded)
 
 
 def independent(columns: Matrix) -> csr_array:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from core.arrays import Indices, JointSeries, JointVector, Vector
+from core.diagnosis.free import free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import learn_noise, places
 from core.dynamics.prediction import Prediction
@@ -40,8 +41,8 @@ def whitened_by_joint(
     place = places(~look.starts)
     columns, left = columns.copy(), left.copy()
     for joint in range(look.joints):
-        basis = np.linalg.qr(look.sticking[joint])[0]
-        left[:, joint] -= basis @ (basis.T @ left[:, joint])
+        free = free_of(independent(look.sticking[joint]))
+        left[:, [joint]] = free.cleared(left[:, [joint]])
         rows = _quiet(look, left[:, joint], np.flatnonzero(mask[:, joint]))
         follows = (np.diff(rows, prepend=-2) == 1) & ~look.starts[rows]
         noise = learn_noise(left[rows, joint], places(follows))

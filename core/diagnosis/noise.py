@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, Matrix, Vector
+from core.arrays import Indices, Matrix, Vector, Weights
 
 HIGHEST_ORDER = 12
 ROWS_PER_ORDER = 30
@@ -29,7 +29,7 @@ class JointNoise:
         Standard deviation of the innovation of each predictor, N m.
     """
 
-    predictors: tuple[Vector, ...]
+    predictors: tuple[Weights, ...]
     deviations: Vector
 
     @property
@@ -100,18 +100,19 @@ def places(follows: np.ndarray) -> Indices:
     return np.asarray(index - begin)
 
 
-def _burg(residual: Vector, place: Indices) -> tuple[list[Vector], Vector]:
+def _burg(residual: Vector, place: Indices) -> tuple[list[Weights], Weights]:
     """Find predictors of rising order by Burg's reflections, which the runs' ends do not bias."""
-    predictors: list[Vector] = [np.zeros(0)]
+    predictors: list[Weights] = [np.zeros(0)]
     variances = [max(float(residual @ residual) / max(len(residual), 1), 1e-300)]
     ahead, back = residual, residual
     for order in range(1, HIGHEST_ORDER + 1):
         later, earlier = ahead[1:], back[:-1]
         inside = place[order:] >= order
-        both = float(later[inside] @ later[inside] + earlier[inside] @ earlier[inside])
-        if both <= 0.0 or inside.sum() < 10 * order:
+        known, partner = later * inside, earlier * inside
+        both = float(known @ known + partner @ partner)
+        if both <= 0.0 or np.count_nonzero(inside) < 10 * order:
             break
-        reflection = 2.0 * float(later[inside] @ earlier[inside]) / both
+        reflection = 2.0 * float(known @ partner) / both
         before = predictors[-1]
         predictors.append(np.append(before - reflection * before[::-1], reflection))
         variances.append(variances[-1] * (1.0 - reflection**2))
