@@ -19,7 +19,7 @@ def finding_row(finding: Finding) -> dict[str, object]:
         "explained_residual_fraction": finding.explained_fraction,
         "evidence": finding.evidence,
         "ambiguous_with": [_rival(one) for one in finding.ambiguous_with],
-        "refuted": [_rival(one) for one in finding.refuted],
+        "refuted": [_rival(one) for one in finding.refuted if _meets(one, finding)],
         "gain": None if finding.gain is None else _gain(finding.gain),
         "curve": None if finding.curve is None else _curve(finding.curve),
     }
@@ -56,6 +56,11 @@ def percent_of(deviation: float, value: float) -> float | None:
     (5.0, None)
     """
     return 100.0 * deviation / abs(value) if value else None
+
+
+def _meets(rival: Rival, finding: Finding) -> bool:
+    """Tell whether a rival could explain the same trace: what acts on other joints only is no rival."""
+    return not rival.joints or bool(set(rival.joints) & set(finding.joints))
 
 
 def _quantity(one: Quantity) -> dict[str, object]:

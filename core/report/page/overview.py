@@ -31,13 +31,21 @@ def headline(document: Document) -> str:
             f"The simulation of {name} leaves structure in the torque of {joints(left)}, and no known cause "
             "explains it."
         )
-    titles = series([f"{lower(one['title'])} ({joints(one['joints'])})" for one in found])
-    several = len(found) > 1
-    what = f"{count(len(found))} things" if several else "one thing"
+    where = _where_by_title(found)
+    titles = series([f"{lower(title)} ({joints(places)})" for title, places in where.items()])
+    what = f"{count(len(where))} thing{'s' if len(where) > 1 else ''}"
     sentence = f"The simulation of {name} gets {what} wrong: {titles}."
     if diagnosis["verdict"] == "unexplained" and left:
         sentence += f" Part of what is left on {joints(left)} has no known cause."
     return sentence
+
+
+def _where_by_title(found: Sequence[Document]) -> dict[str, list[int]]:
+    """List the joints of every cause, so that one which acts on three joints is one thing, not three."""
+    where: dict[str, set[int]] = {}
+    for one in found:
+        where.setdefault(one["title"], set()).update(one["joints"])
+    return {title: sorted(places) for title, places in where.items()}
 
 
 def gained(document: Document) -> str | None:

@@ -115,6 +115,15 @@ def test_the_first_sentence_names_what_is_wrong_and_where():
     assert text.index(verdict) < text.index(gain) < text.index("Why this cause")
 
 
+def test_one_cause_on_several_joints_is_one_thing():
+    found = [finding(), finding(joints=[3]), finding(title="The gear is compliant", joints=[2])]
+    text = Page(compose_page(diagnosed(findings=found))).text
+    titles = (
+        "friction grows with the transmitted torque (joints 1 and 3) and the gear is compliant (joint 2)."
+    )
+    assert f"gets two things wrong: {titles}" in text
+
+
 def test_a_joint_whose_interval_holds_zero_is_not_said_to_have_gained():
     text = Page(compose_page(diagnosed())).text
     assert "on joint 2 (95 %" not in text
