@@ -88,6 +88,13 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     reader = _Reader("", dict(options or {}))
     parsed = _parsed(reader, options, DIAGNOSIS_HOLD_OUT)
     reader.done()
+    held = parsed.validation
+    if not held.logs and not round(held.fraction * held.blocks):
+        raise OptionError(
+            "a diagnosis needs data that no fit has seen, and none would be held out",
+            evidence={"fraction": held.fraction, "blocks": held.blocks},
+            remedy="leave validation out, or hold out a fraction of at least one block",
+        )
     return parsed
 
 

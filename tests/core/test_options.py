@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from core.errors import OptionError
 from core.estimate.constraints import CentreBox, CentreEllipsoid
-from core.options import parse_options
+from core.options import parse_diagnose_options, parse_options
 
 SECTIONS = ("filter", "validation", "bootstrap", "bounds", "prior")
 
@@ -161,3 +161,15 @@ def test_the_options_that_were_given_are_kept_for_provenance_and_not_changed():
     given_options = {"filter": {"cutoff_hz": 10}, "bootstrap": {"draws": 3}}
     assert parse_options(given_options).given == {"filter": {"cutoff_hz": 10}, "bootstrap": {"draws": 3}}
     assert given_options == {"filter": {"cutoff_hz": 10}, "bootstrap": {"draws": 3}}
+
+
+@pytest.mark.parametrize("validation", [{"fraction": 0.0}, {"fraction": 0.1, "blocks": 4}])
+def test_a_diagnosis_that_would_hold_nothing_out_is_refused_where_an_identification_is_not(validation):
+    assert parse_options({"validation": validation}).validation.chosen(1) == frozenset()
+    with pytest.raises(OptionError, match="no fit has seen"):
+        parse_diagnose_options({"validation": validation})
+
+
+def test_a_diagnosis_may_hold_whole_logs_out_instead_of_blocks():
+    held = parse_diagnose_options({"validation": {"fraction": 0.0, "logs": [2]}}).validation
+    assert {log for log, _ in held.chosen(2)} == {1}
