@@ -8,6 +8,7 @@ from hypothesis import HealthCheck, settings
 from jaxtyping import install_import_hook
 
 CHECKED_PACKAGES = (
+    "core.diagnosis",
     "core.dynamics",
     "core.estimate",
     "core.extension",

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from core.arrays import Indices, Matrix, SquareMatrix, Vector, Weights
+from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.free import Free, free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise, learn_noise, places
@@ -25,7 +25,7 @@ TRIAL_ROUNDS = 2
 SETTLED = 0.1
 """Change of the log-likelihood below which the noise is learned: what decides changes it by three or more."""
 
-Columns = Mapping[int, Matrix]
+Columns = Mapping[int, EquationRows]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
 
 

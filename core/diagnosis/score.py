@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from core.arrays import Matrix, Vector
+from core.arrays import Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.equations import Columns, Fit, JointRows
 
 OPEN_SHARE = 1e-6
@@ -35,7 +35,7 @@ class Score:
     """
 
     statistic: float
-    values: Vector
+    values: Weights
     clear_share: float
 
 
@@ -69,7 +69,7 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
     ]
 
 
-def _judged(gram: Matrix, reduced: Matrix, right: Vector, squares: Vector) -> Score:
+def _judged(gram: SquareMatrix, reduced: Matrix, right: Vector, squares: Vector) -> Score:
     size = np.sqrt(np.maximum(squares, 1e-300))
     left = (gram - reduced.T @ reduced) / np.outer(size, size)
     clear = np.clip(np.diag(left), 0.0, 1.0)

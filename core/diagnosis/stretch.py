@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Series
+from core.arrays import KeptSeries, Series
 from core.signals.parallel import ParallelFilter
 from core.signals.state import MotionState
 
@@ -31,6 +31,6 @@ class Stretch:
         """Count the kept instants."""
         return int(self.rows.stop - self.rows.start)
 
-    def filtered(self, series: Series) -> Series:
+    def filtered(self, series: Series) -> KeptSeries:
         """Filter series of this stretch and keep its instants."""
         return self.parallel.apply(np.ascontiguousarray(series), self.first, self.kept)

@@ -124,7 +124,7 @@ def _noise_beside(binned: _Binned) -> JointNoise:
     count = np.bincount(label)
     mean = np.bincount(label, binned.residual[rows]) / count
     follows = (np.diff(rows, prepend=-2) == 1) & ~np.isin(rows, binned.begins)
-    return learn_noise(binned.residual[rows] - mean[label], places(follows), taken=len(count))
+    return learn_noise(binned.residual[rows] - mean[label], places(follows), taken=float(len(count)))
 
 
 def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: JointNoise) -> Dependence:
