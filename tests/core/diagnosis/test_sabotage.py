@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_array, identity
 
 from core.diagnosis import misfit, selection
 from core.diagnosis.catalogue import BY_ID
@@ -70,7 +71,11 @@ def test_a_column_of_measured_torque_is_seen():
 )
 def test_rows_taken_for_independent_are_seen(law, monkeypatch):
     law()
-    monkeypatch.setattr(JointNoise, "whitened", lambda noise, columns, place: columns / noise.deviations[0])
+    monkeypatch.setattr(
+        JointNoise,
+        "whitening",
+        lambda noise, place: csr_array(identity(len(place)) / noise.deviations[0]),
+    )
     with pytest.raises(AssertionError):
         law()
 
@@ -78,10 +83,8 @@ def test_rows_taken_for_independent_are_seen(law, monkeypatch):
 def test_a_row_that_looks_across_a_gap_is_seen(monkeypatch):
     law = test_noise.test_a_row_after_a_gap_knows_nothing_of_the_rows_before_it
     law()
-    honest = JointNoise.whitened
-    monkeypatch.setattr(
-        JointNoise, "whitened", lambda noise, columns, place: honest(noise, columns, np.arange(len(place)))
-    )
+    honest = JointNoise.whitening
+    monkeypatch.setattr(JointNoise, "whitening", lambda noise, place: honest(noise, np.arange(len(place))))
     with pytest.raises(AssertionError):
         law()
 
