@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
+from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.free import Free, free_of, independent
@@ -57,9 +58,13 @@ class JointRows:
 
 @dataclass(frozen=True, eq=False)
 class Whitened:
-    """Hold one joint's rows made white: columns and torque in units of the noise."""
+    """Hold one joint's rows made white: columns and torque in units of the noise.
+
+    `whitening` is what does that, before `free` columns are taken out.
+    """
 
     noise: JointNoise
+    whitening: csr_array
     columns: Matrix
     torque: Vector
     log_deviations: float
@@ -96,6 +101,11 @@ class Fit:
     factor: tuple[np.ndarray, bool]
     scale: Vector
     log_likelihood: float
+
+    @cached_property
+    def left(self) -> tuple[Weights, ...]:
+        """Give, per joint, what the columns leave of the torque, white."""
+        return tuple(one.torque - one.columns @ self.values for one in self.joints)
 
     def solve(self, right: Matrix) -> Matrix:
         """Give Gram^-1 times right-hand sides."""
@@ -146,7 +156,7 @@ def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     both = free.cleared(whitening @ np.column_stack([rows.columns[:, acting], rows.torque]))
     columns = np.zeros_like(rows.columns)
     columns[:, acting] = both[:, :-1]
-    return Whitened(noise, columns, both[:, -1], noise.log_deviations(rows.place), free)
+    return Whitened(noise, whitening, columns, both[:, -1], noise.log_deviations(rows.place), free)
 
 
 def fit(
@@ -186,9 +196,7 @@ def refit(
     for joint, rows in enumerate(joints):
         old = before.joints[joint]
         new = rows.columns[:, old.columns.shape[1] :]
-        white = (
-            old.free.cleared(old.noise.whitened(new, rows.place)) if joint in touched else np.zeros_like(new)
-        )
+        white = old.free.cleared(old.whitening @ new) if joint in touched else np.zeros_like(new)
         parts.append(replace(old, columns=np.hstack([old.columns, white])))
     found = _solved(tuple(parts))
     return _settled(joints, found, touched, rounds)

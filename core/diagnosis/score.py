@@ -51,12 +51,12 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
         if not present:
             continue
         raw = np.hstack([candidates[index][joint][rows.rows] for index in present])
-        white = found.joints[joint].noise.whitened(raw, rows.place)
+        white = found.joints[joint].whitening @ raw
         places = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in present])
         squares[places] += np.sum(white**2, axis=0)
         white = found.joints[joint].free.cleared(white)
         cross[:, places] += found.joints[joint].columns.T @ white
-        right[places] += white.T @ (found.joints[joint].torque - found.joints[joint].columns @ found.values)
+        right[places] += white.T @ found.left[joint]
         begin = 0
         for index in present:
             part = white[:, begin : begin + widths[index]]
