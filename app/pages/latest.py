@@ -45,7 +45,7 @@ def lasting(seconds: float) -> str:
 
 def _row(job: JobRecord, catalogue: Catalogue, now: datetime) -> str:
     cells = (
-        f'<a href="/v1/jobs/{job.id}">{_short(job.id)}</a>',
+        f'<a href="/v1/jobs/{job.id}">{_short(job.id)}</a> {escape(job.request.kind)}',
         _robot(job, catalogue),
         _logs(job, catalogue),
         _state(job),
