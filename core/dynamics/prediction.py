@@ -21,6 +21,12 @@ from core.dynamics.terms.rigid_body import RigidBody
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
+STEPS = (1e-5, 1.0, 1.0)
+"""Of the differences by position, velocity and acceleration, rad (m), per s, per s2."""
+
+Slopes = tuple[JointSeries, JointSeries, JointSeries]
+"""Derivatives of the load by position, velocity and acceleration of one joint."""
+
 InverseDynamics = Callable[[RobotModel, LinkTable, MotionState], JointSeries]
 """Give the torque that moves links of given inertial parameters, N m or N."""
 
@@ -46,6 +52,10 @@ class Prediction:
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
     _torques: WeakKeyDictionary[MotionState, JointSeries] = field(
+        default_factory=WeakKeyDictionary, init=False, repr=False
+    )
+
+    _slopes: WeakKeyDictionary[MotionState, dict[int, Slopes]] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
 
@@ -79,15 +89,37 @@ class Prediction:
         )
         return self._sum(light, state)
 
-    def shifted(self, state: MotionState, joint: int, shift: MotionState) -> JointSeries:
-        """Give how the load changes when one joint's position (from 0) is not the measured one.
+    def change(self, state: MotionState, joint: int, shift: MotionState) -> JointSeries:
+        """Give how the load changes, to first order, when one joint's motion is not the measured one.
 
         Parameters
         ----------
+        joint
+            Counted from 0.
         shift
             What to add to that joint's position, velocity and acceleration, one column each.
         """
-        return np.asarray(self.load(moved(state, joint, shift)) - self.load(state))
+        by_position, by_velocity, by_acceleration = self.slopes(state, joint)
+        return np.asarray(
+            by_position * shift.position + by_velocity * shift.velocity + by_acceleration * shift.acceleration
+        )
+
+    def slopes(self, state: MotionState, joint: int) -> Slopes:
+        """Give the load's derivatives by position, velocity and acceleration of a joint, counted from 0.
+
+        Notes
+        -----
+        Loads are quadratic in velocity and linear in acceleration: their central differences are exact for
+        any step. That by position errs by the step squared, and by rounding over the step: both are 1e-11.
+        """
+        known = self._slopes.setdefault(state, {})
+        if joint not in known:
+            known[joint] = (
+                self._slope(state, joint, (STEPS[0], 0.0, 0.0)),
+                self._slope(state, joint, (0.0, STEPS[1], 0.0)),
+                self._slope(state, joint, (0.0, 0.0, STEPS[2])),
+            )
+        return known[joint]
 
     def _moved_bodies(self, robot: RobotModel, state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)
@@ -95,6 +127,17 @@ class Prediction:
             if isinstance(term, RigidBody):
                 torque += self.newton_euler(robot, values.reshape(-1, 10), state)
         return torque
+
+    def _slope(self, state: MotionState, joint: int, step: tuple[float, float, float]) -> JointSeries:
+        """Give the central difference of the load over a step of one joint's motion."""
+        one = np.ones((len(state.position), 1))
+        ahead, behind = (
+            self._moved_bodies(
+                self.model.robot, moved(state, joint, MotionState(*(side * size * one for size in step)))
+            )
+            for side in (1.0, -1.0)
+        )
+        return _kept((ahead - behind) / (2.0 * sum(step)))
 
     def _sum(self, parts: Iterable[tuple[Term, Parameters]], state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)

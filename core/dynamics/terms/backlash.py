@@ -19,9 +19,6 @@ from core.dynamics.terms.elasticity import smoothed
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
-SMALL = 1e-2
-"""The twist is made smaller before it is handed to the robot, so that the column is a derivative."""
-
 
 @dataclass(frozen=True, eq=False)
 class Backlash(AllJointsTerm):
@@ -38,14 +35,12 @@ class Backlash(AllJointsTerm):
         """Give the change of all joints' loads per rad of half width."""
         del robot
         own = self.joint - 1
-        still = np.zeros((len(state.position), 1))
-        inertia = self.believed.shifted(state, own, MotionState(still, still, still + 1.0))[:, own]
+        inertia = self.believed.slopes(state, own)[2][:, own]
         load = self.believed.load(state)[:, own]
         free = load / np.maximum(inertia, 1e-9)
         twist = smoothed(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
         first, second = rates(twist, state)
-        shift = MotionState(-SMALL * twist, -SMALL * first, -SMALL * second)
-        return [self.believed.shifted(state, own, shift) / (SMALL * self.around)]
+        return [self.believed.change(state, own, MotionState(twist, first, second)) / -self.around]
 
 
 def twist_of(free: Samples, step: float, half_width: float) -> Samples:

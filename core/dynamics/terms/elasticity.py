@@ -39,15 +39,13 @@ class Elasticity(AllJointsTerm):
     remembers: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
-        """Give the change of all joints' loads per unit of compliance, by a small shift."""
+        """Give the change of all joints' loads per unit of compliance."""
         del robot
         own = self.joint - 1
         load = smoothed(self.believed.load(state)[:, [own]], state, self.band_hz)
         load = swung(load, state, self.resonance_hz, self.damping_ratio)
-        size = 1e-4 / max(float(np.abs(load).max()), 1e-12)
         first, second = rates(load, state)
-        shift = MotionState(-size * load, -size * first, -size * second)
-        return [self.believed.shifted(state, own, shift) / size]
+        return [-self.believed.change(state, own, MotionState(load, first, second))]
 
 
 def swung(values: JointSeries, state: MotionState, resonance_hz: float, damping_ratio: float) -> JointSeries:

@@ -31,9 +31,7 @@ class EncoderOffset(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give minus the change of load per rad."""
         del robot
-        still = np.zeros((len(state.position), 1))
-        shift = MotionState(still - SMALL, still, still)
-        return [self.believed.shifted(state, self.joint - 1, shift) / SMALL]
+        return [-self.believed.slopes(state, self.joint - 1)[0]]
 
 
 @dataclass(frozen=True, eq=False)

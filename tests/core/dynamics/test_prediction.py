@@ -8,7 +8,7 @@ import pytest
 from core.arrays import JointSeries, LinkTable
 from core.dynamics.model import standard_model
 from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.prediction import Prediction
+from core.dynamics.prediction import Prediction, moved
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 from tests.core.dynamics.terms.beliefs import motion_of
@@ -44,18 +44,39 @@ def test_a_state_that_was_asked_for_is_not_computed_again():
         return inverse_dynamics(robot, links, state)
 
     believed, state = replace(believed_with_friction(3), newton_euler=counted), motion_of(3)
-    still = np.zeros((len(state.position), 1))
     for _ in range(2):
         believed.torque(state)
         believed.load(state)
     assert len(asked) == 1
-    believed.shifted(state, 0, MotionState(still + 0.1, still, still))
-    assert len(asked) == 2
+    shift = MotionState(*(np.full((len(state.position), 1), size) for size in (0.1, 0.2, 0.3)))
+    for _ in range(2):
+        believed.change(state, 0, shift)
+        believed.slopes(state, 0)
+    assert len(asked) == 7
+
+
+@pytest.mark.parametrize("joint", range(4))
+def test_a_small_shift_of_a_joint_changes_the_load_by_its_slopes(joint):
+    believed, state = believed_with_friction(6), motion_of(6)
+    rng = np.random.default_rng(7)
+    shift = MotionState(*(rng.normal(size=(len(state.position), 1)) for _ in range(3)))
+    size = 1e-6
+    small = MotionState(size * shift.position, size * shift.velocity, size * shift.acceleration)
+    found = (believed.load(moved(state, joint, small)) - believed.load(state)) / size
+    change = believed.change(state, joint, shift)
+    # What is left is of second order: a millionth, times how much slopes change over one radian.
+    np.testing.assert_allclose(found, change, atol=1e-4 * np.abs(change).max())
+
+
+def test_the_slope_by_acceleration_is_the_mass_matrix():
+    believed, state = believed_with_friction(8), motion_of(8)
+    matrix = np.stack([believed.slopes(state, joint)[2] for joint in range(4)], axis=2)
+    np.testing.assert_allclose(matrix, np.swapaxes(matrix, 1, 2), atol=1e-9 * np.abs(matrix).max())
 
 
 def test_what_is_kept_cannot_be_changed_by_who_asked():
     believed, state = believed_with_friction(4), motion_of(4)
-    for series in (believed.torque(state), believed.load(state)):
+    for series in (believed.torque(state), believed.load(state), *believed.slopes(state, 1)):
         with pytest.raises(ValueError, match="read-only"):
             series[0] = 1.0
 
