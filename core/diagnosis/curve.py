@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import Indices, JointSeries, Vector
+from core.arrays import Indices, JointSeries, Vector, Weights
 from core.diagnosis.cause import Site
 from core.diagnosis.diagnosis import Curve
 from core.diagnosis.equations import Columns
@@ -95,7 +95,7 @@ def _told(torque: Vector, rows: Indices, groups: list[Indices]) -> float:
     return 1.0 - within / max(total, 1e-300)
 
 
-def _over(groups: list[Indices], values: Vector, measure: Callable[[Vector], np.floating]) -> Vector:
+def _over(groups: list[Indices], values: Vector, measure: Callable[[Weights], np.floating]) -> Weights:
     return np.array([float(measure(values[group])) for group in groups])
 
 

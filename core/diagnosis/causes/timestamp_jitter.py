@@ -29,6 +29,8 @@ BAND_SHARE = 0.25
 """Remainders are what lies above this share of the log's rate."""
 AGREEMENT = 0.5
 """Joints agree where their products show at least this share of what their squares show."""
+LEAST_SHARE = 1e-3
+"""Share of some joint's residual that it must account for: rounding of exact positions scatters too."""
 BLOCK = 32
 
 
@@ -64,9 +66,11 @@ class TimestampJitter:
         if p_value > LEVEL or shared < AGREEMENT * own:
             return ()
         std = float(np.sqrt(shared))
+        share = residual_share(look, believed, _jittered(std))
+        if share.max() < LEAST_SHARE:
+            return ()
         scatter = np.sqrt(np.sum((crosses[:, 0] - shared * crosses[:, 1]) ** 2)) / crosses[:, 1].sum()
         found = Quantity("std", None, "s", std, 0.5 * float(scatter) / std)
-        share = residual_share(look, believed, _jittered(std))
         return (RawFinding((), (found,), _statement(found), statistic, p_value, share),)
 
 
