@@ -62,9 +62,17 @@ def _rests(velocity: np.ndarray, still: np.ndarray) -> np.ndarray:
 
 
 def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
-    """List where marks begin and end, a sample wider on either side; what then overlaps is one."""
+    """List where marks begin and end, a sample wider on either side; what then overlaps is one.
+
+    Examples
+    --------
+    >>> _runs(np.array([False, True, False, False, False])), _runs(np.zeros(5, dtype=bool))
+    ([(0, 3)], [])
+    """
     edges = np.diff(np.pad(marks.astype(int), 1))
     begins, ends = np.flatnonzero(edges == 1) - 1, np.flatnonzero(edges == -1) + 1
+    if not len(begins):
+        return []
     apart = np.append(True, begins[1:] > ends[:-1])
     lasts = np.append(np.flatnonzero(apart)[1:] - 1, len(ends) - 1)
     return [
