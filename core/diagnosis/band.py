@@ -62,7 +62,7 @@ def position_noise_share(look: Look, believed: Prediction, noise: tuple[JointNoi
     shares = []
     for joint, one in enumerate(noise):
         white = one.whitened(gained[:, [joint]], place)[look.usable[:, joint]]
-        shares.append(float(np.mean(white**2)))
+        shares.append(float(np.sum(white**2)) / max(len(white), 1))
     return np.array(shares)
 
 

@@ -53,6 +53,8 @@ def whitened_by_joint(
 
 def _quiet(look: Look, left: Vector, rows: Indices) -> Indices:
     """Keep the rows of the blocks in which a misfit is smaller than in half of them."""
+    if not len(rows):
+        return rows
     block = (look.log * (1 + look.block.max()) + look.block)[rows]
     counts = np.maximum(np.bincount(block), 1)
     power = np.bincount(block, left[rows] ** 2) / counts

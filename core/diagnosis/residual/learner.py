@@ -60,7 +60,7 @@ class Predictable:
         Counted from 1.
     share, interval
         Share of the residual's mean square, with its 95 % interval; at least 0. Something is predictable
-        where the interval's lower end lies above 0.
+        where the interval's lower end lies above 0. NaN where the joint moves too little to judge.
     rms
         RMS of the residual that was judged, N m or N.
     places
@@ -100,25 +100,34 @@ def predictable_share(
     Raises
     ------
     ExcitationError
-        If a joint has too few rows to hold any out.
+        If every joint has too few rows to hold any out.
     """
     mask = look.usable if near_reversals else look.clear
-    fewest = int(mask.sum(axis=0).min())
-    if fewest < FEWEST_ROWS:
+    rows = mask.sum(axis=0)
+    if rows.max() < FEWEST_ROWS:
         raise ExcitationError(
-            "the log is too short to hold anything out for a generic learner",
-            evidence={"rows": fewest, "needed": FEWEST_ROWS, "joint": int(mask.sum(axis=0).argmin()) + 1},
-            remedy="record at least ten seconds in which every joint moves",
+            "the log holds too little motion to hold any of it out: no joint has enough instants away from "
+            "standstill and reversals",
+            evidence={"instants": rows.tolist(), "needed": FEWEST_ROWS},
+            remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
         )
     block, shared = row_blocks(look), _shared(look)
     found = []
     for joint in range(look.joints):
+        if rows[joint] < FEWEST_ROWS:
+            found.append(_not_judged(joint + 1, len(look.time)))
+            continue
         features = np.column_stack([shared, _own(look, believed, joint)])
         gap = _gap(noise[joint], block)
         prediction = _unseen(features, residual[:, joint], mask[:, joint], block, gap)
         judged = share_on_blocks(prediction, residual[:, joint], block)
         found.append(_predictable(look, believed, joint + 1, residual[:, joint], judged))
     return tuple(found)
+
+
+def _not_judged(joint: int, rows: int) -> Predictable:
+    """Say nothing of a joint that hardly moves."""
+    return Predictable(joint, np.nan, (np.nan, np.nan), np.nan, (), np.full(rows, np.nan))
 
 
 def _unseen(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:

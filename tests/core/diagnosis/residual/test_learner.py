@@ -73,10 +73,20 @@ def test_a_log_too_short_to_hold_anything_out_is_refused_with_its_remedy():
     here = world()
     short = replace(here.look, clear=here.look.clear & (here.look.time < 2.0)[:, None])
     residual, noise = here.left(here.noise("white", seed=4))
-    with pytest.raises(ExcitationError, match="too short") as caught:
+    with pytest.raises(ExcitationError, match="too little motion") as caught:
         predictable_share(short, residual, here.believed, noise)
     assert caught.value.evidence["needed"] == learner.FEWEST_ROWS
     assert caught.value.remedy
+
+
+def test_a_joint_that_hardly_moves_is_not_judged_while_the_others_are():
+    here = world()
+    joints = np.arange(here.look.joints) > 0
+    parked = replace(here.look, clear=here.look.clear & joints)
+    residual, noise = here.left(here.noise("white", seed=4))
+    first, *others = predictable_share(parked, residual, here.believed, noise)
+    assert np.isnan([first.share, *first.interval, first.rms, *first.prediction]).all()
+    assert all(np.isfinite([one.share, *one.interval, one.rms]).all() for one in others)
 
 
 def test_the_trees_are_loaded_only_where_they_are_grown():
