@@ -7,19 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 
-import numpy as np
-
 from core.diagnosis.diagnosis import Diagnosis
 from core.diagnosis.verdict import Question
 from core.diagnosis.verdict import diagnose as find_causes
-from core.dynamics.model import DynamicModel, standard_model
+from core.dynamics.model import standard_model
 from core.errors import LogError, VeritorqueError
 from core.estimate.constraints import default_prior
 from core.estimate.estimate import estimate
 from core.estimate.feasibility import active_constraints, feasibility
-from core.estimate.robust import ROUNDS, huber_weights
-from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
-from core.estimate.system import System, ordinary, stacked, weighted
+from core.estimate.measured import Measured, smoothed, weighted_system
 from core.extension.extend import cures, extended_base, remembers
 from core.extension.gain import gains
 from core.log.model import JointLog
@@ -29,7 +25,7 @@ from core.precision.covariance import assess
 from core.precision.essential import essential_parameters
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import BlockKey, Observation, Weigh, observe, torque_scales
+from core.regressor.observe import torque_scales
 from core.report.diagnosed import Diagnosed
 from core.report.document import grouping_row, identification_document
 from core.report.identification import Identification
@@ -77,8 +73,8 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     """Identify a robot and give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_options(request.options)
-    look, base = _prepared(request, options, tell)
-    return _identified(request, options, _Fitting(look, base), tell)
+    data, base = _prepared(request, options, tell)
+    return _identified(request, options, _Fitting(data, base), tell)
 
 
 def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
@@ -100,15 +96,15 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     """Identify, diagnose, extend and identify again; give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_diagnose_options(request.options)
-    look, base = _prepared(request, options, tell)
-    before = _identified(request, options, _Fitting(look, base), lambda stage, done: tell(stage, 0.3 * done))
-    question = Question(look.plan, request.logs, look.held_out, options.validation.blocks)
+    data, base = _prepared(request, options, tell)
+    before = _identified(request, options, _Fitting(data, base), lambda stage, done: tell(stage, 0.3 * done))
+    question = Question(data.plan, request.logs, data.held_out, options.validation.blocks)
     found = find_causes(question, lambda stage, done: tell(stage, 0.3 + 0.5 * done))
     terms = cures(found)
     if not terms:
         return Diagnosed(before, found, None, (), None, "nothing joined the model")
     whole = extended_base(base, terms)
-    wider = _Look(ColumnPlan(whole.model, whole.kept), look.motions, look.held_out)
+    wider = Measured(ColumnPlan(whole.model, whole.kept), data.motions, data.held_out)
     sizes = {
         f"{one.name}{one.joint}": 10.0 * abs(one.value)
         for finding in found.findings
@@ -118,28 +114,28 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
         request, options, _Fitting(wider, whole, sizes), lambda stage, done: tell(stage, 0.8 + 0.15 * done)
     )
     tell("simulate", 0.95)
-    held = look.parts(before.observation)[1]
+    held = data.parts(before.observation)[1]
     gained = gains((before.observation, before.estimate.base), (after.observation, after.estimate.base), held)
-    motion, note = _motion(before, after, found, look)
+    motion, note = _motion(before, after, found, data)
     return Diagnosed(before, found, after, gained, motion, note)
 
 
 def _motion(
-    before: Identification, after: Identification, found: Diagnosis, look: "_Look"
+    before: Identification, after: Identification, found: Diagnosis, data: Measured
 ) -> tuple[Comparison | None, str]:
     """Simulate the held-out blocks with both models, where neither needs the past."""
     if any(remembers(one, found) for one in found.findings):
         return None, "a finding's torque depends on the motion before the instant, which is not simulated"
     try:
         old, new = (mechanism_of(one.base.model, one.estimate.standard) for one in (before, after))
-        return compare(old, new, look.motions, chosen=look.held_out or None), ""
+        return compare(old, new, data.motions, chosen=data.held_out or None), ""
     except VeritorqueError as error:
         return None, str(error)
 
 
 def _prepared(
     request: IdentifyRequest, options: IdentifyOptions, tell: Progress
-) -> "tuple[_Look, BaseModel]":
+) -> tuple[Measured, BaseModel]:
     """Condition the logs, set blocks aside, and group the model's parameters."""
     _check_logs(request.logs)
     tell("condition", 0.02)
@@ -147,20 +143,20 @@ def _prepared(
     held_out = options.validation.chosen(len(motions))
     model = standard_model(request.robot, options.terms)
     if options.smooth_coulomb:
-        model = _smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
+        model = smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
     base = base_model(model)
-    return _Look(ColumnPlan(model, base.kept), motions, held_out), base
+    return Measured(ColumnPlan(model, base.kept), motions, held_out), base
 
 
 def _identified(
     request: IdentifyRequest, options: IdentifyOptions, fitting: "_Fitting", tell: Progress
 ) -> Identification:
     """Fit one model and judge it."""
-    look, base, model = fitting.look, fitting.base, fitting.base.model
-    observation = look.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
+    data, base, model = fitting.data, fitting.base, fitting.base.model
+    observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
-    used, system = _system(look, observation, options)
-    fitted, held = look.parts(observation)
+    used, system = weighted_system(data, observation, options.estimate)
+    fitted, held = data.parts(observation)
     prior = default_prior(model, torque_scales(observation, fitted), fitting.sizes)
     answer = estimate(base, system, prior, options.estimate)
     tell("assess", 0.7)
@@ -183,7 +179,7 @@ def _identified(
     tell("validate", 0.9)
     return Identification(
         logs=request.logs,
-        motions=look.motions,
+        motions=data.motions,
         base=base,
         observation=observation,
         estimate=answer,
@@ -218,32 +214,11 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
 
 @dataclass(frozen=True, eq=False)
 class _Fitting:
-    """Hold a model to be fitted: its look at the data, its base parameters, and sizes known otherwise."""
+    """Hold a model to be fitted: the data, its base parameters, and sizes known otherwise."""
 
-    look: "_Look"
+    data: Measured
     base: BaseModel
     sizes: Mapping[str, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, eq=False)
-class _Look:
-    """Hold what every pass over the data needs."""
-
-    plan: ColumnPlan
-    motions: tuple[Motion, ...]
-    held_out: frozenset[BlockKey]
-
-    def observed(
-        self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None
-    ) -> Observation:
-        return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
-
-    def parts(self, observation: Observation) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Give the places of the fitted and of the held-out blocks."""
-        held = [(block.log, block.number) in self.held_out for block in observation.blocks]
-        places = range(len(held))
-        fitted = tuple(place for place in places if not held[place])
-        return fitted, tuple(place for place in places if held[place])
 
 
 def _check_logs(logs: tuple[JointLog, ...]) -> None:
@@ -267,37 +242,6 @@ def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Moti
             error.evidence.setdefault("log", log.name)
             raise
     return tuple(motions)
-
-
-def _smoothed(
-    model: DynamicModel,
-    motions: tuple[Motion, ...],
-    held_out: frozenset[BlockKey],
-    progress: Callable[[float], None],
-) -> DynamicModel:
-    fitted = {(log, block) for log, motion in enumerate(motions) for block in range(motion.blocks)} - held_out
-    speed = np.max([motions[log].recipe.rms_speed for log in sorted({log for log, _ in fitted})], axis=0)
-    wide = with_candidates(model, speed)
-    look = _Look(scan_plan(wide, base_model(model).kept), motions, held_out)
-    observation = look.observed(progress)
-    return chosen_widths(observation, model, speed, look.parts(observation)[0])
-
-
-def _system(look: _Look, observation: Observation, options: IdentifyOptions) -> tuple[Observation, System]:
-    """Weight the equations as asked, and give the observation they come from: robust fits weigh its rows."""
-    size = len(look.plan.columns)
-    factors = observation.joint_factors(look.parts(observation)[0])
-    if options.estimate.estimator == "ols":
-        return observation, ordinary(factors, observation.columns_of, size)
-    system = weighted(factors, observation.columns_of, size)
-    if options.estimate.estimator != "irls" and not options.estimate.robust:
-        return observation, system
-    for _ in range(ROUNDS):
-        weigh = huber_weights(system.solved(), observation.columns_of, system.noise)
-        observation = look.observed(weigh=weigh)
-        factors = observation.joint_factors(look.parts(observation)[0])
-        system = stacked(factors, observation.columns_of, size, system.noise)
-    return observation, system
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

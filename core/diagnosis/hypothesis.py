@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.stats import chi2
 
 from core.arrays import SquareMatrix, Vector
 from core.diagnosis.cause import Cause, Scalars, Site, Solved
+from core.diagnosis.chance import log_chance
 from core.diagnosis.equations import Fit
 
 
@@ -59,7 +59,7 @@ class Scored:
     @property
     def log_p(self) -> float:
         """Give log of (trials times the chance of so large a rise by luck)."""
-        return float(chi2.logsf(max(self.statistic, 0.0), self.width) + np.log(self.candidate.trials))
+        return log_chance(self.statistic, self.width) + float(np.log(self.candidate.trials))
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from core.arrays import Indices, JointMask, JointSeries, Samples
-from core.diagnosis.sticking import beside, resting, sticking
+from core.diagnosis.piece import pieces_of
+from core.diagnosis.sticking import beside
 from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
@@ -23,22 +24,15 @@ from core.regressor.columns import ColumnPlan
 from core.regressor.observe import BlockKey
 from core.robot.model import RobotModel
 from core.signals.condition import Motion, condition
-from core.signals.parallel import ParallelFilter
 from core.signals.recipe import FilterOptions, choose_recipe
-from core.signals.segment import Segment
 from core.signals.state import MotionState
 
 BAND_OVER_MOTION = 40.0
 RATE_OVER_BAND = 12.0
 POSITION_OVER_BAND = 3.0
-STATE_OVER_BAND = 8.0
-"""States are thinned to eight times the band: nothing above the position filter is left to alias."""
 ORDER = 2
 """A gentle filter: what happens at a reversal rings on for one period of the cut-off, not for three."""
-REVERSAL_REACH = 1.0
-"""Rows nearer to a reversal than this many periods of the cut-off are set apart."""
 LONGEST_SECONDS = 120.0
-STRETCH_SECONDS = 30.0
 _BATCH = 256
 
 
@@ -152,7 +146,7 @@ def look_at(
     """
     motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
     share = min(1.0, LONGEST_SECONDS / sum(log.duration for log in logs))
-    pieces = [_pieces(number, motion, model.robot, share) for number, motion in enumerate(motions)]
+    pieces = [pieces_of(number, motion, model.robot, share) for number, motion in enumerate(motions)]
     parts = [piece for one in pieces for piece in one]
     if not parts:
         raise ExcitationError(
@@ -188,19 +182,6 @@ def look_at(
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    log: int
-    stretch: Stretch
-    time: np.ndarray
-    block: np.ndarray
-    torque: np.ndarray
-    usable: np.ndarray
-    clear: np.ndarray
-    state: MotionState
-    sticking: tuple[np.ndarray, ...]
-
-
 def _options(log: JointLog, width: float) -> FilterOptions:
     """Choose the band of a diagnosis from the motion's own."""
     band = choose_recipe(log, FilterOptions()).motion_band_hz
@@ -209,79 +190,6 @@ def _options(log: JointLog, width: float) -> FilterOptions:
         cutoff_hz=cutoff,
         position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
         order=ORDER,
-    )
-
-
-def _pieces(number: int, motion: Motion, robot: RobotModel, share: float) -> list[_Piece]:
-    out, done = [], 0
-    for segment in motion.segments:
-        step = segment.rate_hz / motion.recipe.decimation
-        length = max(int(STRETCH_SECONDS * step), 1)
-        wanted = max(1, int(np.ceil(segment.kept * share / length)))
-        size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
-        firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
-        out += [
-            _piece(number, motion, robot, segment, (int(first), int(first) + size), done) for first in firsts
-        ]
-        done += segment.kept
-    return out
-
-
-def _piece(
-    number: int, motion: Motion, robot: RobotModel, segment: Segment, kept: tuple[int, int], done: int
-) -> _Piece:
-    recipe = motion.recipe
-    tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
-    thin = _thinning(recipe.decimation, segment.rate_hz, recipe.cutoff_hz)
-    begin = tile.first % thin
-    state = _thinned(tile.state, slice(begin, None, thin))
-    response = tile.parallel.response
-    middle = len(response) // 2
-    small = response[middle % thin :: thin]
-    parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
-    at = tile.first + recipe.decimation * np.arange(len(tile.time))
-    place = (done + np.arange(*kept)) / motion.kept
-    stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
-    return _Piece(
-        log=number,
-        stretch=stretch,
-        sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),
-        time=tile.time,
-        block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
-        torque=tile.filtered(np.ascontiguousarray(tile.torque.T)).T,
-        usable=tile.usable,
-        clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),
-        state=_thinned(tile.state, at),
-    )
-
-
-def _thinning(decimation: int, rate_hz: float, cutoff_hz: float) -> int:
-    lowest = STATE_OVER_BAND * cutoff_hz
-    return max(
-        step
-        for step in range(1, decimation + 1)
-        if decimation % step == 0 and (step == 1 or rate_hz / step >= lowest)
-    )
-
-
-def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
-    """Tell which kept instants are further from every reversal than the filter's main lobe.
-
-    `period` is that of the cut-off, in samples.
-    """
-    reach = int(np.ceil(REVERSAL_REACH * period))
-    counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
-    low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
-    return np.asarray(counts[high] == counts[low])
-
-
-def _thinned(state: MotionState, rows: slice | Indices) -> MotionState:
-    return MotionState(
-        state.position[rows],
-        state.velocity[rows],
-        state.acceleration[rows],
-        None if state.time is None else state.time[rows],
-        None if state.temperature is None else state.temperature[rows],
     )
 
 

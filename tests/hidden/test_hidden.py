@@ -2,12 +2,7 @@
 
 import pytest
 
-from core import study
 from tests.hidden.plan import Order, run
-
-pytestmark = pytest.mark.skipif(
-    not hasattr(study, "diagnose"), reason="SKIPPED: core.study has no diagnose yet, nothing can be asked"
-)
 
 SINGLES = (
     Order("single", 7001, "friction_stribeck", 3.0),

@@ -4,12 +4,13 @@ Structure that no listed coordinate shows may stand out as a line or a hump; and
 every band is noise. Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.signal import welch
 
-from core.arrays import JointSeries, Samples, Vector
+from core.arrays import JointSeries, Vector
 from core.diagnosis.look import Look
 from core.diagnosis.residual.floor import NoiseFloor, passed
 
@@ -47,7 +48,7 @@ def residual_spectra(look: Look, residual: JointSeries, floor: NoiseFloor) -> tu
     return tuple(found)
 
 
-def _welch(runs: list[Samples], rate_hz: float, size: int) -> tuple[Vector, Vector]:
+def _welch(runs: Sequence[np.ndarray], rate_hz: float, size: int) -> tuple[Vector, Vector]:
     """Average the runs' densities, each weighted by its rows; shorter runs are padded with zeros."""
     total, rows = np.zeros(size // 2 + 1), 0
     frequency = np.fft.rfftfreq(size, 1.0 / rate_hz)

@@ -1,0 +1,28 @@
+"""Give the chance of a statistic, however small it is.
+
+Strong effects leave chances far below the smallest number a computer holds, and still have to be put in
+order. Source: Abramowitz & Stegun, 6.5.32, for the tail of the incomplete gamma function.
+"""
+
+import numpy as np
+from scipy.special import gammaln
+from scipy.stats import chi2
+
+FAR = 1000.0
+"""Beyond this statistic the first terms of the tail's series are exact to rounding for few parameters."""
+TERMS = 8
+
+
+def log_chance(statistic: float, width: int) -> float:
+    """Give the logarithm of the chance that a chi-square variable of `width` degrees exceeds a statistic.
+
+    >>> round(log_chance(3.841459, 1), 4)
+    -2.9957
+    >>> round(log_chance(3000.0, 2))
+    -1500
+    """
+    if statistic < FAR:
+        return float(chi2.logsf(max(statistic, 0.0), width))
+    half, shape = 0.5 * statistic, 0.5 * width
+    steps = np.cumprod((shape - np.arange(1, TERMS)) / half)
+    return float(-half + (shape - 1.0) * np.log(half) - gammaln(shape) + np.log1p(steps.sum()))

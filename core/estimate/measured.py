@@ -1,0 +1,72 @@
+"""Hold the conditioned logs that a model is fitted to, and make the weighted equations of a fit from them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.dynamics.model import DynamicModel
+from core.estimate.estimate import EstimateOptions
+from core.estimate.robust import ROUNDS, huber_weights
+from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
+from core.estimate.system import System, ordinary, stacked, weighted
+from core.reduction.base import base_model
+from core.regressor.columns import ColumnPlan
+from core.regressor.observe import BlockKey, Observation, Weigh, observe
+from core.signals.condition import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """Hold what every pass over the data needs."""
+
+    plan: ColumnPlan
+    motions: tuple[Motion, ...]
+    held_out: frozenset[BlockKey]
+
+    def observed(
+        self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None
+    ) -> Observation:
+        """Pass over the data once, weighing rows as asked."""
+        return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
+
+    def parts(self, observation: Observation) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Give the places of the fitted and of the held-out blocks."""
+        held = [(block.log, block.number) in self.held_out for block in observation.blocks]
+        places = range(len(held))
+        fitted = tuple(place for place in places if not held[place])
+        return fitted, tuple(place for place in places if held[place])
+
+
+def smoothed(
+    model: DynamicModel,
+    motions: tuple[Motion, ...],
+    held_out: frozenset[BlockKey],
+    progress: Callable[[float], None],
+) -> DynamicModel:
+    """Give the model with the widths of its smoothed Coulomb friction chosen from the motion."""
+    fitted = {(log, block) for log, motion in enumerate(motions) for block in range(motion.blocks)} - held_out
+    speed = np.max([motions[log].recipe.rms_speed for log in sorted({log for log, _ in fitted})], axis=0)
+    wide = with_candidates(model, speed)
+    data = Measured(scan_plan(wide, base_model(model).kept), motions, held_out)
+    observation = data.observed(progress)
+    return chosen_widths(observation, model, speed, data.parts(observation)[0])
+
+
+def weighted_system(
+    data: Measured, observation: Observation, options: EstimateOptions
+) -> tuple[Observation, System]:
+    """Weight the equations as asked, and give the observation they come from: robust fits weigh its rows."""
+    size = len(data.plan.columns)
+    factors = observation.joint_factors(data.parts(observation)[0])
+    if options.estimator == "ols":
+        return observation, ordinary(factors, observation.columns_of, size)
+    system = weighted(factors, observation.columns_of, size)
+    if options.estimator != "irls" and not options.robust:
+        return observation, system
+    for _ in range(ROUNDS):
+        weigh = huber_weights(system.solved(), observation.columns_of, system.noise)
+        observation = data.observed(weigh=weigh)
+        factors = observation.joint_factors(data.parts(observation)[0])
+        system = stacked(factors, observation.columns_of, size, system.noise)
+    return observation, system

@@ -1,0 +1,99 @@
+"""Hold whole diagnoses to what their words promise: a name with its evidence, or silence."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.diagnosis.diagnosis import Diagnosis
+from core.diagnosis.verdict import Question, diagnose
+from core.extension.extend import cures, extended_base, remembers
+from core.log.reader import read_log
+from core.reduction.base import base_model
+from core.regressor.columns import ColumnPlan
+from tests.core.diagnosis.residual.worlds import EXAMPLE, world
+from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
+
+UNEVEN = 0.15
+"""Half the difference of viscous friction between the directions of joint 2, N m s/rad."""
+
+
+def hidden(state):
+    return UNEVEN * np.abs(state.velocity) * [0.0, 1.0, 0.0]
+
+
+def asked(scene: Scene) -> Question:
+    model = scene.believed.model
+    plan = ColumnPlan(model, base_model(model).kept)
+    return Question(plan, (scene.look.motions[0].log,), frozenset({(0, 4), (0, 9), (0, 14), (0, 19)}), 20)
+
+
+@cache
+def diagnosed(effect: Effect | None) -> Diagnosis:
+    return diagnose(asked(measured_arm(effect)))
+
+
+def test_nothing_is_found_in_the_shipped_log_of_an_arm_that_is_as_described():
+    held = frozenset((0, block) for block in (4, 9, 14, 19))
+    found = diagnose(Question(world().plan, (read_log(EXAMPLE),), held, 20))
+    assert (found.verdict, found.findings) == ("nothing_found", ())
+    np.testing.assert_array_equal(found.residual_before, found.residual_after)
+
+
+def test_nothing_is_cured_where_nothing_is_found():
+    found = diagnosed(None)
+    assert (found.verdict, found.findings, cures(found)) == ("nothing_found", (), ())
+
+
+def test_a_finding_brings_everything_that_decided():
+    found = diagnosed(hidden)
+    assert found.verdict == "causes_found"
+    (one,) = found.findings
+    assert (one.cause, one.joints, one.cure) == ("friction_asymmetric", (2,), "term")
+    assert 0.5 < one.confidence <= 1.0
+    assert one.p_value < 1e-3
+    assert 0.0 < one.explained_fraction < 1.0
+    assert one.gain.interval_95[0] > 0.0
+    assert all(np.isfinite(part.value) for part in one.evidence if part.statistic != "criterion difference")
+    assert {rival.cause for rival in (*one.ambiguous_with, *one.refuted)}.isdisjoint({one.cause})
+    assert all(rival.why for rival in (*one.ambiguous_with, *one.refuted))
+    assert all(rival.separating_experiment for rival in one.ambiguous_with)
+    (size,) = one.quantities
+    assert abs(size.value - UNEVEN) < 3.0 * size.standard_deviation
+
+
+def test_the_curve_of_a_finding_shows_what_it_takes_away():
+    curve = diagnosed(hidden).findings[0].curve
+    assert (curve.coordinate, curve.joint) == ("velocity", 2)
+    assert np.linalg.norm(curve.after) < 0.3 * np.linalg.norm(curve.before)
+
+
+def test_only_the_joint_of_the_finding_changes_much():
+    found = diagnosed(hidden)
+    before, after = (np.std(one, axis=0) for one in (found.residual_before, found.residual_after))
+    assert after[1] < 0.9 * before[1]
+    np.testing.assert_allclose(after[[0, 2]], before[[0, 2]], rtol=0.02)
+
+
+def test_the_cure_joins_the_model_under_its_own_name():
+    found = diagnosed(hidden)
+    (term,) = cures(found)
+    assert not remembers(found.findings[0], found)
+    base = base_model(measured_arm().believed.model)
+    whole = extended_base(base, (term,))
+    assert len(whole.kept) == len(base.kept) + 1
+    assert whole.model.terms[-1].name == term.name
+
+
+def test_the_same_logs_give_the_same_diagnosis():
+    first, second = diagnosed(hidden), diagnose(asked(measured_arm(hidden)))
+    assert [one.statement for one in second.findings] == [one.statement for one in first.findings]
+    assert [one.confidence for one in second.findings] == [one.confidence for one in first.findings]
+    assert [one.share for one in second.predictable] == [one.share for one in first.predictable]
+    np.testing.assert_array_equal(second.residual_after, first.residual_after)
+
+
+@pytest.mark.parametrize("joint", [1, 2, 3])
+def test_what_a_learner_could_still_gain_is_told_for_every_joint(joint):
+    (one,) = [part for part in diagnosed(None).predictable if part.joint == joint]
+    assert one.interval[0] <= one.share <= one.interval[1]
