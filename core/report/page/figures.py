@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 from core.report.page.markup import Html, tag, together
 from core.report.page.svg import Frame, picture, span
-from core.report.page.words import Document, coordinate, percent
+from core.report.page.words import MINUS, Document, coordinate, percent
 
-_WIDE, _HIGH = 900.0, 320.0
+_WIDE, _HIGH = 450.0, 320.0
+_BARS_WIDE = 480.0
 _SIDES = ((0.0, "both"), (-1.0, "backward"), (1.0, "forward"))
 _IN_95 = 1.96
 _ROW = 30.0
@@ -15,68 +16,78 @@ _ROW = 30.0
 def finding_figure(curve: Document, unit: str) -> Html:
     """Show the mean residual over the coordinate that explains it: without the finding, then with it.
 
-    The curve on the left is what the finding takes away, so that dots on it are explained.
+    The curve in the first picture is what the finding takes away, so that dots on it are explained.
     """
-    joint, name = int(curve["joint"]), coordinate(curve["coordinate"], int(curve["joint"]))
     taken = [before - after for before, after in zip(curve["before"], curve["after"], strict=True)]
     reach = [_IN_95 * error for error in curve["standard_error"]]
     high = [value + room for value, room in zip(taken, reach, strict=True)]
     low = [value - room for value, room in zip(taken, reach, strict=True)]
     x, y = span(curve["centre"], margin=0.03), span(curve["before"], curve["after"], high, low)
-    frames = [Frame(side * _WIDE / 2.0, 0.0, _WIDE / 2.0, _HIGH, x, y) for side in (0, 1)]
-    labels = (f"{name}, {curve['unit']}", f"mean residual, {unit}")
-    parts = [
-        frames[0].axes("without it", *labels),
-        frames[1].axes("with it in the model", *labels),
-        *(frame.zero() for frame in frames),
-    ]
+    frame = Frame(0.0, 0.0, _WIDE, _HIGH, x, y)
+    without, within = list[Html](), list[Html]()
     for rows, kind in _sides(curve):
         at, room = _taken(curve["centre"], rows), _taken(reach, rows)
-        parts += [
-            frames[0].band(at, _taken(low, rows), _taken(high, rows), "model"),
-            frames[1].band(at, [-one for one in room], room, "floor"),
-            frames[0].line(at, _taken(taken, rows), "model"),
-            frames[0].dots(at, _taken(curve["before"], rows), kind),
-            frames[1].dots(at, _taken(curve["after"], rows), kind),
+        without += [
+            frame.band(at, _taken(low, rows), _taken(high, rows), "model"),
+            frame.line(at, _taken(taken, rows), "model"),
+            frame.dots(at, _taken(curve["before"], rows), kind),
         ]
-    told = f"Measured minus predicted torque of joint {joint} over the {name}, without and with the finding."
-    drawn = picture(f"Joint {joint}: residual over the {name}", told, (_WIDE, _HIGH), *parts)
-    return tag("figure", drawn, tag("figcaption", _caption(curve)))
+        within += [
+            frame.band(at, [-one for one in room], room, "floor"),
+            frame.dots(at, _taken(curve["after"], rows), kind),
+        ]
+    panels = (
+        _panel(frame, curve, "before: without it in the model", unit, without),
+        _panel(frame, curve, "after: with it in the model", unit, within),
+    )
+    return tag("figure", tag("div", *panels, class_="pair"), tag("figcaption", _caption(curve)))
 
 
-def dependence_figure(dependence: Document, unit: str) -> Html:
-    """Show what is left of one joint's residual over one coordinate, with 95 % bars as a band about zero."""
-    joint, name = int(dependence["joint"]), coordinate(dependence["coordinate"], int(dependence["joint"]))
+def dependence_figure(listed: Sequence[tuple[Document, str]]) -> Html | None:
+    """Show what is left of some joints' residuals, each over one coordinate, and in which unit.
+
+    Bars of 95 % are drawn as a band about zero.
+    """
+    if not listed:
+        return None
+    panels = (_dependence(one, unit) for one, unit in listed)
+    note = "Dots: means of equally many samples. Shaded: where noise alone would leave 95 of 100 dots."
+    return tag("figure", tag("div", *panels, class_="pair"), tag("figcaption", note))
+
+
+def _dependence(dependence: Document, unit: str) -> Html:
     at, mean = dependence["centre"], dependence["mean"]
     room = [_IN_95 * error for error in dependence["standard_error"]]
     below = [-one for one in room]
     frame = Frame(0.0, 0.0, _WIDE, _HIGH, span(at, margin=0.03), span(mean, room, below))
-    parts = (
-        frame.axes(f"joint {joint}: what is left", f"{name}, {dependence['unit']}", f"mean residual, {unit}"),
-        frame.band(at, below, room, "floor"),
-        frame.zero(),
-        frame.dots(at, mean, "both"),
-    )
-    title = f"Joint {joint}: what is left over the {name}"
-    told = f"Mean residual of joint {joint} over the {name}, with all findings in the model."
-    note = "Dots: means of equally many samples. Shaded: where 95 of 100 such means of noise alone would lie."
-    return tag("figure", picture(title, told, (_WIDE, _HIGH), *parts), tag("figcaption", note))
+    drawn = [frame.band(at, below, room, "floor"), frame.dots(at, mean, "both")]
+    return _panel(frame, dependence, f"joint {dependence['joint']}: what is left", unit, drawn)
+
+
+def _panel(frame: Frame, shown: Document, title: str, unit: str, drawn: Sequence[Html]) -> Html:
+    """Put what is drawn of a joint's mean residual over a coordinate between axes."""
+    joint = int(shown["joint"])
+    name = coordinate(shown["coordinate"], joint)
+    told = f"Measured minus predicted torque of joint {joint} over the {name}, {title}."
+    labels = (f"{name}, {shown['unit']}", f"measured {MINUS} predicted, {unit}")
+    parts = (frame.axes(title, *labels), frame.zero(), *drawn)
+    return picture(f"{title}, over the {name}", told, (_WIDE, _HIGH), *parts)
 
 
 def joint_bars(title: str, before: Sequence[float], after: Sequence[float], label: str) -> Html:
     """Compare one percentage per joint before and after as bars."""
-    top, height = 34.0, 34.0 + _ROW * len(before) + 4.0
-    scale = (_WIDE - 260.0) / max([*before, *after, 1e-9])
+    height = _ROW * len(before) + 4.0
+    scale = (_BARS_WIDE - 160.0) / max([*before, *after, 1e-9])
     rows = [
-        _bar_pair(place, top + _ROW * place, (old * scale, new * scale), (old, new))
+        _bar_pair(place, 4.0 + _ROW * place, (old * scale, new * scale), (old, new))
         for place, (old, new) in enumerate(zip(before, after, strict=True))
     ]
-    head = tag("text", label, x=0, y=16, class_="title")
     told = "; ".join(
         f"joint {place + 1}: {percent(old)} before, {percent(new)} after"
         for place, (old, new) in enumerate(zip(before, after, strict=True))
     )
-    return tag("figure", picture(title, told, (_WIDE, height), head, *rows))
+    drawn = picture(title, told, (_BARS_WIDE, height), *rows)
+    return tag("figure", tag("figcaption", label), drawn, class_="bars")
 
 
 def _bar_pair(place: int, top: float, widths: tuple[float, float], values: tuple[float, float]) -> Html:
@@ -103,11 +114,11 @@ def _taken(values: Sequence[float], rows: list[int]) -> list[float]:
 def _caption(curve: Document) -> str:
     apart = any(curve.get("direction") or [])
     dots = (
-        "Filled dots: forward motion; open dots: backward motion."
+        "Dots: means of equally many samples, filled in forward motion, open in backward motion."
         if apart
         else "Dots: means of equally many samples."
     )
     return (
-        f"{dots} Curve: what the finding adds that the other parameters cannot take up; dots that lie on it "
-        "are explained. Shaded: where 95 of 100 such means would lie."
+        f"{dots} Curve: what the finding adds that no other parameter can take up; dots that lie on it are "
+        "explained. Shaded: where noise alone would leave 95 of 100 dots."
     )

@@ -6,6 +6,7 @@ from core.report.page.figures import finding_figure
 from core.report.page.markup import Html, listing, section, table, tag, together
 from core.report.page.words import (
     Document,
+    band,
     chance,
     cure,
     interval,
@@ -13,9 +14,20 @@ from core.report.page.words import (
     number,
     percent,
     share,
+    unbroken,
     uncertain,
     unit_of_effort,
 )
+
+_READ = {
+    "likelihood ratio": "With it in the model the log is more likely: twice the log-likelihood rises by {}",
+    "log10 p": "Luck leaves so clear a trace with a chance of ten to the power of {}, all trials counted in",
+    "criterion difference": "The best rival in its place falls behind by {}; below 6 both would be as good",
+}
+_READ_WITHOUT_VALUE = {
+    "log10 p": "Luck leaves so clear a trace with a chance smaller than can be computed",
+    "criterion difference": "No rival can take its place",
+}
 
 
 def findings_section(document: Document) -> Html | None:
@@ -32,8 +44,8 @@ def _card(place: int, finding: Document, document: Document) -> Html:
     return tag(
         "article",
         tag("h3", f"{place}. {finding['title']}, {joints(finding['joints'])}"),
-        tag("p", f"{finding['statement']}.", class_="statement"),
-        _key_figures(finding),
+        tag("p", unbroken(f"{finding['statement']}."), class_="statement"),
+        _key_figures(finding, band(document)),
         finding_figure(curve, unit_of_effort(document, curve["joint"])) if curve else None,
         _parameters(finding),
         tag("h4", "Why this cause"),
@@ -44,19 +56,19 @@ def _card(place: int, finding: Document, document: Document) -> Html:
     )
 
 
-def _key_figures(finding: Document) -> Html:
+def _key_figures(finding: Document, band: str) -> Html:
     gain = finding.get("gain")
     told = [(share(finding["confidence"]), "confidence that this is the cause")]
     if gain:
         told += [
             (
                 percent(gain.get("improvement_total_percent")),
-                f"smaller error on data that no fit has seen (95 %: {interval(gain['interval_95'])})",
+                f"smaller error on data that no fit has seen, {band} (95 %: {interval(gain['interval_95'])})",
             )
         ]
     told += [
         (share(finding["explained_residual_fraction"]), "of the residual's mean square explained"),
-        (chance(finding["p_value"]), "chance of so clear a trace by luck"),
+        (chance(finding["p_value"]), "chance that luck leaves so clear a trace somewhere"),
     ]
     return tag("div", *(tag("div", tag("b", big), tag("span", small)) for big, small in told), class_="key")
 
@@ -73,7 +85,10 @@ def _parameters(finding: Document) -> Html | None:
     ]
     if not rows:
         return None
-    return table("How large it is", ("", "value ± standard deviation", "%P", "unit"), rows)
+    headings = ("", "value ± standard deviation", "%P", "unit")
+    return table(
+        "How large it is", headings, rows, note="%P: the standard deviation in percent of the value."
+    )
 
 
 def _reasons(finding: Document) -> list[str]:
@@ -82,9 +97,12 @@ def _reasons(finding: Document) -> list[str]:
 
 
 def _reason(evidence: Document) -> str:
-    value = evidence["value"]
-    shown = "smaller than can be computed" if value is None else number(value)
-    return f"{evidence['statement']}: {shown} ({evidence['statistic']})."
+    value, statistic = evidence["value"], evidence["statistic"]
+    if value is None:
+        return f"{_READ_WITHOUT_VALUE.get(statistic, evidence['statement'])}."
+    if statistic in _READ:
+        return f"{_READ[statistic].format(number(value))}."
+    return f"{evidence['statement']}: {number(value)} ({statistic})."
 
 
 def _undecided(rivals: Sequence[Document]) -> Html | None:

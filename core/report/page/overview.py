@@ -7,12 +7,15 @@ from core.report.page.markup import Html, section, table, tag
 from core.report.page.words import (
     Document,
     count,
+    fit_band,
     interval,
     joints,
     lower,
     number,
     percent,
     series,
+    share,
+    unbroken,
     unit_of_effort,
 )
 
@@ -37,7 +40,23 @@ def headline(document: Document) -> str:
     sentence = f"The simulation of {name} gets {what} wrong: {titles}."
     if diagnosis["verdict"] == "unexplained" and left:
         sentence += f" Part of what is left on {joints(left)} has no known cause."
-    return sentence
+    return sentence + "".join(_in_its_place(one) for one in found if one["ambiguous_with"])
+
+
+def _in_its_place(finding: Document) -> str:
+    """Say what a finding could be instead, because a name that is not sure must not stand alone."""
+    rivals = _where_by_title(finding["ambiguous_with"])
+    others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in rivals.items())
+    return f" Instead of {lower(finding['title'])} it may be: {others}; this log cannot tell."
+
+
+def at_a_glance(document: Document) -> Html | None:
+    """List several findings with their sizes, before each is told at length."""
+    found = document["diagnosis"]["findings"]
+    if len(found) < 2:
+        return None
+    lines = (unbroken(f"{one['statement']} ({share(one['confidence'])} sure).") for one in found)
+    return tag("ol", *(tag("li", line) for line in lines))
 
 
 def _where_by_title(found: Sequence[Document]) -> dict[str, list[int]]:
@@ -89,40 +108,42 @@ def joints_section(document: Document) -> Html | None:
     if not old:
         return None
     measured = {one["joint"]: one for one in diagnosis.get("gain") or []}
-    rows = [_row(document, joint, (row, new.get(joint)), measured.get(joint)) for joint, row in old.items()]
+    causes = [_causes_on(document, joint) for joint in old]
+    sides = [(row, new.get(joint)) for joint, row in old.items()]
+    rows = [
+        [*_row(document, joint, side, measured.get(joint)), cause]
+        for joint, side, cause in zip(old, sides, causes, strict=True)
+    ]
     caption = "Error of the predicted torque on data that no fit has seen"
-    headings = (
-        "joint",
-        "torque RMS",
-        "error before",
-        "error after",
-        "before, % of RMS",
-        "after",
-        "improvement",
-        "95 %",
-    )
-    parts: list[object] = [table(caption, headings, rows, note=_TORQUE_NOTE)]
+    errors = ("torque RMS", "error before", "after", "before, % of RMS", "after")
+    headings = ("joint", *errors, "improvement", "95 %", "what was found on it")
+    note = f"{_TORQUE_NOTE} Torque and error {fit_band(document)}, the band that the model is fitted in."
+    parts: list[object] = [table(caption, headings, rows, note=note, text=(8,))]
     if new:
         parts.insert(0, _bars(old, new))
     return section("Joint by joint, in torque and in motion", *parts, _motion_table(document))
 
 
 _TORQUE_NOTE = (
-    "Torque in N m (N where a joint slides). The interval comes from drawing whole blocks of time anew; an "
+    "RMS in N m (N where a joint slides). The interval comes from drawing whole blocks of time anew; an "
     "interval that holds zero means no difference on that joint that is sure."
 )
+
+
+def _causes_on(document: Document, joint: int) -> str:
+    titles = (one["title"] for one in document["diagnosis"]["findings"] if joint in one["joints"])
+    return "; ".join(dict.fromkeys(titles))
 
 
 def _row(
     document: Document, joint: int, sides: tuple[Document, Document | None], gain: Document | None
 ) -> list[object]:
     old, new = sides
-    unit = unit_of_effort(document, joint)
     return [
         str(joint),
-        f"{number(old['rms_torque'])} {unit}",
-        f"{number(old['rms_residual'])} {unit}",
-        f"{number(new['rms_residual'])} {unit}" if new else "",
+        f"{number(old['rms_torque'])} {unit_of_effort(document, joint)}",
+        number(old["rms_residual"]),
+        number(new["rms_residual"]) if new else "",
         percent(old["nrmse_of_rms_percent"]),
         percent(new["nrmse_of_rms_percent"]) if new else "",
         _improvement(gain["improvement_percent"], gain["interval_95"]) if gain else "",

@@ -40,18 +40,18 @@ def _diagnosis(document: Document) -> list[object]:
     after = document["diagnosis"]["after"].get("base_parameters") or []
     return [
         tag("p", overview.headline(document), class_="verdict"),
-        tag("p", gained) if gained else None,
+        together([overview.at_a_glance(document), tag("p", gained) if gained else None]),
         findings_section(document),
         overview.joints_section(document),
         unexplained_section(document),
         not_shown_section(document),
         robot.doubts_section(document),
+        data_section(document),
+        method_section(document),
         robot.parameters_section(
             after or document["base_parameters"],
             "The extended model's parameters" if after else "The model's parameters",
         ),
-        data_section(document),
-        method_section(document),
     ]
 
 

@@ -2,7 +2,17 @@
 
 from core.report.page.figures import dependence_figure
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import Document, coordinate, interval, joints, number, share, unit_of_effort
+from core.report.page.words import (
+    Document,
+    band,
+    coordinate,
+    interval,
+    joints,
+    number,
+    series,
+    share,
+    unit_of_effort,
+)
 
 _SOURCES = {
     "repeats": "repeats of the motion",
@@ -15,15 +25,6 @@ def unexplained_section(document: Document) -> Html:
     """Tabulate per joint what a generic learner still predicts, beside the noise floor."""
     left = document["diagnosis"]["unexplained"]
     shares = left["predictable_residual_fraction"]
-    marked = left["joints"]
-    said = (
-        f"On {joints(marked)} part of the residual still follows the motion: a cause that is not in the "
-        "list, or one that this log cannot separate."
-        if marked
-        else "Nothing that follows the motion is left: a generic learner, given angles, speeds, loads and "
-        "time, cannot predict the residual of any joint on data it has not seen. No extension of the model "
-        "would gain much."
-    )
     rows = [
         (
             str(joint + 1),
@@ -38,27 +39,46 @@ def unexplained_section(document: Document) -> Html:
     ]
     headings = ("joint", "residual RMS", "noise floor", "floor from", "predictable share", "95 %", "where")
     note = (
-        "RMS in N m (N where a joint slides), in the diagnosis's band, which is wider than the fit's. The "
-        "share is of the residual's mean square."
+        f"RMS in N m (N where a joint slides), {band(document)}. Noise floor: the noise, estimated without "
+        "any model. Predictable share: how much of the residual's mean square a generic learner foretells, "
+        "which is the most that any further cause could explain."
     )
     return section(
         "What stays unexplained",
-        tag("p", said),
+        *(tag("p", sentence) for sentence in _said(left)),
         table("What is left", headings, rows, note=note, text=(3, 6)),
-        *_figures(document),
+        dependence_figure(_clearest(document)),
     )
 
 
-def _figures(document: Document) -> list[Html]:
-    """Show every joint with structure left over the coordinate that the structure follows most clearly."""
+def _said(left: Document) -> list[str]:
+    shares, marked = left["predictable_residual_fraction"], left["joints"]
+    parked = [joint for joint, one in enumerate(shares, start=1) if one is None]
+    others = "any other joint" if parked else "any joint"
+    told = (
+        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in marked])} part of the "
+        "residual still follows the motion: a cause that is not in the list, or one that this log cannot "
+        "separate."
+        if marked
+        else "Nothing that follows the motion is left: a generic learner, given angles, speeds, loads and "
+        f"time, cannot predict the residual of {others} on data it has not seen. No extension of the model "
+        "would gain much."
+    )
+    if not parked:
+        return [told]
+    return [told, f"Of {joints(parked)}, which the motion hardly moves, nothing can be said."]
+
+
+def _clearest(document: Document) -> list[tuple[Document, str]]:
+    """Take every joint with structure left over the coordinate that the structure follows most clearly."""
     diagnosis = document["diagnosis"]
-    drawn = []
+    found = []
     for joint in diagnosis["unexplained"]["joints"]:
         listed = [one for one in diagnosis["atlas"] if one["joint"] == joint and one["p_value"] is not None]
         if listed:
             clearest = min(listed, key=lambda one: (one["p_value"], -one["statistic"]))
-            drawn.append(dependence_figure(clearest, unit_of_effort(document, joint)))
-    return drawn
+            found.append((clearest, unit_of_effort(document, joint)))
+    return found
 
 
 def not_shown_section(document: Document) -> Html | None:

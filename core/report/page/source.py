@@ -29,7 +29,7 @@ def data_section(document: Document) -> Html | None:
     rows = [
         (
             str(log.get("name", "")),
-            number(log.get("samples"), 6),
+            str(log.get("samples", "")),
             f"{number(log.get('duration_s'), 4)} s",
             f"{number(log.get('rate_hz'), 4)} Hz",
             f"{number((log.get('filter') or {}).get('cutoff_hz'))} Hz",

@@ -14,8 +14,8 @@ h1 { margin: 0 0 .25rem; font-size: 1.05rem; font-weight: 600; color: var(--soft
 h2 { margin: 2.5rem 0 .6rem; font-size: 1.25rem; }
 h3 { margin: 0 0 .5rem; font-size: 1.1rem; }
 h4 { margin: 1.25rem 0 .3rem; font-size: .95rem; }
-p, ul { margin: .4rem 0; }
-ul { padding-left: 1.25rem; }
+p, ul, ol { margin: .4rem 0; }
+ul, ol { padding-left: 1.25rem; }
 .note, .meta { color: var(--soft); font-size: .88rem; }
 .finding { margin: 1.25rem 0; padding: 1rem 1.25rem 1.25rem; border: 1px solid var(--line);
   border-left: 5px solid var(--model); border-radius: 6px; background: var(--card); }
@@ -38,6 +38,10 @@ td:not(.text) { white-space: nowrap; }
 .worse { color: var(--bad); font-weight: 600; }
 figure { margin: .9rem 0; }
 figcaption { color: var(--soft); font-size: .88rem; }
+.pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(21rem, 100%), 1fr));
+  gap: .5rem 1rem; }
+.bars svg { max-width: 36rem; }
+.bars figcaption { margin-bottom: .4rem; font-weight: 600; color: var(--ink); }
 svg { display: block; width: 100%; height: auto; }
 svg text { fill: var(--soft); font-size: 12px; font-family: inherit; }
 svg text.title { fill: var(--ink); font-weight: 600; font-size: 13px; }
@@ -53,12 +57,22 @@ svg text.title { fill: var(--ink); font-weight: 600; font-size: 13px; }
 .dot.backward { fill: var(--paper); stroke: var(--two); stroke-width: 1.8; }
 .bar.before { fill: var(--model); opacity: .45; }
 .bar.after { fill: var(--one); }
+code { overflow-wrap: anywhere; }
+@media (max-width: 40rem) {
+  main { padding: 1.25rem .9rem 3rem; }
+  .verdict { font-size: 1.25rem; }
+  .finding { padding: .75rem .8rem 1rem; }
+  .key { grid-template-columns: repeat(2, 1fr); }
+  .pair svg text { font-size: 15px; }
+  .pair svg text.title { font-size: 16px; }
+}
 @media print {
   :root { color-scheme: light; --ink: #000; --soft: #444; --paper: #fff; --card: #fff; --line: #bbb;
     --model: #c2410c; --one: #0a5ea8; --two: #7c3aed; --bad: #b3261e; --good: #1a7f45; }
   body { font-size: 10.5pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
   .key { grid-template-columns: repeat(4, 1fr); }
+  .pair { grid-template-columns: repeat(2, 1fr); }
   figure, tr, .key { break-inside: avoid; }
   h2, h3, h4 { break-after: avoid; }
   .wide { overflow: visible; }

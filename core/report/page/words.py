@@ -8,6 +8,7 @@ Number = float | int | None
 Document = Mapping[str, Any]
 """A result document, or a part of one."""
 MINUS = "\N{MINUS SIGN}"
+_STUCK = "\N{NO-BREAK SPACE}"
 NOTHING = "-"
 """What stands where there is no number."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -154,6 +155,17 @@ def lower(sentence: str) -> str:
     return sentence[:1].lower() + sentence[1:]
 
 
+def unbroken(sentence: str) -> str:
+    """Keep units on the line of their numbers.
+
+    Examples
+    --------
+    >>> len("by 0.1 N m".split(" ")), len(unbroken("by 0.1 N m").split(" "))
+    (4, 2)
+    """
+    return sentence.replace(" N m", f"{_STUCK}N{_STUCK}m").replace(" %", f"{_STUCK}%")
+
+
 def coordinate(name: str, joint: int) -> str:
     """Say in words what a figure's abscissa shows.
 
@@ -175,6 +187,29 @@ def coordinate(name: str, joint: int) -> str:
 def cure(kind: str) -> str:
     """Say what a cure mends."""
     return _CURES.get(kind, kind)
+
+
+def band(document: Document) -> str:
+    """Say up to which frequency a diagnosis looked; nothing of it counts above.
+
+    Examples
+    --------
+    >>> band({"diagnosis": {"band_hz": 17.52}})
+    'up to 17.5 Hz'
+    """
+    return f"up to {number(document['diagnosis'].get('band_hz'))} Hz"
+
+
+def fit_band(document: Document) -> str:
+    """Say up to which frequency the model was fitted and scored, log by log where they differ.
+
+    Examples
+    --------
+    >>> fit_band({"logs": [{"filter": {"cutoff_hz": 5.01}}, {"filter": {"cutoff_hz": 6.2}}]})
+    'up to 5.01 and 6.20 Hz'
+    """
+    cutoffs = sorted({number((log.get("filter") or {}).get("cutoff_hz")) for log in document["logs"]})
+    return f"up to {series(cutoffs)} Hz"
 
 
 def unit_of_effort(document: Document, joint: int) -> str:

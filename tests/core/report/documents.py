@@ -205,6 +205,9 @@ def diagnosis(**changes):
             "interval_95": [[45.0, 55.0], [-1.0, 80.0]],
         },
         "atlas": [],
+        "spectra": [],
+        "search": [],
+        "band_hz": 20.0,
     } | changes
 
 

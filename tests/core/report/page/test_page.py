@@ -115,6 +115,37 @@ def test_the_first_sentence_names_what_is_wrong_and_where():
     assert text.index(verdict) < text.index(gain) < text.index("Why this cause")
 
 
+def test_a_name_that_is_not_sure_never_stands_alone_in_the_headline():
+    text = Page(compose_page(diagnosed())).text
+    grows, scale = "friction grows with the transmitted torque", "the torque channel's scale is wrong"
+    assert f"Instead of {grows} it may be: {scale} (joint 1); this log cannot tell." in text
+    sure = Page(compose_page(diagnosed(findings=[finding(ambiguous_with=[])]))).text
+    assert "Instead of" not in sure
+
+
+def test_several_findings_are_listed_with_size_and_confidence_before_each_is_told():
+    found = [finding(), finding(statement="Joint 2's gear yields", confidence=0.7, joints=[2])]
+    text = Page(compose_page(diagnosed(findings=found))).text
+    listed = "Joint 1's friction grows by 0.07 N m per N m (98 % sure). Joint 2's gear yields (70 % sure)."
+    assert text.index(listed) < text.index("What is wrong, and why")
+    assert "% sure" not in Page(compose_page(diagnosed())).text
+
+
+def test_every_joint_is_told_what_was_found_on_it_and_in_which_band_it_was_judged():
+    text = Page(compose_page(diagnosed())).text
+    assert "50 % 40 to 60 % Friction grows with the transmitted torque 2 5.00 N" in text
+    assert "Torque and error up to 9.50 Hz" in text
+    assert "smaller error on data that no fit has seen, up to 20.0 Hz" in text
+
+
+def test_a_joint_that_hardly_moved_is_not_said_to_be_without_fault():
+    left = diagnosed()["diagnosis"]["unexplained"]
+    left |= {"predictable_residual_fraction": [0.0, None], "interval_95": [[0.0, 0.0], [None, None]]}
+    text = Page(compose_page(diagnosed(unexplained=left | {"rms_residual": [0.1, None]}))).text
+    assert "cannot predict the residual of any other joint" in text
+    assert "Of joint 2, which the motion hardly moves, nothing can be said." in text
+
+
 def test_one_cause_on_several_joints_is_one_thing():
     found = [finding(), finding(joints=[3]), finding(title="The gear is compliant", joints=[2])]
     text = Page(compose_page(diagnosed(findings=found))).text
@@ -133,7 +164,7 @@ def test_a_finding_is_told_with_its_size_its_reasons_and_its_rivals():
     text = Page(compose_page(diagnosed())).text
     assert "Joint 1's friction grows by 0.07 N m per N m." in text
     assert "load coefficient 0.0700 ± 0.0020 2.9 %" in text
-    assert "Rise of the likelihood: 91.5 (likelihood ratio)." in text
+    assert "the log is more likely: twice the log-likelihood rises by 91.5." in text
     undecided, refuted = text.index("This log cannot tell it apart from"), text.index("Refuted")
     assert undecided < text.index("the reason about torque_gain") < refuted
     assert refuted < text.index("the reason about torque_ripple")
@@ -220,7 +251,7 @@ def test_what_is_left_is_drawn_over_the_coordinate_that_it_follows_most_clearly(
         dependence("temperature", 2, None),
     ]
     page = Page(compose_page(diagnosed(findings=[], verdict="unexplained", unexplained=left, atlas=atlas)))
-    assert "Joint 2: what is left over the speed of joint 2" in page.text
+    assert "joint 2: what is left, over the speed of joint 2" in page.text
     assert page.tags.count("circle") == 3
     quiet = Page(compose_page(diagnosed(findings=[], atlas=atlas)))
     assert "circle" not in quiet.tags
