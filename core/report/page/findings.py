@@ -13,6 +13,7 @@ from core.report.page.words import (
     joints,
     number,
     percent,
+    quantity,
     share,
     unbroken,
     uncertain,
@@ -22,7 +23,8 @@ from core.report.page.words import (
 _READ = {
     "likelihood ratio": "With it in the model the log is more likely: twice the log-likelihood rises by {}",
     "log10 p": "Luck leaves so clear a trace with a chance of ten to the power of {}, all trials counted in",
-    "criterion difference": "The best rival in its place falls behind by {}; below 6 both would be as good",
+    "criterion difference": "The best rival in its place falls behind by {}; less than 6 would tell nothing",
+    "raw check": "The raw samples show it before any model is fitted; the check's statistic is {}",
 }
 _READ_WITHOUT_VALUE = {
     "log10 p": "Luck leaves so clear a trace with a chance smaller than can be computed",
@@ -76,7 +78,7 @@ def _key_figures(finding: Document, band: str) -> Html:
 def _parameters(finding: Document) -> Html | None:
     rows = [
         (
-            one["name"].replace("_", " "),
+            quantity(one["name"]),
             uncertain(one["value"], one["standard_deviation"]),
             percent(one.get("relative_deviation_percent")),
             tag("span", "" if one["unit"] == "1" else one["unit"]),

@@ -1,26 +1,20 @@
-"""Say in a sentence what a diagnosis came to, and show all joints before and after, in torque and motion."""
+"""Say in a few sentences what a diagnosis came to: what is wrong, how large it is, what its cure gains."""
 
 from collections.abc import Sequence
 
-from core.report.page.figures import joint_bars
-from core.report.page.markup import Html, section, table, tag
+from core.report.page.markup import Html, tag
 from core.report.page.words import (
     Document,
     count,
-    fit_band,
     interval,
+    is_real,
     joints,
     lower,
-    number,
     percent,
     series,
     share,
     unbroken,
-    unit_of_effort,
 )
-
-_REAL = 1.0
-"""Improvements below one percent are not worth a word in the headline."""
 
 
 def headline(document: Document) -> str:
@@ -35,28 +29,35 @@ def headline(document: Document) -> str:
             "explains it."
         )
     where = _where_by_title(found)
-    titles = series([f"{lower(title)} ({joints(places)})" for title, places in where.items()])
+    unsure = {one["title"] for one in found if one["ambiguous_with"]}
+    titles = series(
+        [
+            f"{lower(title)}{', or a cause like it' * (title in unsure)} ({joints(places)})"
+            for title, places in where.items()
+        ]
+    )
     what = f"{count(len(where))} thing{'s' if len(where) > 1 else ''}"
     sentence = f"The simulation of {name} gets {what} wrong: {titles}."
     if diagnosis["verdict"] == "unexplained" and left:
         sentence += f" Part of what is left on {joints(left)} has no known cause."
-    return sentence + "".join(_in_its_place(one) for one in found if one["ambiguous_with"])
-
-
-def _in_its_place(finding: Document) -> str:
-    """Say what a finding could be instead, because a name that is not sure must not stand alone."""
-    rivals = _where_by_title(finding["ambiguous_with"])
-    others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in rivals.items())
-    return f" Instead of {lower(finding['title'])} it may be: {others}; this log cannot tell."
+    return sentence
 
 
 def at_a_glance(document: Document) -> Html | None:
-    """List several findings with their sizes, before each is told at length."""
+    """List findings with their sizes before each is told at length, and what else they may be."""
     found = document["diagnosis"]["findings"]
-    if len(found) < 2:
+    if len(found) < 2 and not any(one["ambiguous_with"] for one in found):
         return None
-    lines = (unbroken(f"{one['statement']} ({share(one['confidence'])} sure).") for one in found)
-    return tag("ol", *(tag("li", line) for line in lines))
+    return tag("ol", *(tag("li", unbroken(_in_a_line(one))) for one in found))
+
+
+def _in_a_line(finding: Document) -> str:
+    line = f"{finding['statement']} ({share(finding['confidence'])} sure)."
+    rivals = _where_by_title(finding["ambiguous_with"])
+    if not rivals:
+        return line
+    others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in rivals.items())
+    return f"{line} It may as well be that {others}; this log cannot tell."
 
 
 def _where_by_title(found: Sequence[Document]) -> dict[str, list[int]]:
@@ -71,7 +72,7 @@ def gained(document: Document) -> str | None:
     """Say what the cure gained on unseen data, joint by joint."""
     diagnosis = document["diagnosis"]
     helped = [
-        one for one in diagnosis.get("gain") or [] if _real(one["improvement_percent"], one["interval_95"])
+        one for one in diagnosis.get("gain") or [] if is_real(one["improvement_percent"], one["interval_95"])
     ]
     if not helped:
         return None
@@ -92,115 +93,6 @@ def _moved_better(simulation: Document) -> str:
     parts = [
         f"{percent(gain)} less on joint {joint}"
         for joint, (gain, own) in enumerate(zip(gains, ends, strict=True), start=1)
-        if _real(gain, own)
+        if is_real(gain, own)
     ]
     return f" The simulated motion strays {series(parts)}." if parts else ""
-
-
-def _real(gain: float | None, ends: Sequence[float] | None) -> bool:
-    return gain is not None and gain > _REAL and ends is not None and ends[0] > 0.0
-
-
-def joints_section(document: Document) -> Html | None:
-    """Tabulate every joint before and after on held-out data, in torque and in simulated motion."""
-    diagnosis = document["diagnosis"]
-    old, new = (_by_joint(diagnosis[side].get("validation") or []) for side in ("before", "after"))
-    if not old:
-        return None
-    measured = {one["joint"]: one for one in diagnosis.get("gain") or []}
-    causes = [_causes_on(document, joint) for joint in old]
-    sides = [(row, new.get(joint)) for joint, row in old.items()]
-    rows = [
-        [*_row(document, joint, side, measured.get(joint)), cause]
-        for joint, side, cause in zip(old, sides, causes, strict=True)
-    ]
-    caption = "Error of the predicted torque on data that no fit has seen"
-    errors = ("torque RMS", "error before", "after", "before, % of RMS", "after")
-    headings = ("joint", *errors, "improvement", "95 %", "what was found on it")
-    note = f"{_TORQUE_NOTE} Torque and error {fit_band(document)}, the band that the model is fitted in."
-    parts: list[object] = [table(caption, headings, rows, note=note, text=(8,))]
-    if new:
-        parts.insert(0, _bars(old, new))
-    return section("Joint by joint, in torque and in motion", *parts, _motion_table(document))
-
-
-_TORQUE_NOTE = (
-    "RMS in N m (N where a joint slides). The interval comes from drawing whole blocks of time anew; an "
-    "interval that holds zero means no difference on that joint that is sure."
-)
-
-
-def _causes_on(document: Document, joint: int) -> str:
-    titles = (one["title"] for one in document["diagnosis"]["findings"] if joint in one["joints"])
-    return "; ".join(dict.fromkeys(titles))
-
-
-def _row(
-    document: Document, joint: int, sides: tuple[Document, Document | None], gain: Document | None
-) -> list[object]:
-    old, new = sides
-    return [
-        str(joint),
-        f"{number(old['rms_torque'])} {unit_of_effort(document, joint)}",
-        number(old["rms_residual"]),
-        number(new["rms_residual"]) if new else "",
-        percent(old["nrmse_of_rms_percent"]),
-        percent(new["nrmse_of_rms_percent"]) if new else "",
-        _improvement(gain["improvement_percent"], gain["interval_95"]) if gain else "",
-        interval(gain["interval_95"]) if gain else "",
-    ]
-
-
-def _bars(old: dict[int, Document], new: dict[int, Document]) -> Html:
-    before, after = (
-        [float(row["nrmse_of_rms_percent"] or 0.0) for row in side.values()] for side in (old, new)
-    )
-    return joint_bars(
-        "Error per joint", before, after, "Error of the predicted torque, % of the torque's RMS, unseen data"
-    )
-
-
-def _motion_table(document: Document) -> Html | None:
-    simulation = document["diagnosis"].get("simulation") or {}
-    old, new = simulation.get("before") or {}, simulation.get("after") or {}
-    if not old:
-        told = simulation.get("note")
-        return (
-            tag("p", f"The motion of both models was not compared: {told}.", class_="note") if told else None
-        )
-    horizons, number_of_joints = old["horizons_s"], len(old["position_rms"][0])
-    ends = simulation.get("interval_95") or [None] * number_of_joints
-    headings = [
-        "joint",
-        *(f"{side} {1000.0 * one:.0f} ms" for one in horizons for side in ("before,", "after,")),
-    ]
-    rows = [
-        [
-            f"{joint + 1}",
-            *(
-                f"{number(1000.0 * side['position_rms'][place][joint])}"
-                for place in range(len(horizons))
-                for side in (old, new)
-            ),
-            _improvement(simulation["improvement_total_percent"][joint], ends[joint]),
-            interval(ends[joint]),
-        ]
-        for joint in range(number_of_joints)
-    ]
-    note = (
-        f"From {old['windows']} measured states in unseen data, both models were driven by the measured "
-        "torque; the error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm "
-        "where a joint slides)."
-    )
-    return table("Error of the simulated motion", (*headings, "improvement", "95 %"), rows, note=note)
-
-
-def _improvement(value: float | None, ends: Sequence[float] | None) -> Html:
-    sure = ends is not None and None not in ends and ends[0] * ends[1] > 0.0
-    if value is None or not sure or abs(value) < _REAL:
-        return tag("span", percent(value))
-    return tag("span", percent(value), class_="better" if value > 0.0 else "worse")
-
-
-def _by_joint(rows: Sequence[Document]) -> dict[int, Document]:
-    return {int(row["joint"]): row for row in rows}

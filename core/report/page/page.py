@@ -6,6 +6,7 @@ is what that sentence rests on.
 
 from core.report.page import overview, robot
 from core.report.page.findings import findings_section
+from core.report.page.joints import joints_section
 from core.report.page.markup import Html, tag, together
 from core.report.page.remainder import not_shown_section, unexplained_section
 from core.report.page.source import data_section, method_section
@@ -42,7 +43,7 @@ def _diagnosis(document: Document) -> list[object]:
         tag("p", overview.headline(document), class_="verdict"),
         together([overview.at_a_glance(document), tag("p", gained) if gained else None]),
         findings_section(document),
-        overview.joints_section(document),
+        joints_section(document),
         unexplained_section(document),
         not_shown_section(document),
         robot.doubts_section(document),

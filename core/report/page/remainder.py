@@ -86,18 +86,22 @@ def not_shown_section(document: Document) -> Html | None:
     listed = document["diagnosis"]["not_identifiable"]
     if not listed:
         return None
-    items = [
-        together(
-            [
-                tag("b", f"{one.get('title', one['cause'])}, {joints(one['joints'])}"),
-                f": {one['why']}. ",
-                tag("i", "Motion that would show it: "),
-                f"{one['separating_experiment']}.",
-            ]
+    reasons = dict.fromkeys(str(one["why"]) for one in listed)
+    parts = [
+        part
+        for why in reasons
+        for part in (
+            tag("p", f"{why[:1].upper()}{why[1:]}:"),
+            listing(_missing(one) for one in listed if one["why"] == why),
         )
-        for one in listed
     ]
-    return section("What this motion could not have shown", listing(items))
+    return section("What this motion could not have shown", *parts)
+
+
+def _missing(one: Document) -> Html:
+    cause = tag("b", f"{one.get('title', one['cause'])}, {joints(one['joints'])}")
+    shown = tag("i", "Motion that would show it: ")
+    return together([cause, ". ", shown, f"{one['separating_experiment']}."])
 
 
 def _where(places: list[Document], joint: int) -> str:

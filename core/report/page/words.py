@@ -7,6 +7,8 @@ from typing import Any
 Number = float | int | None
 Document = Mapping[str, Any]
 """A result document, or a part of one."""
+_WORTH_A_WORD = 1.0
+"""Percent."""
 MINUS = "\N{MINUS SIGN}"
 _STUCK = "\N{NO-BREAK SPACE}"
 NOTHING = "-"
@@ -25,6 +27,19 @@ _COORDINATES = {
     "motor_phase": "angle of the motor",
     "temperature": "temperature",
 }
+_QUANTITIES = {
+    "std": "standard deviation",
+    "lsb": "resolution",
+    "harmonic": "times per turn",
+    "com_x": "mass centre, x",
+    "com_y": "mass centre, y",
+    "com_z": "mass centre, z",
+    "Fvm": "viscous friction of the motor",
+    "Fcm": "Coulomb friction of the motor",
+    "Iam": "inertia of the motor",
+}
+_NAMES = ("Coulomb",)
+"""Titles of causes may begin with a name."""
 _CURES = {
     "term": "a term is missing from the model",
     "signal": "a signal of the log is not what it says",
@@ -121,6 +136,19 @@ def chance(p_value: Number) -> str:
     return number(p_value, 2)
 
 
+def is_real(gain: Number, ends: Sequence[Number] | None, *, sign: float = 1.0) -> bool:
+    """Tell whether a gain (or, by `sign`, a loss), in percent, is sure and worth a word.
+
+    Examples
+    --------
+    >>> is_real(40.0, [30.0, 50.0]), is_real(40.0, [-1.0, 81.0]), is_real(0.5, [0.4, 0.6])
+    (True, False, False)
+    """
+    if gain is None or ends is None:
+        return False
+    return sign * gain > _WORTH_A_WORD and all(end is not None and sign * end > 0.0 for end in ends)
+
+
 def joints(numbers: Sequence[int]) -> str:
     """Name one or several joints.
 
@@ -151,8 +179,25 @@ def count(size: int) -> str:
 
 
 def lower(sentence: str) -> str:
-    """Begin with a small letter, unless a name stands there."""
-    return sentence[:1].lower() + sentence[1:]
+    """Begin with a small letter, unless a name stands there.
+
+    Examples
+    --------
+    >>> lower("The gear yields"), lower("Coulomb friction varies")
+    ('the gear yields', 'Coulomb friction varies')
+    """
+    return sentence if sentence.startswith(_NAMES) else sentence[:1].lower() + sentence[1:]
+
+
+def quantity(name: str) -> str:
+    """Say in words what a number of a finding is.
+
+    Examples
+    --------
+    >>> quantity("load_coefficient"), quantity("std")
+    ('load coefficient', 'standard deviation')
+    """
+    return _QUANTITIES.get(name, name.replace("_", " "))
 
 
 def unbroken(sentence: str) -> str:
