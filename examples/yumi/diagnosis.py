@@ -9,9 +9,10 @@ from typing import Any
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
+from rich.padding import Padding
 from rich.table import Table
 
-from examples.yumi.summary import LEFT, number, percent
+from examples.yumi.summary import LEFT, number, percent, score
 
 Document = Mapping[str, Any]
 
@@ -19,30 +20,38 @@ Document = Mapping[str, Any]
 def print_diagnosis(console: Console, result: Document, hidden: Sequence[Document] | None = None) -> None:
     """Print findings, gains and what is left; beside them what had been hidden, where that is known."""
     diagnosis = result["diagnosis"]
-    findings = diagnosis["findings"]
-    if not findings:
-        console.print("[bold]Nothing that this log can show is wrong with the simulation.[/]")
+    findings, band = diagnosis["findings"], diagnosis["band_hz"]
+    console.print(f"\n[bold]{escape(headline(result))}[/]")
     for place, finding in enumerate(findings, start=1):
         console.print(f"\n[bold]{place}. {escape(finding['statement'])}.[/]")
-        for line in reasons(finding):
-            console.print(f"   {escape(line)}")
+        for line in reasons(finding, band):
+            console.print(Padding(escape(line), (0, 0, 0, 3)))
     if diagnosis["gain"]:
-        console.print(gain_table(diagnosis["gain"]))
+        console.print(gain_table(result))
     console.print(remainder(diagnosis["unexplained"]))
-    for effect in hidden or ():
-        console.print(f"Hidden was: {escape(in_words(effect))}.")
+    if hidden:
+        console.print(truth_table(findings, hidden))
 
 
-def reasons(finding: Document) -> list[str]:
+def headline(result: Document) -> str:
+    """Say in a sentence what came out."""
+    found, name = len(result["diagnosis"]["findings"]), result["robot"]["name"]
+    if not found:
+        return f"Nothing that this log can show is wrong with the simulation of {name}."
+    return f"The simulation of {name} gets {found} thing{'s' if found > 1 else ''} wrong."
+
+
+def reasons(finding: Document, band_hz: float) -> list[str]:
     """Say how sure a finding is, what it gains, and how its rivals stood."""
-    lines = [f"Confidence {100.0 * finding['confidence']:.0f} %."]
+    sure, luck = 100.0 * finding["confidence"], chance(finding["p_value"])
+    lines = [f"Confidence {sure:.0f} %. The chance that luck leaves so clear a trace is {luck}."]
     gain = finding["gain"]
     if gain is not None and gain["interval_95"] is not None:
-        low, high = gain["interval_95"]
+        share, (low, high) = gain["improvement_total_percent"], gain["interval_95"]
         joints = "the joint" if len(finding["joints"]) == 1 else "these joints"
         lines.append(
-            f"Alone it takes {gain['improvement_total_percent']:.0f} % ({low:.0f} to {high:.0f} %) of the "
-            f"error on {joints} away, on data that no fit has seen."
+            f"By itself it takes {share:.0f} % ({low:.0f} to {high:.0f} %) of the error on {joints} away, up "
+            f"to {band_hz:.0f} Hz, on data that no fit has seen."
         )
     undecided, refuted = finding["ambiguous_with"], finding["refuted"]
     lines += [
@@ -53,25 +62,78 @@ def reasons(finding: Document) -> list[str]:
     return lines if undecided or refuted else [*lines, "No other known cause explains nearly as much."]
 
 
-def gain_table(gains: Sequence[Document]) -> Table:
-    """Set the error on held-out data before and after the cure in a table."""
-    table = Table(
-        title="\nError of the predicted torque on data that no fit has seen", box=SIMPLE_HEAD, **LEFT
-    )
-    for heading in ("joint", "before, N m", "after, N m", "improvement, %", "95 %"):
+def chance(p_value: float) -> str:
+    """Write a p-value; what is smaller than a number can hold is called so.
+
+    Examples
+    --------
+    >>> chance(2.3e-9), chance(0.0)
+    ('2e-09', 'below 1e-300')
+    """
+    return f"{p_value:.0e}" if p_value > 1e-300 else "below 1e-300"
+
+
+def gain_table(result: Document) -> Table:
+    """Set the error on held-out data before and after the cure in a table, in torque and in motion."""
+    diagnosis = result["diagnosis"]
+    title = "\nError on data that no fit has seen, without and with the cure in the model"
+    table = Table(title=title, caption=where_judged(result), box=SIMPLE_HEAD, **LEFT)
+    headings = ("joint", "before, N m", "after, N m", "less torque error, %", "95 %", "less motion error, %")
+    for heading in headings:
         table.add_column(heading, justify="right")
-    for row in gains:
-        ends = row["interval_95"]
+    moved = diagnosis["simulation"].get("improvement_total_percent") or []
+    for row in diagnosis["gain"]:
+        ends, joint = row["interval_95"], row["joint"]
         sure = ends is not None and ends[0] > 0.0 and row["improvement_percent"] >= 1.0
         table.add_row(
-            str(row["joint"]),
+            str(joint),
             number(row["rms_residual_before"]),
             number(row["rms_residual_after"]),
             percent(row["improvement_percent"]),
             "" if ends is None else f"{ends[0]:.1f} to {ends[1]:.1f}",
+            percent(moved[joint - 1]) if moved else "",
             style="green" if sure else None,
         )
     return table
+
+
+def where_judged(result: Document) -> str:
+    """Say what the columns of the table are measured on."""
+    bands = ", ".join(f"{log['filter']['cutoff_hz']:.1f}" for log in result["logs"])
+    simulated = result["diagnosis"]["simulation"]
+    if not simulated["before"]:
+        return f"torque up to {bands} Hz; motion was not compared: {simulated['note']}"
+    times = ", ".join(f"{1000.0 * one:.0f}" for one in simulated["before"]["horizons_s"])
+    return f"torque up to {bands} Hz; simulated motion over {times} ms"
+
+
+def truth_table(findings: Sequence[Document], hidden: Sequence[Document]) -> Table:
+    """Set what had been hidden beside what was found, and how many standard deviations lie between."""
+    title, caption = "\nWhat had been hidden, beside what was found", "z: standard deviations off the truth"
+    table = Table(title=title, caption=caption, box=SIMPLE_HEAD, **LEFT)
+    table.add_column("hidden")
+    for heading in ("", "true", "found", "z"):
+        table.add_column(heading, justify="right")
+    for effect in hidden:
+        sizes = sizes_found(findings, effect)
+        for name, true in effect["parameters"].items():
+            value, deviation = sizes.get(name, (None, None))
+            shown = "not found" if value is None else f"{value:.4g} ± {deviation:.2g}"
+            z = (value - true) / deviation if value is not None and deviation else None
+            table.add_row(spoken(effect), name.replace("_", " "), number(true), shown, score(z))
+    return table
+
+
+def sizes_found(
+    findings: Sequence[Document], effect: Document
+) -> dict[str, tuple[float | None, float | None]]:
+    """Give, by name, the sizes that were found for an effect's cause on its joints; none if it was missed."""
+    return {
+        one["name"]: (one["value"], one["standard_deviation"])
+        for finding in findings
+        if finding["cause"] == effect["cause"] and finding["joints"] == effect["joints"]
+        for one in finding["parameters"]
+    }
 
 
 def remainder(left: Document) -> str:
@@ -83,20 +145,13 @@ def remainder(left: Document) -> str:
     return f"Still predictable of what is left, without a known cause: {told}."
 
 
-def in_words(effect: Document) -> str:
-    """Write a hidden effect.
+def spoken(effect: Document) -> str:
+    """Name a cause and its joints.
 
     Examples
     --------
-    >>> in_words({"cause": "torque_ripple", "joints": [4], "parameters": {"amplitude": 0.12}})
-    'torque ripple on joint 4 (amplitude 0.12)'
+    >>> spoken({"cause": "torque_ripple", "joints": [4]})
+    'torque ripple on joint 4'
     """
-    sizes = ", ".join(f"{name.replace('_', ' ')} {value:g}" for name, value in effect["parameters"].items())
-    joints = ", ".join(str(joint) for joint in effect["joints"])
-    return f"{effect['cause'].replace('_', ' ')} on joint {joints} ({sizes})"
-
-
-def spoken(rival: Document) -> str:
-    """Name a rival and its joints."""
-    joints = ", ".join(str(joint) for joint in rival["joints"]) or "all"
-    return f"{rival['cause'].replace('_', ' ')} on joint {joints}"
+    joints = ", ".join(str(joint) for joint in effect["joints"]) or "all"
+    return f"{effect['cause'].replace('_', ' ')} on joint {joints}"

@@ -69,21 +69,39 @@ def told(capsys, result, hidden=None):
 
 
 def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
-    effect = {"cause": "torque_ripple", "joints": [4], "parameters": {"amplitude": 0.12}}
-    page = told(capsys, diagnosed(), [effect])
-    assert "1. Joint 1's friction grows by 0.07 N m per N m. Confidence 98 %." in page
-    assert "takes 33 % (20 to 45 %) of the error on the joint away, on data that no fit has seen." in page
+    page = told(capsys, diagnosed())
+    assert "The simulation of bench arm gets 1 thing wrong. 1. Joint 1's friction grows by" in page
+    assert "Confidence 98 %. The chance that luck leaves so clear a trace is 1e-09." in page
+    gain = (
+        "takes 33 % (20 to 45 %) of the error on the joint away, up to 20 Hz, on data that no fit has seen."
+    )
+    assert gain in page
     assert (
         "Not told apart from torque gain on joint 1; this would separate them: run both directions." in page
     )
     assert "Refuted: torque ripple on joint 1: the reason about torque_ripple." in page
-    assert "1 0.2 0.1 50.00 40.0 to 60.0" in page
+    assert "1 0.2 0.1 50.00 40.0 to 60.0 50.00" in page
+    assert "torque up to 9.5 Hz; simulated motion over 50, 200 ms" in page
     assert "Nothing predictable is left" in page
-    assert page.endswith("Hidden was: torque ripple on joint 4 (amplitude 0.12).")
+    assert "hidden" not in page
+
+
+def test_what_was_hidden_is_set_beside_what_was_found_or_said_to_be_missed(capsys):
+    cause, other = "friction_load_dependent", "torque_ripple"
+    hidden = [
+        {"cause": cause, "joints": [1], "parameters": {"load_coefficient": 0.064}},
+        {"cause": other, "joints": [1], "parameters": {"amplitude": 0.12}},
+        {"cause": cause, "joints": [2], "parameters": {"load_coefficient": 0.07}},
+    ]
+    page = told(capsys, diagnosed(), hidden)
+    # (0.07 - 0.064) / 0.002 = 3
+    assert "friction load dependent on joint 1 load coefficient 0.064 0.07 ± 0.002 +3.0" in page
+    assert "torque ripple on joint 1 amplitude 0.12 not found" in page
+    assert "friction load dependent on joint 2 load coefficient 0.07 not found" in page
 
 
 def test_a_diagnosis_that_found_nothing_says_so(capsys):
-    assert "Nothing that this log can show is wrong with the simulation." in told(capsys, nothing_found())
+    assert "Nothing that this log can show is wrong with the simulation of" in told(capsys, nothing_found())
 
 
 def test_what_stays_predictable_is_told_with_its_joint(capsys):
