@@ -81,6 +81,18 @@ class Whitened:
 
 
 @dataclass(frozen=True, eq=False)
+class Belief:
+    """Hold what is believed of the first columns' coefficients: white equations ``rows @ values = target``."""
+
+    rows: Matrix
+    target: Vector
+
+    def missed(self, values: Weights) -> Vector:
+        """Give by how much coefficients depart from it, in standard deviations."""
+        return self.target - self.rows @ values[: self.rows.shape[1]]
+
+
+@dataclass(frozen=True, eq=False)
 class Fit:
     """Hold a generalised least-squares fit.
 
@@ -93,7 +105,9 @@ class Fit:
     factor
         Cholesky factor of the columns' Gram matrix, scaled by `scale`.
     log_likelihood
-        Of the rows, noise model included.
+        Of the rows, noise model included, and of what was believed.
+    belief
+        What was believed beforehand; None where nothing was.
     """
 
     joints: tuple[Whitened, ...]
@@ -101,6 +115,7 @@ class Fit:
     factor: tuple[np.ndarray, bool]
     scale: Vector
     log_likelihood: float
+    belief: Belief | None = None
 
     @cached_property
     def left(self) -> tuple[Weights, ...]:
@@ -164,6 +179,7 @@ def fit(
     noise: tuple[JointNoise, ...] | None = None,
     *,
     rounds: int = ROUNDS,
+    belief: Belief | None = None,
 ) -> Fit:
     """Fit all columns to all joints' rows, learning the noise anew in every round.
 
@@ -171,11 +187,13 @@ def fit(
     ----------
     noise
         What to begin with; None to begin with white noise of the torque's size.
+    belief
+        What is believed of the first columns' coefficients beforehand.
     """
     if noise is None:
         noise = tuple(learn_noise(rows.torque, rows.place, order=0) for rows in joints)
         rounds += 1
-    found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)))
+    found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)), belief)
     everywhere = frozenset(range(len(joints)))
     return _settled(joints, found, everywhere, rounds)
 
@@ -198,7 +216,7 @@ def refit(
         new = rows.columns[:, old.columns.shape[1] :]
         white = old.free.cleared(old.whitening @ new) if joint in touched else np.zeros_like(new)
         parts.append(replace(old, columns=np.hstack([old.columns, white])))
-    found = _solved(tuple(parts))
+    found = _solved(tuple(parts), before.belief)
     return _settled(joints, found, touched, rounds)
 
 
@@ -219,7 +237,7 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
         parts[joint] = whitened(
             rows, learn_noise(rows.missed(found.values), rows.place, taken=_taken(rows, joints))
         )
-    return _solved(tuple(parts))
+    return _solved(tuple(parts), found.belief)
 
 
 def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
@@ -228,13 +246,19 @@ def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
-def _solved(joints: tuple[Whitened, ...]) -> Fit:
+def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
     gram = np.sum([one.gram for one in joints], axis=0)
-    right = sum(one.columns.T @ one.torque for one in joints)
+    right = np.sum([one.columns.T @ one.torque for one in joints], axis=0)
+    if belief is not None:
+        size = belief.rows.shape[1]
+        gram[:size, :size] += belief.rows.T @ belief.rows
+        right[:size] += belief.rows.T @ belief.target
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor = cho_factor(scaled, lower=True)
     values = cho_solve(factor, right / scale) / scale
     missed = sum(float(np.sum((one.torque - one.columns @ values) ** 2)) for one in joints)
+    if belief is not None:
+        missed += float(np.sum(belief.missed(values) ** 2))
     logs = sum(one.log_deviations for one in joints)
-    return Fit(joints, values, factor, scale, -0.5 * missed - logs)
+    return Fit(joints, values, factor, scale, -0.5 * missed - logs, belief)
