@@ -10,11 +10,21 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import JointSeries
-from core.diagnosis.cause import Cause, Scalars
-from core.diagnosis.equations import Columns, Fit, JointRows, extended, fit, joint_rows, refit, whitened
+from core.diagnosis.cause import Cause, Scalars, Solved
+from core.diagnosis.equations import (
+    Belief,
+    Columns,
+    Fit,
+    JointRows,
+    extended,
+    fit,
+    joint_rows,
+    refit,
+    whitened,
+)
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 from core.diagnosis.look import Look
-from core.diagnosis.score import score
+from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
@@ -36,12 +46,22 @@ class Bench:
         What is suspected.
     mask
         Rows (rows x joints) that a fit may use.
+    belief
+        What is believed of the base parameters beforehand; None where the rows alone tell them.
     """
 
-    def __init__(self, look: Look, plan: ColumnPlan, causes: Sequence[Cause], mask: np.ndarray) -> None:
+    def __init__(
+        self,
+        look: Look,
+        plan: ColumnPlan,
+        causes: Sequence[Cause],
+        mask: np.ndarray,
+        belief: Belief | None = None,
+    ) -> None:
         self.look = look
         self.plan = plan
         self.causes = tuple(causes)
+        self.belief = belief
         columns = look.observed(plan)
         self.base = joint_rows(look, columns, mask)
         self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
@@ -87,7 +107,7 @@ class Bench:
         columns = self.columns(members)
         rows = extended(self.base, columns)
         noise = None if start is None else tuple(one.noise for one in start.fit.joints)
-        return self._hypothesis(members, columns, fit(rows, noise))
+        return self._hypothesis(members, columns, fit(rows, noise, belief=self.belief))
 
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
         """Fit a hypothesis with one more member, learning its noise anew where the member acts."""
@@ -107,16 +127,23 @@ class Bench:
         )
 
     def scanned(self, under: Hypothesis, candidates: Sequence[Candidate] | None = None) -> list[Scored]:
-        """Score candidates (all by default) on top of a hypothesis; the best scalars of each kind only."""
+        """Score candidates (all by default) on top of a hypothesis; the best scalars of each kind only.
+
+        Scalars at which nature allows what is found go before those at which it does not.
+        """
         asked = self._candidates if candidates is None else tuple(candidates)
         rows = self._rows(under)
         found = score(under.fit, rows, self.columns(asked))
-        best: dict[object, Scored] = {}
+        best: dict[object, tuple[bool, Scored]] = {}
         for one, judged in zip(asked, found, strict=True):
             scored = Scored(one, judged.statistic, len(judged.values), judged.values, judged.clear_share)
-            if one.key not in best or scored.statistic > best[one.key].statistic:
-                best[one.key] = scored
-        return sorted(best.values(), key=lambda one: one.log_p)
+            possible = _allowed(one, judged)
+            if one.key not in best or (possible, scored.statistic) > (
+                best[one.key][0],
+                best[one.key][1].statistic,
+            ):
+                best[one.key] = possible, scored
+        return sorted((one for _, one in best.values()), key=lambda one: one.log_p)
 
     def refined(self, under: Hypothesis, candidate: Candidate) -> Candidate:
         """Settle a candidate's scalars between its grid points, on top of a hypothesis."""
@@ -162,8 +189,8 @@ class Bench:
                 replace(candidate, scalars={**candidate.scalars, name: value}) for value in (*values, here)
             ]
             found = score(under.fit, self._rows(under), self.columns(trials))
-            statistics = np.array([one.statistic for one in found])
-            best = int(np.argmax(statistics))
+            ranks = [(_allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
+            best = ranks.index(max(ranks))
             here = trials[best].scalars[name]
             order = sorted({*values, here})
             low, high = _neighbours(order, here)
@@ -211,6 +238,11 @@ class Bench:
             for built in (False, True)
             if (*candidate.place, built) in self._columns
         )
+
+
+def _allowed(candidate: Candidate, judged: Score) -> bool:
+    solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
+    return candidate.cause.possible(solved)
 
 
 def _neighbours(points: Sequence[float], here: float) -> tuple[float, float]:

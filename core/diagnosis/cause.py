@@ -23,11 +23,19 @@ Site = tuple[int, ...]
 
 @dataclass(frozen=True)
 class Confusion:
-    """Name another cause that leaves much the same trace, why, and the experiment that separates the two."""
+    """Name another cause that leaves much the same trace, why, and the experiment that separates the two.
+
+    Attributes
+    ----------
+    share
+        A lead over it of less than this share of a finding's rise counts for nothing: columns of a real robot
+        are not exact, and what they miss grows with the effect.
+    """
 
     cause: str
     why: str
     experiment: str
+    share: float = 0.15
 
 
 @dataclass(frozen=True)
@@ -74,6 +82,9 @@ class Cause(Protocol):
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
     near_reversals
         Whether its evidence lies next to velocity reversals, where other causes do not look.
+    event
+        Whether it acts in short spans only. Noise learned before it is known holds it, so that a scan says
+        little about it.
     """
 
     id: ClassVar[str]
@@ -81,6 +92,7 @@ class Cause(Protocol):
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
     near_reversals: ClassVar[bool]
+    event: ClassVar[bool]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:

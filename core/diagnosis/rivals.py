@@ -15,9 +15,8 @@ from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.selection import merit, rise, with_candidate
 
 INDIFFERENCE = 6.0
-CONFUSED_SHARE, OTHER_SHARE = 0.15, 0.03
-"""Shares of a finding's rise below which a lead counts for nothing: for rivals known to be confused with it,
-and for others. Columns of a real robot are not exact, and what they miss grows with the effect."""
+OTHER_SHARE = 0.03
+"""Share of a finding's rise below which its lead over a rival not known to be confused with it is nothing."""
 WEIGHED = 6
 WORTH_NAMING = 0.1
 """A rival that reaches less than this share of the finding's own rise is not worth a line."""
@@ -67,8 +66,8 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
 
 
 def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float:
-    confused = rival.cause.id in {one.cause for one in member.cause.confusions}
-    return max(INDIFFERENCE, (CONFUSED_SHARE if confused else OTHER_SHARE) * own_rise)
+    shares = {one.cause: one.share for one in member.cause.confusions}
+    return max(INDIFFERENCE, shares.get(rival.cause.id, OTHER_SHARE) * own_rise)
 
 
 def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float) -> Rival:

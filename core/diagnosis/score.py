@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from core.arrays import Matrix, SquareMatrix, Vector, Weights
+from core.arrays import EquationRows, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.equations import Columns, Fit, JointRows
 
 OPEN_SHARE = 1e-6
@@ -28,7 +28,7 @@ class Score:
     ----------
     statistic
         Rise of twice the log-likelihood at this noise model.
-    values
+    values, covariance
         What its linear parameters would be.
     clear_share
         The largest share of a column's square that neither fitted nor free columns span.
@@ -36,6 +36,7 @@ class Score:
 
     statistic: float
     values: Weights
+    covariance: EquationRows
     clear_share: float
 
 
@@ -74,9 +75,11 @@ def _judged(gram: SquareMatrix, reduced: Matrix, right: Vector, squares: Vector)
     left = (gram - reduced.T @ reduced) / np.outer(size, size)
     clear = np.clip(np.diag(left), 0.0, 1.0)
     if not np.isfinite(left).all() or clear.max() < OPEN_SHARE:
-        return Score(0.0, np.zeros(len(right)), 0.0)
+        return Score(0.0, np.zeros(len(right)), np.eye(len(right)), 0.0)
     values, vectors = np.linalg.eigh(left)
     kept = values > OPEN_SHARE
     turned = vectors[:, kept].T @ (right / size)
-    found = vectors[:, kept] @ (turned / values[kept]) / size
-    return Score(float(np.sum(turned**2 / values[kept])), found, float(clear.max()))
+    spread = vectors[:, kept] / size[:, None]
+    covariance = (spread / values[kept]) @ spread.T
+    found = spread @ (turned / values[kept])
+    return Score(float(np.sum(turned**2 / values[kept])), found, covariance, float(clear.max()))

@@ -88,7 +88,8 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     excluded = {name for one in now.members for name in one.cause.excludes}
     taken = {*now.by_key, *given_up, *(one.key for one in bench.candidates if one.cause.id in excluded)}
     scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
-    trials = [trial for one in scans[:TRIED] for trial in [with_candidate(bench, now, one)] if trial.possible]
+    tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
+    trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
     hurdle = np.log(LEVEL) - np.log(max(count, 1))
     likely = sorted(
@@ -97,7 +98,8 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
     whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
-    ranked = sorted(whole, key=lambda trial: -merit(now, trial))
+    # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
+    ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -merit(now, trial)))
     return next((trial for trial in ranked if trial.possible and _holds_unseen(bench, now, trial)), None)
 
 

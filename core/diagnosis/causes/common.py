@@ -27,6 +27,7 @@ class OwnJointCause:
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
     near_reversals: ClassVar[bool] = False
+    event: ClassVar[bool] = False
     excludes: ClassVar[tuple[str, ...]] = ()
     settled: ClassVar[tuple[str, ...]] = ()
 

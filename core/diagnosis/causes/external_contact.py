@@ -41,6 +41,7 @@ class ExternalContact(OwnJointCause):
     )
     experiment = "the same motion again with nothing within reach"
     coordinate = "time"
+    event = True
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List the joints of links that carry no other, where one log tells what the time is."""

@@ -30,6 +30,7 @@ class TimeDelay(OwnJointCause):
             "torque_filter_lag",
             "a low-pass filter delays slow motion by its time constant; it also weakens quick motion",
             "excite at several frequencies up to a fifth of the sampling rate: a delay keeps the amplitude",
+            share=0.4,
         ),
         Confusion(
             "joint_elasticity",

@@ -32,6 +32,7 @@ class TorqueFilterLag(OwnJointCause):
             "time_delay",
             "to first order in frequency both are late alike; they differ by its square",
             "excite at several frequencies up to a fifth of the sampling rate: a filter weakens quick ones",
+            share=0.4,
         ),
         Confusion(
             "joint_elasticity",
