@@ -224,7 +224,8 @@ class Bench:
         return float(step / np.sqrt(drop)) if drop > 0.0 else float("inf")
 
     def _grid(self, candidate: Candidate) -> list[Candidate]:
-        return [one for one in self._candidates if one.key == candidate.key] or [candidate]
+        same = (candidate.cause, candidate.site)
+        return [one for one in self._candidates if (one.cause, one.site) == same] or [candidate]
 
     def _rows(self, under: Hypothesis) -> tuple[JointRows, ...]:
         return extended(self.base, self.columns(under.members))
