@@ -18,9 +18,9 @@ from core.estimate.constraints import link_columns
 from core.reduction.base import BaseModel
 from core.robot.inertia import link_parameters, pseudo_inertia
 
-LEAST_DEVIATION = 0.01
-"""No parameter is taken to be known better than this share of itself: friction alone varies by more from day
-to day, and two logs of one robot do not show what the model leaves out alike."""
+LEAST_DEVIATION = 0.005
+"""No parameter is taken to be known better than this share of itself: so far two logs of one robot disagree
+by what the model leaves out, which the noise of neither tells."""
 PRIOR_DEVIATION = 0.05
 """Of a description's bodies: every entry of a pseudo-inertia is off by this share of the roots of its
 diagonal."""

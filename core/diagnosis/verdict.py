@@ -77,15 +77,17 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     bench = _bench(question, look)
     selection = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
     tell("weigh rivals", 0.6)
-    before, after = bench.residual(selection.none), bench.residual(selection.chosen)
-    standings = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
+    chosen, everyone = selection.chosen, range(len(selection.chosen.members))
+    after = bench.residual(chosen)
+    before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
+    standings = [standing(bench, chosen, index) for index in everyone]
     found = [
-        _finding(bench, selection, place, one, (bench.residual(one.without), after))
+        _finding(bench, selection, place, one, (_without(bench, chosen, place, one), after))
         for place, one in enumerate(standings)
     ]
     found += raw
     tell("learn what is left", 0.8)
-    noise = tuple(one.noise for one in selection.chosen.fit.joints)
+    noise = tuple(one.noise for one in chosen.fit.joints)
     predictable = predictable_share(look, after, bench.believed, noise)
     tell("lay out", 0.95)
     return Diagnosis(
@@ -128,6 +130,11 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
     wide, believed, _ = looks[0]
     raw = [_raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
     return raw, look
+
+
+def _without(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> JointSeries:
+    """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
+    return bench.residual(own.without) if bench.belief is None else bench.residual(chosen, (place,))
 
 
 def _finding(
