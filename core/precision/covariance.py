@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector
+from core.arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
 from core.estimate.system import System, column_scale
 from core.regressor.memory import LaggedProducts
 
@@ -151,7 +151,7 @@ def _sandwich(information: SquareMatrix, spread: SquareMatrix) -> SquareMatrix:
     return np.asarray(root @ spread @ root)
 
 
-def _excited(information: SquareMatrix) -> tuple[Vector, Vector, Matrix]:
+def _excited(information: SquareMatrix) -> tuple[Weights, Weights, Matrix]:
     """Give the columns' sizes, and eigenvalues and -vectors of what remains, without those that are zero."""
     size = np.sqrt(np.diag(information))
     scale = np.where(size > 0.0, size, 1.0)
