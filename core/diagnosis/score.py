@@ -69,7 +69,8 @@ def _alike(
         squares[present] += np.einsum("ij,ij->j", white, white).reshape(-1, width)
         acting = np.flatnonzero(own.columns.any(axis=0))
         both = own.columns[:, acting].T @ white - own.inside[:, acting].T @ inside
-        cross[np.array(present)[:, None], acting] += np.moveaxis(both.reshape(len(acting), -1, width), 0, 1)
+        both = both.reshape(len(acting), len(present), width)
+        cross[np.array(present)[:, None], acting] += np.moveaxis(both, 0, 1)
         grams[present] += _grams(white, width) - _grams(inside, width)
     flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
     reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)

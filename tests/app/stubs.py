@@ -42,7 +42,7 @@ def failing(kind="excitation", cause="the motion is too slow"):
 class InlineExecutor:
     """Let the science run in the tests' process, where warnings are errors and shapes are checked.
 
-    What is not an error of its own becomes a 5xx. `told` are the stages and fractions of the last computation.
+    What is not an error of its own becomes a 5xx. `told` are the last computation's stages and fractions.
     """
 
     def __init__(self):

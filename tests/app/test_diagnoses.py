@@ -96,7 +96,7 @@ def test_a_log_with_too_little_motion_to_hold_any_out_is_refused_with_what_would
 
 
 def test_what_a_parked_joint_could_not_show_is_listed_with_the_motion_that_would(client):
-    job, result = diagnosed(client, measured(parked(1)))
+    job, result = diagnosed(client, measured(parked(1), seconds=12.0))
     diagnosis = result["diagnosis"]
     assert diagnosis["findings"] == []
     hidden = {one["cause"]: one for one in diagnosis["not_identifiable"] if 2 in one["joints"]}
