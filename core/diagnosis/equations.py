@@ -21,6 +21,8 @@ from core.diagnosis.noise import JointNoise, learn_noise, places
 
 RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
+ROUNDING = 1e-12
+"""Share of a column's square below which what is left of it beside free columns is rounding."""
 ROUNDS = 3
 TRIAL_ROUNDS = 2
 SETTLED = 0.03
@@ -84,7 +86,8 @@ class Whitened:
         out = np.zeros((self.columns.shape[1], self.columns.shape[1]))
         acting = np.flatnonzero(self.columns.any(axis=0))
         columns, inside = self.columns[:, acting], self.inside[:, acting]
-        out[np.ix_(acting, acting)] = columns.T @ columns - inside.T @ inside
+        whole = columns.T @ columns
+        out[np.ix_(acting, acting)] = whole - inside.T @ inside + ROUNDING * np.diag(np.diag(whole))
         return out
 
     @cached_property
