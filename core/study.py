@@ -31,6 +31,7 @@ from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import torque_scales
 from core.report.diagnosed import Compared, Diagnosed
+from core.report.diagnosis_document import diagnosis_document
 from core.report.document import grouping_row, identification_document
 from core.report.earlier import reference_from_document
 from core.report.identification import Identification
@@ -86,15 +87,24 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     return _identified(request, options, _Fitting(data, base), tell)
 
 
-def earlier(request: IdentifyRequest) -> Reference | None:
-    """Read the earlier result that a diagnosis compares its logs with; None where it compares with none.
+def check_reference(request: IdentifyRequest) -> None:
+    """Refuse a reference that a robot's logs cannot be compared with; logs are not looked at.
 
     Raises
     ------
     OptionError
-        If that result is another robot's, or was given together with options that it decides.
+        If it is the result of another robot's log, or options are given that it decides.
+    RobotError
+        If the robot's own bodies are to be compared with and it brings none.
     """
     options = parse_diagnose_options(request.options)
+    _earlier(request, options)
+    if options.reference == PRIOR:
+        reference_from_prior(base_model(standard_model(request.robot, options.terms)))
+
+
+def _earlier(request: IdentifyRequest, options: IdentifyOptions) -> Reference | None:
+    """Read the earlier result that logs are compared with; None where they are compared with none."""
     name = options.reference
     if name is None or name == PRIOR:
         return None
@@ -120,15 +130,14 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     """
     found = diagnose_in_full(request, progress)
     options = parse_diagnose_options(request.options).given
-    from core.report.diagnosis_document import diagnosis_document
-
     return diagnosis_document(found, version=_version(), options=options)
 
 
 def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Diagnosed:
     """Identify, diagnose, extend and identify again; give every chapter's result."""
     tell = progress or _say_nothing
-    options, reference = parse_diagnose_options(request.options), earlier(request)
+    options = parse_diagnose_options(request.options)
+    reference = _earlier(request, options)
     data, base = _prepared(request, options, tell, reference)
     if options.reference == PRIOR:
         reference = reference_from_prior(base)
