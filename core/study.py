@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 
 from core.arrays import Parameters
+from core.diagnosis.belief import Belief
 from core.diagnosis.diagnosis import Diagnosis
-from core.diagnosis.equations import Belief
 from core.diagnosis.reference import PRIOR, Reference, reference_from_prior
 from core.diagnosis.verdict import Question
 from core.diagnosis.verdict import diagnose as find_causes

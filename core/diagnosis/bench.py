@@ -10,10 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import JointSeries
+from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause, Scalars, Solved
 from core.diagnosis.equations import (
     TRIAL_ROUNDS,
-    Belief,
     Columns,
     Fit,
     extended,

@@ -15,6 +15,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
+from core.diagnosis.belief import Belief
 from core.diagnosis.free import Free, free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise, learn_noise, places
@@ -107,18 +108,6 @@ class Whitened:
             columns=np.hstack([self.columns[:, :kept], white]),
             inside=np.hstack([self.inside[:, :kept], inside]),
         )
-
-
-@dataclass(frozen=True, eq=False)
-class Belief:
-    """Hold what is believed of the first columns' coefficients: white equations, rows @ values = target."""
-
-    rows: Matrix
-    target: Vector
-
-    def missed(self, values: Weights) -> Vector:
-        """Give by how much coefficients depart from it, in standard deviations."""
-        return np.asarray(self.target - self.rows @ values[: self.rows.shape[1]])
 
 
 @dataclass(frozen=True, eq=False)

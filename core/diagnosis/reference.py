@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import null_space, qr, solve_triangular
 
 from core.arrays import BaseParameters, Matrix, Parameters
-from core.diagnosis.equations import Belief
+from core.diagnosis.belief import Belief
 from core.errors import RobotError
 from core.estimate.constraints import link_columns
 from core.estimate.system import RANK_TOLERANCE, System, column_scale
