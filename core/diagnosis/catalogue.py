@@ -69,6 +69,11 @@ CAUSES: tuple[Cause, ...] = (
 CHANGES: tuple[Cause, ...] = (PayloadChange(throughout=True), LinkParameters(), FrictionChange())
 """Causes that show only against a reference: without one the base parameters absorb them."""
 
+ONLY_CHANGES: tuple[Cause, ...] = tuple(
+    one for one in CHANGES if one.id not in {other.id for other in CAUSES}
+)
+"""Those of them that have no counterpart within a log."""
+
 AGAINST_REFERENCE: tuple[Cause, ...] = (*CHANGES, *CAUSES)
 """Causes that add torque to what a reference predicts."""
 
@@ -76,6 +81,6 @@ RAW_CAUSES: tuple[RawCause, ...] = (DroppedSamples(), TimestampJitter(), Encoder
 """Causes that show in the raw samples."""
 
 BY_ID: Mapping[str, Cause | RawCause] = {
-    **{one.id: one for one in AGAINST_REFERENCE},
+    **{one.id: one for one in (*CAUSES, *ONLY_CHANGES)},
     **{one.id: one for one in RAW_CAUSES},
 }

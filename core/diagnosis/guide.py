@@ -8,7 +8,7 @@ import inspect
 import sys
 from collections.abc import Mapping
 
-from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.catalogue import BY_ID, ONLY_CHANGES
 from core.diagnosis.cause import Cause, Confusion
 from core.diagnosis.raw import RawCause
 
@@ -43,6 +43,10 @@ CURES: Mapping[str, tuple[str, str]] = {
         "what the difference does joins the model as a term; correct the description",
     ),
 }
+ONLY_AGAINST = """\
+Only against a [reference](diagnosis.md#what-has-changed): where everything is identified anew it is absorbed.
+
+"""
 OVERVIEW = """
 ## All of them
 
@@ -54,7 +58,11 @@ OVERVIEW = """
 def guide() -> str:
     """Write the document in Markdown."""
     cures = "".join(f"| {cure} | {wrong} | {done} |\n" for cure, (wrong, done) in CURES.items())
-    rows = "".join(f"| [{name}](#{name}) | {one.title} | {one.cure} |\n" for name, one in BY_ID.items())
+    only = {one.id: ", only against a reference" for one in ONLY_CHANGES}
+    rows = "".join(
+        f"| [{name}](#{name}) | {one.title}{only.get(name, '')} | {one.cure} |\n"
+        for name, one in BY_ID.items()
+    )
     return OPENING + cures + OVERVIEW + rows + "".join(_section(one) for one in BY_ID.values())
 
 
@@ -64,6 +72,7 @@ def _section(cause: Cause | RawCause) -> str:
     return (
         f"\n## {cause.id}\n\n"
         f"What is suspected: {suspected.removeprefix('Suspect ')}\n\n"
+        f"{ONLY_AGAINST * (cause in ONLY_CHANGES)}"
         f"| number | unit |\n|---|---|\n{units}\n"
         f"Shown by: {cause.experiment}.\n\n"
         "Confused with:\n\n" + "".join(_confusion(one) for one in cause.confusions)

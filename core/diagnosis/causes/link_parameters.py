@@ -24,7 +24,7 @@ class LinkParameters(OwnJointCause):
     """Suspect all ten parameters of a link."""
 
     id = "link_parameters"
-    title = "The reference has a link's inertial parameters wrong"
+    title = "A link's inertial parameters are not the reference's"
     cure = "robot"
     units = tuple((f"delta_{symbol}", INERTIAL_UNITS[symbol]) for symbol in INERTIAL_SYMBOLS)
     confusions = (
