@@ -104,7 +104,12 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
 
 
 def _holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
-    """Tell whether a new member helps on held-out rows as far as it acts there."""
+    """Tell whether a new member helps on held-out rows as far as it acts there.
+
+    An event is judged where it happens: what a fit knows of it from half its span says little of the rest.
+    """
+    if trial.members[-1].cause.event:
+        return True
     expected = bench.unseen_share(trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
     return bench.unseen_rise(now, trial) >= UNSEEN_SHARE * expected
 

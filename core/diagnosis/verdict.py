@@ -22,7 +22,7 @@ from core.diagnosis.look import Look, look_at
 from core.diagnosis.raw import RawCause, RawFinding
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share
-from core.diagnosis.rivals import Standing, standing
+from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, log_p_of, select
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
@@ -71,10 +71,10 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     raw, look = _looked(question)
     tell("search", 0.1)
     bench = Bench(look, question.plan, CAUSES, look.usable & ~look.held_out[:, None])
-    selection = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
+    searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
     tell("weigh rivals", 0.6)
+    selection, standings = weighed(bench, searched)
     before, after = bench.residual(selection.none), bench.residual(selection.chosen)
-    standings = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
     found = [
         _finding(bench, selection, place, one, (bench.residual(one.without), after))
         for place, one in enumerate(standings)
