@@ -8,6 +8,7 @@ from app.schemas.common import Open
 
 Matrix = list[list[float | None]]
 PerJoint = list[float | None]
+Numbers = list[float | None]
 Interval = Annotated[list[float | None] | None, Field(description="ends of a 95 % interval", max_length=2)]
 
 
@@ -15,6 +16,7 @@ class JointFit(Open):
     """How well the model predicts the torque of a joint."""
 
     joint: int
+    samples: int = 0
     rms_torque: float
     rms_residual: float
     nrmse_of_range_percent: float | None
@@ -68,12 +70,12 @@ class Curve(Open):
     coordinate: Annotated[str, Field(examples=["position"])]
     unit: str
     joint: int
-    centre: PerJoint
-    before: PerJoint
-    after: PerJoint
-    model: PerJoint
-    standard_error: PerJoint
-    direction: Annotated[PerJoint, Field(description="1 forward motion, -1 backward motion, 0 both")]
+    centre: Numbers
+    before: Numbers
+    after: Numbers
+    model: Numbers
+    standard_error: Numbers
+    direction: Annotated[Numbers, Field(description="1 forward motion, -1 backward motion, 0 both")]
 
 
 class Finding(Open):
@@ -105,25 +107,44 @@ class NotIdentifiable(Open):
     separating_experiment: str
 
 
+class Place(Open):
+    """A tenth of a joint's samples in which a generic learner predicts much of what is left."""
+
+    coordinate: Annotated[str, Field(examples=["velocity"])]
+    unit: str
+    low: float
+    high: float
+    rms: Annotated[float, Field(description="of the prediction there, N m or N")]
+
+
 class Unexplained(Open):
     """What is left, per joint: the share a generic learner predicts, and how low noise goes."""
 
     joints: Annotated[list[int], Field(description="where structure is left")]
-    predictable_residual_fraction: PerJoint
+    predictable_residual_fraction: Annotated[
+        PerJoint, Field(description="null where the joint moves too little to be judged")
+    ]
     interval_95: list[Interval]
     rms_residual: PerJoint
-    places: list[list[dict[str, JsonValue]]]
+    places: Annotated[list[list[Place]], Field(description="per joint, the largest first")]
     noise_floor: PerJoint
-    noise_floor_source: list[str]
+    noise_floor_source: list[Literal["repeats", "high_band", "none"]]
+    noise_tilt: Annotated[
+        PerJoint,
+        Field(description="the noise's power density at the low over that at the high end of its band"),
+    ] = Field(default=[])
+    motion_period_s: Annotated[
+        float | None, Field(description="after which the motion repeats; null where it does not")
+    ] = None
 
 
 class JointGain(Open):
     """What the cure as a whole gains on one joint, on blocks that no fit has seen."""
 
     joint: int
-    rms_residual_before: float
-    rms_residual_after: float
-    improvement_percent: float
+    rms_residual_before: float | None
+    rms_residual_after: float | None
+    improvement_percent: float | None
     interval_95: Interval
     held_out: bool
 
@@ -132,8 +153,12 @@ class Side(Open):
     """The model before or after the cure, fitted and held out."""
 
     fit: list[JointFit] = Field(default=[])
+    fit_total_percent: float | None = None
     validation: list[JointFit]
+    validation_total_percent: float | None = None
     base_parameters: list[dict[str, JsonValue]] = Field(default=[])
+    feasible: Annotated[bool | None, Field(description="whether the extended robot can exist")] = None
+    solver: dict[str, JsonValue] = Field(default={})
 
 
 class Motion(Open):
@@ -152,6 +177,7 @@ class Simulation(Open):
     before: Motion
     after: Motion
     note: str = ""
+    held_out: bool = True
     improvement_percent: Matrix = Field(default=[])
     improvement_total_percent: PerJoint = Field(default=[])
     interval_95: list[Interval] | None = None
@@ -163,11 +189,31 @@ class Dependence(Open):
     coordinate: str
     joint: int
     unit: str
-    centre: PerJoint
-    mean: PerJoint
-    standard_error: PerJoint
+    centre: Numbers
+    mean: Numbers
+    standard_error: Numbers
+    count: list[int] = Field(default=[])
     statistic: float | None
+    degrees_of_freedom: int | None = None
     p_value: float | None
+
+
+class Spectrum(Open):
+    """Power density of what is left of one joint's residual, beside the noise floor's, (N m)^2/Hz."""
+
+    joint: int
+    frequency_hz: Numbers
+    density: Numbers
+    floor: Numbers
+
+
+class SearchStep(Open):
+    """One decision on the way to the findings."""
+
+    action: Literal["added", "dropped", "swapped"]
+    cause: str
+    joints: list[int]
+    statistic: Annotated[float | None, Field(description="rise of twice the log-likelihood")]
 
 
 class Diagnosis(Open):
@@ -182,3 +228,8 @@ class Diagnosis(Open):
     after: Side
     simulation: Simulation
     atlas: list[Dependence]
+    spectra: list[Spectrum] = Field(default=[])
+    search: Annotated[list[SearchStep], Field(description="in the order in which it went")] = Field(
+        default=[]
+    )
+    band_hz: Annotated[float | None, Field(description="up to where the diagnosis looked")] = None

@@ -4,7 +4,7 @@ Columns are computed once per candidate and belief; a scan over all causes, join
 matrix products.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -152,18 +152,34 @@ class Bench:
                 candidate = self._refined(under, candidate, name)
         return candidate
 
-    def residual(self, under: Hypothesis) -> JointSeries:
-        """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N."""
+    def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
+        """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N.
+
+        Parameters
+        ----------
+        without
+            Places of members whose torque is left out of the prediction, all else kept as it is.
+        """
         rows = extended(self.everywhere, self.columns(under.members))
-        return np.column_stack([one.missed(under.fit.values) for one in rows])
+        values = under.fit.values.copy()
+        for place in without:
+            values[under.columns_of(place)] = 0.0
+        return np.column_stack([one.missed(values) for one in rows])
 
     def unseen_rise(self, now: Hypothesis, trial: Hypothesis) -> float:
-        """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise."""
+        """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise.
+
+        What was believed beforehand was not seen by either: by how much less the larger hypothesis departs
+        from it counts like rows, in proportion to those that are held out.
+        """
+        share = self.unseen_share(trial) if self.belief else 0.0
         missed = []
         for one in (now, trial):
             rows = extended(self.unseen, self.columns(one.members))
             white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
             missed.append(sum(float(np.sum((w.torque - w.columns @ one.fit.values) ** 2)) for w in white))
+            if self.belief:
+                missed[-1] += share * float(np.sum(self.belief.missed(one.fit.values) ** 2))
         return missed[0] - missed[1]
 
     def unseen_share(self, trial: Hypothesis) -> float:
@@ -224,7 +240,8 @@ class Bench:
         return float(step / np.sqrt(drop)) if drop > 0.0 else float("inf")
 
     def _grid(self, candidate: Candidate) -> list[Candidate]:
-        return [one for one in self._candidates if one.key == candidate.key] or [candidate]
+        same = (candidate.cause, candidate.site)
+        return [one for one in self._candidates if (one.cause, one.site) == same] or [candidate]
 
     def _rows(self, under: Hypothesis) -> tuple[JointRows, ...]:
         return extended(self.base, self.columns(under.members))

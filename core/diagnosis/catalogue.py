@@ -11,6 +11,7 @@ from core.diagnosis.causes.encoder_offset import EncoderOffset
 from core.diagnosis.causes.encoder_quantization import EncoderQuantization
 from core.diagnosis.causes.external_contact import ExternalContact
 from core.diagnosis.causes.friction_asymmetric import FrictionAsymmetric
+from core.diagnosis.causes.friction_change import FrictionChange
 from core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
 from core.diagnosis.causes.friction_position_dependent import FrictionPositionDependent
 from core.diagnosis.causes.friction_presliding import FrictionPresliding
@@ -21,6 +22,7 @@ from core.diagnosis.causes.gravity_misalignment import GravityMisalignment
 from core.diagnosis.causes.joint_coupling import JointCoupling
 from core.diagnosis.causes.joint_elasticity import JointElasticity
 from core.diagnosis.causes.kinematic_error import KinematicError
+from core.diagnosis.causes.link_parameters import LinkParameters
 from core.diagnosis.causes.payload_change import PayloadChange
 from core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
 from core.diagnosis.causes.spring_compensator import SpringCompensator
@@ -64,10 +66,16 @@ CAUSES: tuple[Cause, ...] = (
 )
 """Causes that add torque."""
 
+CHANGES: tuple[Cause, ...] = (PayloadChange(throughout=True), LinkParameters(), FrictionChange())
+"""Causes that show only against a reference: without one the base parameters absorb them."""
+
+AGAINST_REFERENCE: tuple[Cause, ...] = (*CHANGES, *CAUSES)
+"""Causes that add torque to what a reference predicts."""
+
 RAW_CAUSES: tuple[RawCause, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
 """Causes that show in the raw samples."""
 
 BY_ID: Mapping[str, Cause | RawCause] = {
-    **{one.id: one for one in CAUSES},
+    **{one.id: one for one in AGAINST_REFERENCE},
     **{one.id: one for one in RAW_CAUSES},
 }

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
+from scipy.sparse.linalg import spsolve_triangular
 
 from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.free import Free, free_of, independent
@@ -54,6 +55,12 @@ class JointRows:
         """Give what the columns leave over, less what the free ones take."""
         left = self.torque - self.columns @ values
         return self.free.cleared(left[:, None])[:, 0]
+
+    def missed_under(self, values: Weights, white: "Whitened") -> Vector:
+        """Give the same, what the free columns take being judged under a noise and not row by row."""
+        left = white.whitening @ (self.torque - self.columns @ values)
+        cleared = white.free.cleared(left[:, None])[:, 0]
+        return np.asarray(spsolve_triangular(white.whitening, cleared, lower=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,7 +242,10 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
     for joint in touched:
         rows = joints[joint]
         parts[joint] = whitened(
-            rows, learn_noise(rows.missed(found.values), rows.place, taken=_taken(rows, joints))
+            rows,
+            learn_noise(
+                rows.missed_under(found.values, found.joints[joint]), rows.place, taken=_taken(rows, joints)
+            ),
         )
     return _solved(tuple(parts), found.belief)
 

@@ -7,13 +7,14 @@ Problems (1996), ch. 6 (banded normal equations) and 2.4 (repeated orthogonalisa
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import cho_solve_banded, cholesky_banded
 from scipy.linalg.lapack import dpstrf
 from scipy.sparse import csr_array
 
-from core.arrays import Matrix
+from core.arrays import Matrix, Vector
 
 LEAST = 1e-6
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
@@ -64,25 +65,40 @@ def free_of(columns: csr_array) -> Free:
     return Free(scaled, turned, cholesky_banded(banded, lower=True) if banded.size else banded)
 
 
-def independent(columns: Matrix) -> csr_array:
+def independent(columns: csr_array) -> csr_array:
     """Keep those columns that are neither nothing nor spanned by others, in the order they came in.
 
     Stretches of rest that touch share samples, and so do their polynomials, exactly.
 
     Examples
     --------
-    >>> independent(np.array([[1.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]])).toarray().shape
+    >>> independent(csr_array(np.array([[1.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]]))).toarray().shape
     (2, 2)
     """
-    sparse = csr_array(columns[:, np.linalg.norm(columns, axis=0) > LEAST])
-    if not sparse.shape[1]:
-        return sparse
-    scaled = _scaled(sparse)
-    _, order, rank, _ = dpstrf((scaled.T @ scaled).toarray(), tol=LEAST**2, lower=1)
-    return sparse[:, np.sort(order[:rank] - 1)]
+    acting = columns[:, _sizes(columns) > LEAST]
+    scaled = _scaled(acting)
+    gram = (scaled.T @ scaled).tocsr()
+    kept = []
+    for begin, end in _apart(gram):
+        _, order, rank, _ = dpstrf(gram[begin:end, begin:end].toarray(), tol=LEAST**2, lower=1)
+        kept.append(begin + np.sort(order[:rank] - 1))
+    return acting[:, np.concatenate(kept)] if kept else acting
+
+
+def _apart(gram: csr_array) -> list[tuple[int, int]]:
+    """Cut columns, in the order of time, into groups that share no row with each other."""
+    if not gram.nnz:
+        return []
+    furthest = np.maximum.accumulate(np.maximum.reduceat(gram.indices, gram.indptr[:-1]))
+    ends = 1 + np.flatnonzero(furthest == np.arange(len(furthest)))
+    return list(pairwise([0, *ends.tolist()]))
 
 
 def _scaled(columns: csr_array) -> csr_array:
     """Give columns of unit size."""
-    size = np.sqrt(np.bincount(columns.indices, columns.data**2, minlength=columns.shape[1]))
-    return csr_array((columns.data / size[columns.indices], columns.indices, columns.indptr), columns.shape)
+    scaled = columns.data / _sizes(columns)[columns.indices]
+    return csr_array((scaled, columns.indices, columns.indptr), columns.shape)
+
+
+def _sizes(columns: csr_array) -> Vector:
+    return np.sqrt(np.bincount(columns.indices, columns.data**2, minlength=columns.shape[1]))

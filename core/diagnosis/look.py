@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.sparse import block_diag, csr_array
 
 from core.arrays import Indices, JointMask, JointSeries, Samples
-from core.diagnosis.piece import pieces_of
-from core.diagnosis.sticking import beside
+from core.diagnosis.piece import pieces_of, thinning
 from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
@@ -30,6 +30,7 @@ from core.signals.state import MotionState
 BAND_OVER_MOTION = 40.0
 RATE_OVER_BAND = 12.0
 POSITION_OVER_BAND = 3.0
+ROWS_OVER_BAND = 2.5
 ORDER = 2
 """A gentle filter: what happens at a reversal rings on for one period of the cut-off, not for three."""
 LONGEST_SECONDS = 120.0
@@ -71,7 +72,7 @@ class Look:
     clear: JointMask
     held_out: np.ndarray
     state: MotionState
-    sticking: tuple[np.ndarray, ...]
+    sticking: tuple[csr_array, ...]
     band_hz: float
     motion_band_hz: float
 
@@ -175,7 +176,8 @@ def look_at(
         held_out=np.isin(log * blocks + block, sorted(keys)),
         state=_joined([part.state for part in parts]),
         sticking=tuple(
-            beside([part.sticking[joint] for part in parts]) for joint in range(len(model.robot.joints))
+            block_diag([part.sticking[joint] for part in parts], format="csr")
+            for joint in range(len(model.robot.joints))
         ),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
@@ -183,13 +185,15 @@ def look_at(
 
 
 def _options(log: JointLog, width: float) -> FilterOptions:
-    """Choose the band of a diagnosis from the motion's own."""
+    """Choose the band of a diagnosis from the motion's own, and rows that fall on thinned states."""
     band = choose_recipe(log, FilterOptions()).motion_band_hz
     cutoff = min(width * band, log.rate_hz / RATE_OVER_BAND)
+    thin = thinning(log.rate_hz, cutoff)
     return FilterOptions(
         cutoff_hz=cutoff,
         position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
         order=ORDER,
+        decimation=thin * int(log.rate_hz / (ROWS_OVER_BAND * cutoff) / thin),
     )
 
 

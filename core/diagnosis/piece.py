@@ -7,6 +7,7 @@ there the sign of a measured velocity is not the direction of friction.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from core.arrays import Indices, JointMask
 from core.diagnosis.sticking import resting, sticking
@@ -36,7 +37,7 @@ class Piece:
     usable: np.ndarray
     clear: np.ndarray
     state: MotionState
-    sticking: tuple[np.ndarray, ...]
+    sticking: tuple[csr_array, ...]
 
 
 def pieces_of(number: int, motion: Motion, robot: RobotModel, share: float) -> list[Piece]:
@@ -60,7 +61,7 @@ def _piece(
 ) -> Piece:
     recipe = motion.recipe
     tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
-    thin = _thinning(recipe.decimation, segment.rate_hz, recipe.cutoff_hz)
+    thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
     begin = tile.first % thin
     state = _thinned(tile.state, slice(begin, None, thin))
     response = tile.parallel.response
@@ -83,13 +84,15 @@ def _piece(
     )
 
 
-def _thinning(decimation: int, rate_hz: float, cutoff_hz: float) -> int:
-    lowest = STATE_OVER_BAND * cutoff_hz
-    return max(
-        step
-        for step in range(1, decimation + 1)
-        if decimation % step == 0 and (step == 1 or rate_hz / step >= lowest)
-    )
+def thinning(rate_hz: float, cutoff_hz: float) -> int:
+    """Say which of a log's samples are states: every n-th.
+
+    Examples
+    --------
+    >>> thinning(1000.0, 20.0)
+    6
+    """
+    return max(1, int(rate_hz / (STATE_OVER_BAND * cutoff_hz)))
 
 
 def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:

@@ -7,8 +7,9 @@ right beside a reversal stays evidence. Source: Frisch & Waugh 1933, for columns
 """
 
 import numpy as np
+from scipy.sparse import csr_array
 
-from core.arrays import JointVector
+from core.arrays import JointVector, Series
 from core.diagnosis.stretch import Stretch
 from core.dynamics.terms.coupling import motor_speed
 from core.dynamics.terms.effect import step_of
@@ -31,28 +32,22 @@ def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.nda
     return marks
 
 
-def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[np.ndarray, ...]:
+def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_array, ...]:
     """Give, per joint, filtered columns for the friction of every stretch of time in which it rests."""
     band = band_hz * step_of(stretch.state)
-    out = []
-    for joint in range(marks.shape[1]):
-        series = [
-            row for begin, end in _runs(marks[:, joint]) for row in _polynomials(begin, end, len(marks), band)
-        ]
-        rows = np.array(series).reshape(-1, len(marks))
-        out.append(stretch.filtered(rows).T if len(rows) else np.zeros((stretch.kept, 0)))
-    return tuple(out)
+    return tuple(_columns(stretch, _runs(marks[:, joint]), band) for joint in range(marks.shape[1]))
 
 
-def beside(parts: list[np.ndarray]) -> np.ndarray:
-    """Put columns of different stretches beside each other, each on its own rows."""
-    rows, columns = (sum(part.shape[axis] for part in parts) for axis in (0, 1))
-    out = np.zeros((rows, columns))
-    row = column = 0
-    for part in parts:
-        out[row : row + part.shape[0], column : column + part.shape[1]] = part
-        row, column = row + part.shape[0], column + part.shape[1]
-    return out
+def _columns(stretch: Stretch, runs: list[tuple[int, int]], band: float) -> csr_array:
+    rows, values = [np.zeros(0, dtype=int)], [np.zeros(0)]
+    ends = [0]
+    for begin, end in runs:
+        low, part = stretch.filtered_part(_polynomials(begin, end, band), begin)
+        rows.append(np.tile(np.arange(low, low + part.shape[1]), len(part)))
+        values.append(part.ravel())
+        ends += [ends[-1] + part.shape[1] * (number + 1) for number in range(len(part))]
+    by_column = csr_array((np.concatenate(values), np.concatenate(rows), ends), (len(ends) - 1, stretch.kept))
+    return by_column.T.tocsr()
 
 
 def _rests(velocity: np.ndarray, still: np.ndarray) -> np.ndarray:
@@ -81,8 +76,7 @@ def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
     ]
 
 
-def _polynomials(begin: int, end: int, samples: int, band: float) -> list[np.ndarray]:
+def _polynomials(begin: int, end: int, band: float) -> Series:
     count = min(end - begin, 2 + int(np.ceil(SHAPES * band * (end - begin))))
-    rows = np.zeros((count, samples))
-    rows[:, begin:end] = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1).T
-    return list(rows)
+    shapes = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1)
+    return np.ascontiguousarray(shapes.T)

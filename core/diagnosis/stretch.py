@@ -34,3 +34,15 @@ class Stretch:
     def filtered(self, series: Series) -> KeptSeries:
         """Filter series of this stretch and keep its instants."""
         return self.parallel.apply(np.ascontiguousarray(series), self.first, self.kept)
+
+    def filtered_part(self, series: Series, begin: int) -> tuple[int, KeptSeries]:
+        """Filter series that begin at a sample of this stretch and are zero before and beyond.
+
+        Give the first kept instant that sees them, and what all those that do keep.
+        """
+        parallel, end = self.parallel, begin + series.shape[1]
+        low = -(-(begin - parallel.reach - self.first) // parallel.decimation)
+        high = (end - 1 + parallel.reach - self.first) // parallel.decimation + 1
+        low, high = (min(max(one, 0), self.kept) for one in (low, high))
+        first = self.first + low * parallel.decimation - begin
+        return low, parallel.apply(series, first, high - low)

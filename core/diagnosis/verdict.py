@@ -12,7 +12,7 @@ import numpy as np
 from core.arrays import JointSeries
 from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
-from core.diagnosis.catalogue import CAUSES, RAW_CAUSES
+from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
 from core.diagnosis.confidence import confidence
 from core.diagnosis.curve import curve
 from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Verdict
@@ -20,6 +20,7 @@ from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.raw import RawCause, RawFinding
+from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share
 from core.diagnosis.rivals import Standing, weighed
@@ -38,7 +39,7 @@ UNEXPLAINED_SHARE = 0.03
 
 @dataclass(frozen=True, eq=False)
 class Question:
-    """Ask what is missing from a model.
+    """Ask what is missing from a model, or what has changed since a reference.
 
     Attributes
     ----------
@@ -46,12 +47,15 @@ class Question:
         The model and its base columns.
     held_out, blocks
         Blocks of every log that no fit may see, and how many blocks a log has.
+    reference
+        What the logs are compared with; None to identify the model from the logs first.
     """
 
     plan: ColumnPlan
     logs: tuple[JointLog, ...]
     held_out: frozenset[BlockKey]
     blocks: int
+    reference: Reference | None = None
 
     @property
     def model(self) -> DynamicModel:
@@ -70,18 +74,20 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     tell = progress or _say_nothing
     raw, look = _looked(question)
     tell("search", 0.1)
-    bench = Bench(look, question.plan, CAUSES, look.usable & ~look.held_out[:, None])
+    bench = _bench(question, look)
     searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
     tell("weigh rivals", 0.6)
     selection, standings = weighed(bench, searched)
-    before, after = bench.residual(selection.none), bench.residual(selection.chosen)
+    chosen, everyone = selection.chosen, range(len(selection.chosen.members))
+    after = bench.residual(chosen)
+    before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
     found = [
-        _finding(bench, selection, place, one, (bench.residual(one.without), after))
+        _finding(bench, selection, place, one, (_without(bench, chosen, place, one), after))
         for place, one in enumerate(standings)
     ]
     found += raw
     tell("learn what is left", 0.8)
-    noise = tuple(one.noise for one in selection.chosen.fit.joints)
+    noise = tuple(one.noise for one in chosen.fit.joints)
     predictable = predictable_share(look, after, bench.believed, noise)
     tell("lay out", 0.95)
     return Diagnosis(
@@ -96,6 +102,14 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         residual_before=before,
         residual_after=after,
     )
+
+
+def _bench(question: Question, look: Look) -> Bench:
+    """Lay out what is suspected, and what is believed beforehand."""
+    mask, reference = look.usable & ~look.held_out[:, None], question.reference
+    if reference is None:
+        return Bench(look, question.plan, CAUSES, mask)
+    return Bench(look, question.plan, AGAINST_REFERENCE, mask, reference.belief)
 
 
 def _looked(question: Question) -> tuple[list[Finding], Look]:
@@ -116,6 +130,11 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
     wide, believed, _ = looks[0]
     raw = [_raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
     return raw, look
+
+
+def _without(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> JointSeries:
+    """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
+    return bench.residual(own.without) if bench.belief is None else bench.residual(chosen, (place,))
 
 
 def _finding(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector
+from core.arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
 from core.estimate.system import System, column_scale
 from core.regressor.memory import LaggedProducts
 
@@ -54,6 +54,18 @@ class Precision:
         """
         deviation = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         return np.where(self.open_share > 1e-6, np.inf, deviation)
+
+    @property
+    def root(self) -> Matrix:
+        """Give rows that turn an error of the base parameters into independent ones of unit variance.
+
+        Directions that the motion does not excite have none.
+        """
+        scale, values, vectors = _excited(self.information)
+        own, turned = np.linalg.eigh(vectors.T @ (self.spread / np.outer(scale, scale)) @ vectors)
+        sure = np.maximum(own, _RANK_TOLERANCE**2 * max(float(own.max(initial=0.0)), 1e-300))
+        rows = (turned / np.sqrt(sure)).T * values @ vectors.T * scale
+        return np.asarray(np.linalg.qr(rows, mode="r"))
 
 
 def assess(
@@ -134,12 +146,18 @@ def subset(precision: Precision, chosen: Indices, triangle: Matrix) -> Precision
 
 def _sandwich(information: SquareMatrix, spread: SquareMatrix) -> SquareMatrix:
     """Give A^-1 B A^-1 within the directions in which A is not zero."""
+    scale, values, vectors = _excited(information)
+    root = vectors / values @ vectors.T / np.outer(scale, scale)
+    return np.asarray(root @ spread @ root)
+
+
+def _excited(information: SquareMatrix) -> tuple[Weights, Weights, Matrix]:
+    """Give the columns' sizes, and eigenvalues and -vectors of what remains, without those that are zero."""
     size = np.sqrt(np.diag(information))
     scale = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
     excited = values > _RANK_TOLERANCE**2 * values[-1]
-    root = vectors[:, excited] / values[excited] @ vectors[:, excited].T / np.outer(scale, scale)
-    return np.asarray(root @ spread @ root)
+    return scale, values[excited], vectors[:, excited]
 
 
 def _open_share(triangle: Matrix) -> Vector:

@@ -1,13 +1,14 @@
-"""Suspect that a body was fixed to the last link or taken off it, at some instant or before the log began."""
+"""Suspect that a body was fixed to a link or taken off it, at some instant or since the reference."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
-from core.diagnosis.causes.sites import end_links
+from core.diagnosis.causes.bodies import MASS, body_of, is_body
+from core.diagnosis.causes.common import NOTHING, OwnJointCause, named, shown
+from core.diagnosis.causes.sites import end_links, links_by_joint
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -16,7 +17,6 @@ from core.robot.parameters import INERTIAL_SYMBOLS
 
 INSTANTS = 12
 HEAVIEST = 500.0
-_MASS = INERTIAL_SYMBOLS.index("M")
 _FIRST = INERTIAL_SYMBOLS.index("MX")
 
 
@@ -24,12 +24,20 @@ _FIRST = INERTIAL_SYMBOLS.index("MX")
 class PayloadChange(OwnJointCause):
     """Suspect a payload.
 
-    A body that was there throughout is one of the instants scanned: against a reference it shows, and where
-    everything was identified anew it is part of the last link and cannot.
+    A body that was there throughout shows only against a reference: where everything was identified anew it
+    is part of the last link.
+
+    Attributes
+    ----------
+    throughout
+        Whether the body was there from before the log's begin to its end, on any link; if not, it came or
+        went at an instant that is scanned, on a link that carries no other.
     """
 
+    throughout: bool = False
+
     id = "payload_change"
-    title = "A body was attached to or taken off the last link"
+    title = "A body was attached to or taken off a link"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))
     confusions = (
@@ -43,44 +51,55 @@ class PayloadChange(OwnJointCause):
             "a push that lasts to the log's end looks like a weight, until the arm accelerates",
             "move quickly after the change: only a body has inertia",
         ),
+        Confusion(
+            "link_parameters",
+            "against a reference, a link that is heavier than there is a body on it",
+            "weigh the link, or look whether something is fixed to it",
+        ),
     )
     experiment = "the same motion of all joints before and after the change, at least five seconds each"
     coordinate = "time"
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
-        """List the joints of links that carry no other."""
+        """List the joints of the links that may carry it; several logs have no instant in common."""
         del believed
-        return [(joint,) for joint in end_links(look.robot)]
+        return [(joint,) for joint in self._links(look)] if self.throughout or len(look.motions) == 1 else []
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the instant, the log's first one included; several logs have no instant in common."""
+        """Scan the instant, where there is one."""
         del believed, site
-        first, last = float(look.time.min()), float(look.time.max())
-        count = INSTANTS if len(look.motions) == 1 else 1
-        return [{"time": float(value)} for value in np.linspace(first, last, count, endpoint=False)]
+        if self.throughout:
+            return NOTHING
+        instants = np.linspace(look.time.min(), look.time.max(), INSTANTS, endpoint=False)[1:]
+        return [{"time": float(value)} for value in instants]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         del believed
-        return Payload(site[0], end_links(look.robot)[site[0]], scalars["time"])
+        return Payload(site[0], self._links(look)[site[0]], scalars.get("time", -np.inf))
 
     def possible(self, solved: Solved) -> bool:
-        """Want a mass that an arm may carry; whether the body can exist is for the estimate to see to."""
-        return bool(np.isfinite(solved.values).all() and abs(solved.values[_MASS]) < HEAVIEST)
+        """Want a mass that an arm may carry and, where all ten parameters are well known, a body."""
+        light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < HEAVIEST)
+        return light and (not self.throughout or is_body(solved.values, solved.covariance))
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report mass (negative: taken off), mass centre in the link's frame, and instant."""
-        joint, mass = solved.site[0], float(solved.values[_MASS])
+        body = body_of(solved.values, solved.covariance)[0] if self.throughout else solved.values
+        joint, mass = solved.site[0], float(body[MASS])
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
-        found = [Quantity("mass", joint, "kg", mass, float(deviations[_MASS]))]
+        found = [Quantity("mass", joint, "kg", mass, float(deviations[MASS]))]
         for place, axis in enumerate("xyz", start=_FIRST):
-            centre = float(solved.values[place]) / mass
-            slope = np.zeros(len(solved.values))
-            slope[place], slope[_MASS] = 1.0 / mass, -centre / mass
+            centre = float(body[place]) / mass
+            slope = np.zeros(len(body))
+            slope[place], slope[MASS] = 1.0 / mass, -centre / mass
             deviation = float(np.sqrt(max(slope @ solved.covariance @ slope, 0.0)))
             found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))
-        time = solved.scalars["time"]
-        return (*found, Quantity("time", None, "s", time, solved.deviations.get("time", 0.0)))
+        when = [
+            Quantity("time", None, "s", time, solved.deviations.get("time", 0.0))
+            for time in solved.scalars.values()
+        ]
+        return (*found, *when)
 
     def statement(self, solved: Solved) -> str:
         """Say what mass, where and since when."""
@@ -89,6 +108,12 @@ class PayloadChange(OwnJointCause):
         word = "carries" if found["mass"].value > 0.0 else "has lost"
         mass = Quantity("mass", None, "kg", abs(found["mass"].value), found["mass"].standard_deviation)
         return (
-            f"The link of joint {solved.site[0]} {word} {shown(mass)} since {found['time'].value:.3g} s, "
+            f"The link of joint {solved.site[0]} {word} {shown(mass)} since {self._since(found)}, "
             f"centred at ({centre}) m in its frame"
         )
+
+    def _links(self, look: Look) -> dict[int, int]:
+        return links_by_joint(look.robot) if self.throughout else end_links(look.robot)
+
+    def _since(self, found: Mapping[str, Quantity]) -> str:
+        return "the reference" if self.throughout else f"{found['time'].value:.3g} s"

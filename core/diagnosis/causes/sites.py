@@ -20,3 +20,9 @@ def end_links(robot: RobotModel) -> dict[int, int]:
         for number, link in enumerate(robot.links, start=1)
         if number not in carriers and link.ratio == 1.0
     }
+
+
+def links_by_joint(robot: RobotModel) -> dict[int, int]:
+    """Give the first link (from 1) of every joint that it follows one to one, by the joint."""
+    numbered = list(enumerate(robot.links, start=1))
+    return {link.joint: number for number, link in reversed(numbered) if link.ratio == 1.0}

@@ -27,7 +27,7 @@ class Payload(AllJointsTerm):
     link: int
     begin: float
     symbols: ClassVar[tuple[Symbol, ...]] = tuple(
-        (symbol, INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
+        (f"payload_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
     )
     kind: ClassVar[str] = "payload_change"
 

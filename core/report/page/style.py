@@ -71,6 +71,8 @@ code { overflow-wrap: anywhere; }
     --model: #c2410c; --one: #0a5ea8; --two: #7c3aed; --bad: #b3261e; --good: #1a7f45; }
   body { font-size: 10.5pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
+  table { font-size: 8pt; }
+  th, td { padding-right: .6rem; }
   .key { grid-template-columns: repeat(4, 1fr); }
   .pair { grid-template-columns: repeat(2, 1fr); }
   figure, tr, .key { break-inside: avoid; }

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import block_diag
+from scipy.sparse import csr_array
 
 from core.diagnosis.equations import Columns, JointRows, extended, joint_rows
 from core.diagnosis.look import Look
@@ -37,8 +38,8 @@ class Equations:
         self.free = smooth(rng, self.count, free)
         torque = np.column_stack([one @ BASE for one in self.base]) + noise + effect
         torque[:, 1] += self.free @ np.arange(1.0, free + 1.0)
-        none = np.zeros((self.count, 0))
-        self.look: Look = replace(look, torque=torque, sticking=(none, self.free, none))
+        none = csr_array((self.count, 0))
+        self.look: Look = replace(look, torque=torque, sticking=(none, csr_array(self.free), none))
         self.joints: tuple[JointRows, ...] = self.again()
 
     def again(self) -> tuple[JointRows, ...]:

@@ -94,7 +94,7 @@ def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
     law(Equations())
 
     def without_standstill(look, columns, mask):
-        bare = tuple(np.zeros((len(look.time), 0)) for _ in range(look.joints))
+        bare = tuple(csr_array((len(look.time), 0)) for _ in range(look.joints))
         return joint_rows(replace(look, sticking=bare), columns, mask)
 
     monkeypatch.setattr(equations_world, "joint_rows", without_standstill)

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 
 from app.schemas.results import ResultDocument
 from core.log.reader import log_from_arrays
@@ -27,6 +28,27 @@ def document():
 def test_the_document_is_json_and_follows_the_contract(document):
     ResultDocument.model_validate_json(json.dumps(document, allow_nan=False))
     assert document["kind"] == "diagnose"
+
+
+def unnamed(model, place=""):
+    """List the fields of an answer that its contract does not name."""
+    inside = {name: getattr(model, name) for name in type(model).model_fields}
+    found = [f"{place}/{name}" for name in model.model_extra or {}]
+    for name, value in inside.items():
+        for one in value if isinstance(value, list) else [value]:
+            if isinstance(one, BaseModel):
+                found += unnamed(one, f"{place}/{name}")
+    return found
+
+
+def test_the_contract_names_every_field_of_a_diagnosis(document):
+    diagnosis = ResultDocument.model_validate_json(json.dumps(document)).diagnosis
+    assert unnamed(diagnosis) == []
+    assert unnamed(
+        diagnosis.model_copy(
+            update={"gain": [diagnosis.gain[0].model_validate(diagnosis.gain[0].model_dump() | {"luck": 1})]}
+        )
+    ) == ["/gain/luck"]
 
 
 def test_the_cause_is_named_with_its_size(document):

@@ -1,0 +1,54 @@
+"""Suspect that a joint's friction or offset is no longer that of the reference: wear, grease, cold, a service."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, shown
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.coulomb import Coulomb
+from core.dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
+
+WORDS = {"delta_viscous": "viscous friction", "delta_coulomb": "Coulomb friction", "delta_offset": "offset"}
+
+
+@dataclass(frozen=True)
+class FrictionChange(OwnJointCause):
+    """Suspect friction that has changed since the reference."""
+
+    id = "friction_change"
+    title = "Friction has changed since the reference"
+    units = (("delta_viscous", "N m s/rad"), ("delta_coulomb", "N m"), ("delta_offset", "N m"))
+    confusions = (
+        Confusion(
+            "torque_gain",
+            "a channel that reads too much shows more of the joint's friction too",
+            "pass the same postures slowly in both directions: friction changes its sign, the load does not",
+        ),
+        Confusion(
+            "friction_temperature",
+            "friction that falls while the joint warms up is another friction than the reference's",
+            "repeat the motion after an hour of warming up",
+        ),
+        Confusion(
+            "torque_offset_drift",
+            "an offset that drifts is on average another offset",
+            "record for longer: a drift goes on",
+        ),
+    )
+    experiment = "constant-speed moves of this joint at three speeds or more, each in both directions"
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns, smoothed as the believed model's are."""
+        del look, scalars
+        widths = next((one.widths for one in believed.model.terms if isinstance(one, Coulomb)), ())
+        return FrictionChangeTerm(site[0], widths[site[0] - 1] if widths else 0.0)
+
+    def statement(self, solved: Solved) -> str:
+        """Say what has changed by how much; what hardly has is not worth a word."""
+        found = self.quantities(solved)
+        clear = [one for one in found if abs(one.value) > 2.0 * one.standard_deviation]
+        told = clear or [max(found, key=lambda one: abs(one.value) / max(one.standard_deviation, 1e-300))]
+        changes = " and ".join(f"{WORDS[one.name]} by {shown(one)}" for one in told)
+        return f"Joint {solved.site[0]}'s friction differs from the reference's: {changes}"

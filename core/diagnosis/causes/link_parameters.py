@@ -1,0 +1,68 @@
+"""Suspect that the reference has a link's inertial parameters wrong, in a way that no added body explains."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.bodies import is_body
+from core.diagnosis.causes.common import OwnJointCause, shown
+from core.diagnosis.causes.sites import links_by_joint
+from core.diagnosis.look import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.link_change import LinkChange
+from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+
+TOLD = 3
+"""Numbers that a sentence bears."""
+
+
+@dataclass(frozen=True)
+class LinkParameters(OwnJointCause):
+    """Suspect all ten parameters of a link."""
+
+    id = "link_parameters"
+    title = "The reference has a link's inertial parameters wrong"
+    cure = "robot"
+    units = tuple((f"delta_{symbol}", INERTIAL_UNITS[symbol]) for symbol in INERTIAL_SYMBOLS)
+    confusions = (
+        Confusion(
+            "payload_change",
+            "where the difference may be a body, a body is what it is called",
+            "weigh the link, or look whether something is fixed to it",
+        ),
+        Confusion(
+            "torque_gain",
+            "the last joints' channels feel little but this link: their scale is its size",
+            "repeat the motion with a weighed payload",
+        ),
+    )
+    experiment = "quick motion of all joints at once through postures in which this link hangs and lies"
+    coordinate = "position"
+
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List the joints with a link of their own."""
+        del believed
+        return [(joint,) for joint in links_by_joint(look.robot)]
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del believed, scalars
+        return LinkChange(site[0], links_by_joint(look.robot)[site[0]])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a difference that is neither a body nor minus one: such a one is a payload."""
+        return super().possible(solved) and not is_body(solved.values, solved.covariance)
+
+    def statement(self, solved: Solved) -> str:
+        """Say which of the ten are furthest from the reference, in units of how well they are known."""
+        clear = sorted(self.quantities(solved), key=_clearness, reverse=True)[:TOLD]
+        told = [one for one in clear if _clearness(one) > 2.0] or clear[:1]
+        changes = ", ".join(f"{one.name.removeprefix('delta_')} by {shown(one)}" for one in told)
+        return f"The link of joint {solved.site[0]} is not the reference's: {changes}"
+
+
+def _clearness(one: Quantity) -> float:
+    return float(np.abs(one.value) / max(one.standard_deviation, 1e-300))

@@ -1,0 +1,41 @@
+"""Give what a joint's friction and offset add where they are not those of the believed model.
+
+All three columns stand in the standard model too; apart from them they can be told only where the model's own
+are known beforehand. Source: Bittencourt & Gunnarsson 2012, on friction that changes between two runs.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from core.arrays import Samples
+from core.dynamics.terms.coulomb import direction
+from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionChange(OneJointTerm):
+    """Model a change of viscous and Coulomb friction and of the offset.
+
+    Attributes
+    ----------
+    width
+        Over which the sign of velocity is smoothed, rad/s or m/s; 0 for the plain sign.
+    """
+
+    width: float = 0.0
+    symbols: ClassVar[tuple[Symbol, ...]] = (
+        ("delta_viscous", "N m s/rad", None),
+        ("delta_coulomb", "N m", None),
+        ("delta_offset", "N m", None),
+    )
+    kind: ClassVar[str] = "friction_change"
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give velocity, its sign, and one."""
+        del robot
+        velocity = state.velocity[:, self.joint - 1]
+        return [velocity, direction(velocity, self.width), np.ones_like(velocity)]

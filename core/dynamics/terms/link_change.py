@@ -1,0 +1,30 @@
+"""Give what a link adds whose inertial parameters are not those of the believed model.
+
+The ten columns stand in the standard model too, alone or grouped; apart from them they can be told only where
+the model's own parameters are known beforehand. Source: Khalil & Dombre (2002), ch. 9.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from core.arrays import JointSeries
+from core.dynamics.terms.effect import AllJointsTerm, Symbol
+from core.dynamics.terms.payload import body_torques
+from core.robot.model import RobotModel
+from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from core.signals.state import MotionState
+
+
+@dataclass(frozen=True, eq=False)
+class LinkChange(AllJointsTerm):
+    """Model a change of all ten parameters of a link (number from 1)."""
+
+    link: int
+    symbols: ClassVar[tuple[Symbol, ...]] = tuple(
+        (f"delta_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
+    )
+    kind: ClassVar[str] = "link_parameters"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the torque per unit of change."""
+        return list(body_torques(robot, self.link, state))
