@@ -20,6 +20,8 @@ NOTHING: frozenset[Key] = frozenset()
 
 LEVEL = 1e-4
 """Chance of naming anything in a log that hides nothing."""
+FURTHER_LEVEL = 1e-7
+"""The same beside another cause: no columns are exact, and what they leave is not luck."""
 TRIED = 8
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
 FITTED_WHOLE = 4
@@ -91,9 +93,13 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
-    hurdle = np.log(LEVEL) - np.log(max(count, 1))
+    hurdle = np.log(FURTHER_LEVEL if now.members else LEVEL) - np.log(max(count, 1))
     likely = sorted(
-        (trial for trial in trials if log_p(now, trial) < hurdle and _share(now, trial) > LEAST_SHARE),
+        (
+            trial
+            for trial in trials
+            if log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial)
+        ),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
@@ -161,6 +167,13 @@ def merit(now: Hypothesis, trial: Hypothesis) -> float:
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
     rows = min(len(one.torque) for one in trial.fit.joints)
     return rise(now, trial) / rows
+
+
+def _least_share(bench: Bench, trial: Hypothesis) -> float:
+    member = trial.members[-1]
+    if not member.cause.like_position_noise:
+        return LEAST_SHARE
+    return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in member.site))
 
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Key]) -> Hypothesis:
