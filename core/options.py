@@ -4,7 +4,8 @@ Kept beside `study` because it names the options of several chapters and belongs
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import starmap
 from typing import cast
 
 from core.dynamics.model import STANDARD_TERMS
@@ -39,6 +40,8 @@ class IdentifyOptions:
         Whether the sign of Coulomb friction is smoothed over widths chosen from the fitted data.
     essential
         Whether only essential base parameters may explain torque.
+    reference
+        What a diagnosis compares the logs with: a job's name or ``prior``; None to identify everything anew.
     """
 
     filter: FilterOptions
@@ -48,6 +51,7 @@ class IdentifyOptions:
     terms: tuple[str, ...] | None = None
     smooth_coulomb: bool = False
     essential: bool = False
+    reference: str | None = None
     given: Mapping[str, object] = field(default_factory=dict)
 
 
@@ -73,7 +77,7 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
 
 
 def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOptions:
-    """Read the options of a diagnosis: an identification's, with more and shorter blocks held out.
+    """Read the options of a diagnosis: an identification's, more and shorter blocks held out, a reference.
 
     Raises
     ------
@@ -86,7 +90,7 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     40
     """
     reader = _Reader("", dict(options or {}))
-    parsed = _parsed(reader, options, DIAGNOSIS_HOLD_OUT)
+    parsed = replace(_parsed(reader, options, DIAGNOSIS_HOLD_OUT), reference=_reference(reader))
     reader.done()
     held = parsed.validation
     if not held.logs and not round(held.fraction * held.blocks):
@@ -96,6 +100,13 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
             remedy="leave validation out, or hold out a fraction of at least one block",
         )
     return parsed
+
+
+def _reference(reader: "_Reader") -> str | None:
+    named, value = reader.values.get("reference") is not None, reader.text("reference", "")
+    if named and not 0 < len(value) <= 200:
+        raise reader.wrong("reference", value, 'null, the id of a finished job, or "prior"')
+    return value or None
 
 
 def _parsed(reader: "_Reader", options: Mapping[str, object] | None, hold_out: HoldOut) -> IdentifyOptions:
@@ -164,13 +175,11 @@ class _Reader:
         return default if value is None else value
 
     def done(self) -> None:
-        if self.values:
+        unknown = [f"{self.path}/{name}".lstrip("/") for name in sorted(self.values)]
+        if unknown:
             raise OptionError(
                 "an option is not known",
-                evidence={
-                    "unknown": [f"{self.path}/{name}".lstrip("/") for name in sorted(self.values)],
-                    "known": sorted(self.known),
-                },
+                evidence={"unknown": unknown, "known": sorted(self.known)},
                 remedy="use the known options only",
             )
 
@@ -200,14 +209,13 @@ def _filter(reader: _Reader) -> FilterOptions:
 
 def _estimate(reader: _Reader) -> EstimateOptions:
     prior = reader.section("prior")
-    bounds = _bounds(reader.section("bounds"))
     parsed = EstimateOptions(
         estimator=reader.text("estimator", "sdp"),
         solver=reader.text("solver", "clarabel"),
         robust=reader.flag("robust", default=False),
         pull=prior.number("pull", PULL),
         entropy=prior.number("entropy", 0.0),
-        bounds=bounds,
+        bounds=_bounds(reader.section("bounds")),
     )
     prior.done()
     return parsed
@@ -216,17 +224,14 @@ def _estimate(reader: _Reader) -> EstimateOptions:
 def _bounds(reader: _Reader) -> Bounds:
     mass = tuple((int(link), low, high) for link, low, high in _rows(reader, "mass", 3))
     total = _rows(reader, "total_mass", 0)
-    boxes = [
-        CentreBox(int(row[0]), _three(row[1:4]), _three(row[4:7])) for row in _rows(reader, "centre_box", 7)
-    ]
-    balls = [
-        CentreEllipsoid(int(row[0]), _three(row[1:4]), _three(row[4:7]))
-        for row in _rows(reader, "centre_ellipsoid", 7)
-    ]
+    boxes, balls = (
+        [(int(k), (a, b, c), (d, e, f)) for k, a, b, c, d, e, f in _rows(reader, name, 7)]
+        for name in ("centre_box", "centre_ellipsoid")
+    )
     parsed = Bounds(
         mass=mass,
         total_mass=(total[0][0], total[0][1]) if total else None,
-        centres=(*boxes, *balls),
+        centres=(*starmap(CentreBox, boxes), *starmap(CentreEllipsoid, balls)),
         margin=reader.number("margin", Bounds().margin),
     )
     reader.done()
@@ -251,10 +256,6 @@ def _rows(reader: _Reader, name: str, width: int) -> list[list[float]]:
         wanted = f"a list of rows of a link's number and {wide - 1} numbers" if width else "a pair of numbers"
         raise reader.wrong(name, value, f"{wanted}, all finite")
     return [[float(one) for one in row] for row in cast("list[list[float]]", rows)]
-
-
-def _three(values: list[float]) -> tuple[float, float, float]:
-    return values[0], values[1], values[2]
 
 
 def _validation(reader: _Reader, default: HoldOut) -> HoldOut:

@@ -4,19 +4,23 @@ This is the only module that meets every chapter; each step takes what the step 
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 
+from core.arrays import Parameters
+from core.diagnosis.belief import Belief
 from core.diagnosis.diagnosis import Diagnosis
+from core.diagnosis.reference import PRIOR, Reference, reference_from_prior
 from core.diagnosis.verdict import Question
 from core.diagnosis.verdict import diagnose as find_causes
-from core.dynamics.model import standard_model
-from core.errors import LogError, VeritorqueError
+from core.dynamics.model import DynamicModel, standard_model
+from core.errors import OptionError, VeritorqueError
 from core.estimate.constraints import default_prior
-from core.estimate.estimate import estimate
+from core.estimate.estimate import estimate, nearest
 from core.estimate.feasibility import active_constraints, feasibility
 from core.estimate.measured import Measured, smoothed, weighted_system
-from core.extension.extend import cures, extended_base, remembers
+from core.estimate.system import System
+from core.extension.extend import cures, extended_base, remembers, sizes
 from core.extension.gain import gains
 from core.log.model import JointLog
 from core.options import IdentifyOptions, parse_diagnose_options, parse_options
@@ -26,12 +30,14 @@ from core.precision.essential import essential_parameters
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import torque_scales
-from core.report.diagnosed import Diagnosed
+from core.report.diagnosed import Compared, Diagnosed
+from core.report.diagnosis_document import diagnosis_document
 from core.report.document import grouping_row, identification_document
+from core.report.earlier import reference_from_document
 from core.report.identification import Identification
 from core.report.numbers import plain
 from core.robot.model import RobotModel
-from core.signals.condition import Motion, condition
+from core.signals.several import condition_all
 from core.simulation.mechanism import mechanism_of
 from core.simulation.multistep import Comparison, compare
 from core.validation.excitation import excitation
@@ -45,11 +51,15 @@ __all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full",
 
 @dataclass(frozen=True, eq=False)
 class IdentifyRequest:
-    """Ask for an identification: a robot, its logs, and options as plain data (see `core.options`)."""
+    """Ask for an identification: a robot, its logs, and options as plain data (see `core.options`).
+
+    `reference` is the result document of the job that the option of that name means, where it means one.
+    """
 
     robot: RobotModel
     logs: tuple[JointLog, ...]
     options: Mapping[str, object] = field(default_factory=dict)
+    reference: Mapping[str, object] | None = None
 
 
 def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
@@ -77,6 +87,39 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     return _identified(request, options, _Fitting(data, base), tell)
 
 
+def check_reference(request: IdentifyRequest) -> None:
+    """Refuse a reference that a robot's logs cannot be compared with; logs are not looked at.
+
+    Raises
+    ------
+    OptionError
+        If it is the result of another robot's log, or options are given that it decides.
+    RobotError
+        If the robot's own bodies are to be compared with and it brings none.
+    """
+    options = parse_diagnose_options(request.options)
+    _earlier(request, options)
+    if options.reference == PRIOR:
+        reference_from_prior(base_model(standard_model(request.robot, options.terms)))
+
+
+def _earlier(request: IdentifyRequest, options: IdentifyOptions) -> Reference | None:
+    """Read the earlier result that logs are compared with; None where they are compared with none."""
+    name = options.reference
+    if name is None or name == PRIOR:
+        return None
+    decided = [one for one in ("terms", "smooth_coulomb") if options.given.get(one)]
+    if decided or request.reference is None:
+        raise OptionError(
+            f"the reference {name} decides the model's {' and '.join(decided)}"
+            if decided
+            else f"the result of the reference {name} is not at hand",
+            evidence={"reference": name, "given": decided},
+            remedy="leave these options out" if decided else "name a finished job",
+        )
+    return reference_from_document(request.reference, request.robot, name)
+
+
 def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
     """Identify a robot, name what the model misses, extend it, and give the result document.
 
@@ -87,8 +130,6 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     """
     found = diagnose_in_full(request, progress)
     options = parse_diagnose_options(request.options).given
-    from core.report.diagnosis_document import diagnosis_document
-
     return diagnosis_document(found, version=_version(), options=options)
 
 
@@ -96,51 +137,64 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     """Identify, diagnose, extend and identify again; give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_diagnose_options(request.options)
-    data, base = _prepared(request, options, tell)
+    reference = _earlier(request, options)
+    data, base = _prepared(request, options, tell, reference)
+    if options.reference == PRIOR:
+        reference = reference_from_prior(base)
     before = _identified(request, options, _Fitting(data, base), lambda stage, done: tell(stage, 0.3 * done))
-    question = Question(data.plan, request.logs, data.held_out, options.validation.blocks)
+    question = Question(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
     found = find_causes(question, lambda stage, done: tell(stage, 0.3 + 0.5 * done))
+    compared = None if reference is None else _compared(reference, before, data)
     terms = cures(found)
     if not terms:
-        return Diagnosed(before, found, None, (), None, "nothing joined the model")
+        return Diagnosed(before, found, None, (), None, "nothing joined the model", compared)
     whole = extended_base(base, terms)
     wider = Measured(ColumnPlan(whole.model, whole.kept), data.motions, data.held_out)
-    sizes = {
-        f"{one.name}{one.joint}": 10.0 * abs(one.value)
-        for finding in found.findings
-        for one in finding.quantities
-    }
-    after = _identified(
-        request, options, _Fitting(wider, whole, sizes), lambda stage, done: tell(stage, 0.8 + 0.15 * done)
-    )
+    fitting = _Fitting(wider, whole, sizes(found), None if reference is None else reference.belief)
+    after = _identified(request, options, fitting, lambda stage, done: tell(stage, 0.8 + 0.15 * done))
     tell("simulate", 0.95)
     held = data.parts(before.observation)[1]
-    gained = gains((before.observation, before.estimate.base), (after.observation, after.estimate.base), held)
-    motion, note = _motion(before, after, found, data)
-    return Diagnosed(before, found, after, gained, motion, note)
+    old = before.estimate if compared is None else compared
+    gained = gains((before.observation, old.base), (after.observation, after.estimate.base), held)
+    motion, note = _motion((base.model, old.standard), after, found, data)
+    return Diagnosed(before, found, after, gained, motion, note, compared)
+
+
+def _compared(reference: Reference, found: Identification, data: Measured) -> Compared:
+    """Let a reference predict the logs as it is."""
+    observation, parts = found.observation, data.parts(found.observation)
+    values = reference.completed(found.estimate.system)
+    believed = replace(found.estimate.prior, centre=reference.standard)
+    fit, held = (
+        (scores(observation, part, values), total_percent(observation, part, values)) for part in parts
+    )
+    return Compared(reference, values, nearest(found.base, values, believed), *fit, *held)
 
 
 def _motion(
-    before: Identification, after: Identification, found: Diagnosis, data: Measured
+    before: tuple[DynamicModel, Parameters], after: Identification, found: Diagnosis, data: Measured
 ) -> tuple[Comparison | None, str]:
     """Simulate the held-out blocks with both models, where neither needs the past."""
     if any(remembers(one, found) for one in found.findings):
         return None, "a finding's torque depends on the motion before the instant, which is not simulated"
     try:
-        old, new = (mechanism_of(one.base.model, one.estimate.standard) for one in (before, after))
+        old, new = mechanism_of(*before), mechanism_of(after.base.model, after.estimate.standard)
         return compare(old, new, data.motions, chosen=data.held_out or None), ""
     except VeritorqueError as error:
         return None, str(error)
 
 
 def _prepared(
-    request: IdentifyRequest, options: IdentifyOptions, tell: Progress
+    request: IdentifyRequest, options: IdentifyOptions, tell: Progress, reference: Reference | None = None
 ) -> tuple[Measured, BaseModel]:
-    """Condition the logs, set blocks aside, and group the model's parameters."""
-    _check_logs(request.logs)
+    """Condition the logs, set blocks aside, and group the model's parameters; a reference has its own."""
     tell("condition", 0.02)
-    motions = _condition(request, options)
+    motions = condition_all(request.logs, request.robot, options.filter, blocks=options.validation.blocks)
     held_out = options.validation.chosen(len(motions))
+    if reference is not None:
+        return Measured(
+            ColumnPlan(reference.base.model, reference.base.kept), motions, held_out
+        ), reference.base
     model = standard_model(request.robot, options.terms)
     if options.smooth_coulomb:
         model = smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
@@ -156,11 +210,16 @@ def _identified(
     observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
     used, system = weighted_system(data, observation, options.estimate)
+    known = fitting.belief
+    inform = _unchanged if known is None else lambda plain: plain.informed(known.rows, known.target)
+    system = inform(system)
     fitted, held = data.parts(observation)
     prior = default_prior(model, torque_scales(observation, fitted), fitting.sizes)
     answer = estimate(base, system, prior, options.estimate)
     tell("assess", 0.7)
-    precision = assess(system, used.memory, used.columns_of, answer.base)
+    precision = assess(
+        system, used.memory, used.columns_of, answer.base, known=None if known is None else known.rows
+    )
     essential = essential_parameters(system, precision)
     if options.essential:
         answer = estimate(base, system, prior, options.estimate, essential=essential.kept)
@@ -170,7 +229,11 @@ def _identified(
         used.columns_of,
         lambda drawn: (
             estimate(
-                base, drawn, prior, options.estimate, essential=essential.kept if options.essential else None
+                base,
+                inform(drawn),
+                prior,
+                options.estimate,
+                essential=essential.kept if options.essential else None,
             ).base
         ),
         draws=options.bootstrap.draws,
@@ -214,34 +277,16 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
 
 @dataclass(frozen=True, eq=False)
 class _Fitting:
-    """Hold a model to be fitted: the data, its base parameters, and sizes known otherwise."""
+    """Hold a model to be fitted: the data, its base parameters, and what is known otherwise."""
 
     data: Measured
     base: BaseModel
     sizes: Mapping[str, float] = field(default_factory=dict)
+    belief: Belief | None = None
 
 
-def _check_logs(logs: tuple[JointLog, ...]) -> None:
-    if not logs:
-        raise LogError("there is no log to identify from", evidence={"logs": 0}, remedy="name at least one")
-    hashes = [log.sha256 for log in logs if log.sha256]
-    if len(set(hashes)) < len(hashes):
-        raise LogError(
-            "the same log is given more than once, and would count as independent data",
-            evidence={"logs": [log.name for log in logs], "different": len(set(hashes))},
-            remedy="name every log once",
-        )
-
-
-def _condition(request: IdentifyRequest, options: IdentifyOptions) -> tuple[Motion, ...]:
-    motions = []
-    for log in request.logs:
-        try:
-            motions.append(condition(log, request.robot, options.filter, blocks=options.validation.blocks))
-        except VeritorqueError as error:
-            error.evidence.setdefault("log", log.name)
-            raise
-    return tuple(motions)
+def _unchanged(system: System) -> System:
+    return system
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

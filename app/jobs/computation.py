@@ -33,12 +33,16 @@ class LogFile:
 
 @dataclass(frozen=True)
 class Computation:
-    """Describe a computation completely: equal computations give equal results."""
+    """Describe a computation completely: equal computations give equal results.
+
+    `reference` is the file of the earlier result that the option of that name means, where it means one.
+    """
 
     kind: str
     robot: Document
     logs: tuple[LogFile, ...]
     options: Document
+    reference: Path | None = None
 
 
 Work = Callable[[Computation, Progress], Document]

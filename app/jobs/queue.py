@@ -1,6 +1,7 @@
 """Accept jobs and let go of them; what cannot succeed is refused at once, in the words of the science."""
 
 from app.jobs import science
+from app.jobs.references import check_reference
 from app.jobs.runner import Runner
 from app.problems import Problem
 from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
@@ -25,10 +26,15 @@ class Queue:
             If the kind or an option does not exist or makes no sense.
         LogError
             If a log has not as many joints as the robot.
+        RobotError
+            If the robot's own bodies are to be compared with and it brings none.
+        Problem
+            If a job that is to be compared with does not exist (422).
         """
         science.check_options(kind, options)
         for log in logs:
             _check_joints(robot, log)
+        check_reference(self._store, kind, robot, options)
         request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
         job = self._store.jobs.add(request)
         self._runner.wake()

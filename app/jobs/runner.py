@@ -10,6 +10,7 @@ import time
 
 from app.jobs.computation import Computation, Failed, Finished, LogFile, Outcome
 from app.jobs.executor import Executor
+from app.jobs.references import reference_file
 from app.jobs.worker import mistake
 from app.problems import Problem, problem_of
 from app.store.records import Document, JobRecord
@@ -129,6 +130,7 @@ class Runner:
             robot=description,
             logs=tuple(self._log_file(identity) for identity in job.request.logs),
             options=job.request.options,
+            reference=reference_file(self._store, job.request.kind, job.request.options),
         )
 
     def _log_file(self, identity: str) -> LogFile:

@@ -4,7 +4,9 @@
 service answers before they are loaded, and a command that prints the contract never loads them.
 """
 
+import json
 from dataclasses import asdict
+from pathlib import Path
 from typing import cast
 
 from app.documents import plain
@@ -102,9 +104,42 @@ def check_options(kind: str, options: Document) -> None:
     from core.options import parse_diagnose_options, parse_options
 
     if kind == "diagnose":
-        parse_diagnose_options(_without_reference(options))
+        parse_diagnose_options(options)
     else:
         parse_options(options)
+
+
+def reference_job(kind: str, options: Document) -> str | None:
+    """Name the job that a request compares its logs with; None where it compares with none.
+
+    Raises
+    ------
+    OptionError
+        If an option does not exist or makes no sense.
+    """
+    if kind != "diagnose":
+        return None
+    from core.diagnosis.reference import PRIOR
+    from core.options import parse_diagnose_options
+
+    name = parse_diagnose_options(options).reference
+    return None if name == PRIOR else name
+
+
+def check_reference(description: Document, options: Document, reference: Path | None) -> None:
+    """Refuse a reference that a robot's logs cannot be compared with.
+
+    Raises
+    ------
+    OptionError
+        If it is the result of another robot's log, or options are given that it decides.
+    RobotError
+        If the robot's own bodies are to be compared with and it brings none.
+    """
+    from core import study
+
+    robot = robot_from_description(description)
+    study.check_reference(study.IdentifyRequest(robot, (), options, _result(reference)))
 
 
 def base_parameters(description: Document) -> Document:
@@ -135,12 +170,10 @@ def compute(computation: Computation, progress: Progress) -> Document:
     logs = tuple(
         read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256) for log in computation.logs
     )
-    document: Document
-    if computation.kind == "diagnose":
-        options = _without_reference(computation.options)
-        document = study.diagnose(study.IdentifyRequest(robot, logs, options), progress)
-    else:
-        document = study.identify(study.IdentifyRequest(robot, logs, computation.options), progress)
+    request = study.IdentifyRequest(robot, logs, computation.options, _result(computation.reference))
+    document: Document = (study.diagnose if computation.kind == "diagnose" else study.identify)(
+        request, progress
+    )
     return document
 
 
@@ -149,6 +182,6 @@ def load() -> None:
     import core.study  # noqa: F401  (the import is the work)
 
 
-def _without_reference(options: Document) -> Document:
-    """Take out a reference that names nothing, which asks what structure is missing."""
-    return {name: value for name, value in options.items() if name != "reference" or value is not None}
+def _result(reference: Path | None) -> Document | None:
+    """Read the result of an earlier job."""
+    return None if reference is None else cast("Document", json.loads(reference.read_bytes()))

@@ -216,6 +216,28 @@ class SearchStep(Open):
     statistic: Annotated[float | None, Field(description="rise of twice the log-likelihood")]
 
 
+class ComparedParameter(Open):
+    """A base parameter as the reference has it, and as it was identified anew."""
+
+    name: str
+    reference: float | None
+    identified: float | None
+
+
+class Reference(Open):
+    """What the logs were compared with."""
+
+    name: Annotated[str, Field(description="the id of a job, or prior")]
+    left_open: Annotated[
+        list[str],
+        Field(description="base parameters of which it tells nothing: they are filled in from the logs"),
+    ]
+    worse_than_nothing: Annotated[
+        list[int], Field(description="joints whose torque it misses by more than there is")
+    ]
+    base_parameters: list[ComparedParameter]
+
+
 class Diagnosis(Open):
     """What the simulation gets wrong, why, what was cured, and what is left."""
 
@@ -223,6 +245,9 @@ class Diagnosis(Open):
     findings: list[Finding]
     not_identifiable: list[NotIdentifiable]
     unexplained: Unexplained
+    reference: Annotated[
+        Reference | None, Field(description="None where everything was identified from the logs first")
+    ] = None
     gain: list[JointGain]
     before: Side
     after: Side

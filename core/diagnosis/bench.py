@@ -10,12 +10,12 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import JointSeries
+from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause, Scalars, Solved
 from core.diagnosis.equations import (
-    Belief,
+    TRIAL_ROUNDS,
     Columns,
     Fit,
-    JointRows,
     extended,
     fit,
     joint_rows,
@@ -106,15 +106,17 @@ class Bench:
         """Fit a hypothesis, learning its noise anew."""
         columns = self.columns(members)
         rows = extended(self.base, columns)
-        noise = None if start is None else tuple(one.noise for one in start.fit.joints)
-        return self._hypothesis(members, columns, fit(rows, noise, belief=self.belief))
+        kept = self.base[0].columns.shape[1]
+        found = fit(rows, belief=self.belief) if start is None else refit(rows, start.fit, kept)
+        return self._hypothesis(members, columns, found)
 
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
         """Fit a hypothesis with one more member, learning its noise anew where the member acts."""
         members = (*start.members, candidate)
         columns = self.columns(members)
         rows = extended(self.base, columns)
-        return self._hypothesis(members, columns, refit(rows, start.fit, frozenset(columns[-1])))
+        kept, touched = len(start.fit.values), frozenset(columns[-1])
+        return self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
 
     def _hypothesis(
         self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit
@@ -132,11 +134,10 @@ class Bench:
         Scalars at which nature allows what is found go before those at which it does not.
         """
         asked = self._candidates if candidates is None else tuple(candidates)
-        rows = self._rows(under)
-        found = score(under.fit, rows, self.columns(asked))
+        found = score(under.fit, self.base, self.columns(asked))
         best: dict[object, tuple[bool, Scored]] = {}
         for one, judged in zip(asked, found, strict=True):
-            scored = Scored(one, judged.statistic, len(judged.values), judged.values, judged.clear_share)
+            scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
             possible = _allowed(one, judged)
             if one.key not in best or (possible, scored.statistic) > (
                 best[one.key][0],
@@ -177,7 +178,7 @@ class Bench:
         for one in (now, trial):
             rows = extended(self.unseen, self.columns(one.members))
             white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
-            missed.append(sum(float(np.sum((w.torque - w.columns @ one.fit.values) ** 2)) for w in white))
+            missed.append(sum(float(np.sum(w.left(one.fit.values) ** 2)) for w in white))
             if self.belief:
                 missed[-1] += share * float(np.sum(self.belief.missed(one.fit.values) ** 2))
         return missed[0] - missed[1]
@@ -204,7 +205,7 @@ class Bench:
             trials = [
                 replace(candidate, scalars={**candidate.scalars, name: value}) for value in (*values, here)
             ]
-            found = score(under.fit, self._rows(under), self.columns(trials))
+            found = score(under.fit, self.base, self.columns(trials))
             ranks = [(_allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
             best = ranks.index(max(ranks))
             here = trials[best].scalars[name]
@@ -230,9 +231,7 @@ class Bench:
                 replace(candidate, scalars={**candidate.scalars, name: here + shift})
                 for shift in (-step, 0.0, step)
             ]
-            low, middle, high = (
-                one.statistic for one in score(under.fit, self._rows(under), self.columns(trials))
-            )
+            low, middle, high = (one.statistic for one in score(under.fit, self.base, self.columns(trials)))
             drop = middle - 0.5 * (low + high)
             if drop > 0.5 or here - 2.0 * step <= 0.0 < here:
                 break
@@ -242,9 +241,6 @@ class Bench:
     def _grid(self, candidate: Candidate) -> list[Candidate]:
         same = (candidate.cause, candidate.site)
         return [one for one in self._candidates if (one.cause, one.site) == same] or [candidate]
-
-    def _rows(self, under: Hypothesis) -> tuple[JointRows, ...]:
-        return extended(self.base, self.columns(under.members))
 
     def _known(self, candidate: Candidate) -> bool:
         return any((*candidate.place, built) in self._columns for built in (False, True))

@@ -16,16 +16,21 @@ from scipy.sparse import csr_array
 from scipy.sparse.linalg import spsolve_triangular
 
 from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
+from core.diagnosis.belief import Belief
 from core.diagnosis.free import Free, free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise, learn_noise, places
 
 RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
+ROUNDING = 1e-12
+"""Share of a column's square below which what is left of it beside free columns is rounding."""
+OPEN_SHARE = 1e-6
+"""A column of which the others already span all but this share is no evidence for anything."""
 ROUNDS = 3
 TRIAL_ROUNDS = 2
-SETTLED = 0.1
-"""Change of the log-likelihood below which the noise is learned: what decides changes it by three or more."""
+SETTLED = 0.03
+"""What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
 
 Columns = Mapping[int, EquationRows]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -67,36 +72,51 @@ class JointRows:
 class Whitened:
     """Hold one joint's rows made white: columns and torque in units of the noise.
 
-    `whitening` is what does that, before `free` columns are taken out.
+    Attributes
+    ----------
+    whitening
+        What makes columns over the joint's rows white.
+    columns, inside
+        White columns, and what `free` ones span of them (see `Free.inside`).
+    torque
+        White torque, less what free columns span of it.
     """
 
     noise: JointNoise
     whitening: csr_array
     columns: Matrix
+    inside: EquationRows
     torque: Vector
     log_deviations: float
     free: Free
 
     @cached_property
     def gram(self) -> SquareMatrix:
-        """Give the columns' products with each other."""
+        """Give the products of the columns with each other, less what free columns span."""
         out = np.zeros((self.columns.shape[1], self.columns.shape[1]))
         acting = np.flatnonzero(self.columns.any(axis=0))
-        columns = self.columns[:, acting]
-        out[np.ix_(acting, acting)] = columns.T @ columns
+        columns, inside = self.columns[:, acting], self.inside[:, acting]
+        whole = columns.T @ columns
+        out[np.ix_(acting, acting)] = whole - inside.T @ inside + ROUNDING * np.diag(np.diag(whole))
         return out
 
+    @cached_property
+    def right(self) -> Vector:
+        """Give the products of the columns with the torque, less what free columns span."""
+        return np.asarray(self.columns.T @ self.torque)
 
-@dataclass(frozen=True, eq=False)
-class Belief:
-    """Hold what is believed of the first columns' coefficients: white equations ``rows @ values = target``."""
+    def left(self, values: Weights) -> Vector:
+        """Give what the columns leave of the torque, less what free columns span."""
+        return np.asarray(self.torque - self.free.cleared((self.columns @ values)[:, None])[:, 0])
 
-    rows: Matrix
-    target: Vector
-
-    def missed(self, values: Weights) -> Vector:
-        """Give by how much coefficients depart from it, in standard deviations."""
-        return self.target - self.rows @ values[: self.rows.shape[1]]
+    def with_columns(self, kept: int, further: Matrix) -> "Whitened":
+        """Keep the first columns and put others, not yet white, beside them."""
+        white, inside = _white(self.whitening, self.free, further)
+        return replace(
+            self,
+            columns=np.hstack([self.columns[:, :kept], white]),
+            inside=np.hstack([self.inside[:, :kept], inside]),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,6 +127,8 @@ class Fit:
     ----------
     joints
         The whitened rows per joint.
+    left
+        What the columns leave of their torque, white.
     values
         Coefficient of every column.
     factor
@@ -118,22 +140,18 @@ class Fit:
     """
 
     joints: tuple[Whitened, ...]
+    left: tuple[Weights, ...]
     values: Vector
     factor: tuple[np.ndarray, bool]
     scale: Vector
     log_likelihood: float
     belief: Belief | None = None
 
-    @cached_property
-    def left(self) -> tuple[Weights, ...]:
-        """Give, per joint, what the columns leave of the torque, white."""
-        return tuple(one.torque - one.columns @ self.values for one in self.joints)
-
     def solve(self, right: Matrix) -> Matrix:
         """Give Gram^-1 times right-hand sides."""
         return np.asarray(cho_solve(self.factor, right / self.scale[:, None]) / self.scale[:, None])
 
-    @property
+    @cached_property
     def covariance(self) -> SquareMatrix:
         """Give the coefficients' covariance."""
         return self.solve(np.eye(len(self.values)))
@@ -174,11 +192,18 @@ def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     """Whiten one joint's rows."""
     whitening = noise.whitening(rows.place)
     free = free_of(whitening @ rows.free.columns)
-    acting = np.flatnonzero(rows.columns.any(axis=0))
-    both = free.cleared(whitening @ np.column_stack([rows.columns[:, acting], rows.torque]))
-    columns = np.zeros_like(rows.columns)
-    columns[:, acting] = both[:, :-1]
-    return Whitened(noise, whitening, columns, both[:, -1], noise.log_deviations(rows.place), free)
+    columns, inside = _white(whitening, free, rows.columns)
+    torque = free.cleared((whitening @ rows.torque)[:, None])[:, 0]
+    return Whitened(noise, whitening, columns, inside, torque, noise.log_deviations(rows.place), free)
+
+
+def _white(whitening: csr_array, free: Free, columns: Matrix) -> tuple[Matrix, EquationRows]:
+    """Whiten columns, and give what free ones span of them; most columns act on other joints."""
+    acting = np.flatnonzero(columns.any(axis=0))
+    white, inside = np.zeros_like(columns), np.zeros((free.count, columns.shape[1]))
+    white[:, acting] = whitening @ columns[:, acting]
+    inside[:, acting] = free.inside(white[:, acting])
+    return white, inside
 
 
 def fit(
@@ -206,48 +231,49 @@ def fit(
 
 
 def refit(
-    joints: tuple[JointRows, ...], before: Fit, touched: frozenset[int], *, rounds: int = TRIAL_ROUNDS
+    joints: tuple[JointRows, ...],
+    before: Fit,
+    kept: int,
+    touched: frozenset[int] | None = None,
+    *,
+    rounds: int = ROUNDS,
 ) -> Fit:
-    """Fit joints that got further columns, learning the noise anew only where these columns act.
+    """Fit the same rows to other columns, learning the noise anew from where another fit left it.
 
     Parameters
     ----------
-    before
-        A fit of the same rows without the further columns, which stand last.
+    kept
+        How many of the first columns are those of the fit before.
     touched
-        Joints (from 0) on which they act.
+        Joints (from 0) whose noise is learned anew; None for all.
     """
-    parts = []
-    for joint, rows in enumerate(joints):
-        old = before.joints[joint]
-        new = rows.columns[:, old.columns.shape[1] :]
-        white = old.free.cleared(old.whitening @ new) if joint in touched else np.zeros_like(new)
-        parts.append(replace(old, columns=np.hstack([old.columns, white])))
-    found = _solved(tuple(parts), before.belief)
-    return _settled(joints, found, touched, rounds)
+    parts = tuple(
+        old.with_columns(kept, rows.columns[:, kept:])
+        for old, rows in zip(before.joints, joints, strict=True)
+    )
+    everywhere = frozenset(range(len(joints)))
+    return _settled(joints, _solved(parts, before.belief), everywhere if touched is None else touched, rounds)
 
 
 def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int], rounds: int) -> Fit:
     """Learn the noise of some joints again and again, until that hardly makes the rows more likely."""
     for _ in range(rounds):
         before, found = found, _relearned(joints, found, touched)
-        if abs(found.log_likelihood - before.log_likelihood) < SETTLED:
+        if found is before:
             break
     return found
 
 
 def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int]) -> Fit:
-    """Learn the noise of some joints from their residual, and fit again."""
+    """Learn the noise of some joints from their residual, and fit again where that makes a difference."""
     parts = list(found.joints)
     for joint in touched:
-        rows = joints[joint]
-        parts[joint] = whitened(
-            rows,
-            learn_noise(
-                rows.missed_under(found.values, found.joints[joint]), rows.place, taken=_taken(rows, joints)
-            ),
-        )
-    return _solved(tuple(parts), found.belief)
+        rows, known = joints[joint], found.joints[joint]
+        residual = rows.missed_under(found.values, known)
+        learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))
+        if learned.departure(known.noise, residual, rows.place) > SETTLED:
+            parts[joint] = whitened(rows, learned)
+    return found if tuple(parts) == found.joints else _solved(tuple(parts), found.belief)
 
 
 def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
@@ -258,7 +284,7 @@ def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
 
 def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
     gram = np.sum([one.gram for one in joints], axis=0)
-    right = np.sum([one.columns.T @ one.torque for one in joints], axis=0)
+    right = np.sum([one.right for one in joints], axis=0)
     if belief is not None:
         size = belief.rows.shape[1]
         gram[:size, :size] += belief.rows.T @ belief.rows
@@ -267,8 +293,9 @@ def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor = cho_factor(scaled, lower=True)
     values = cho_solve(factor, right / scale) / scale
-    missed = sum(float(np.sum((one.torque - one.columns @ values) ** 2)) for one in joints)
+    left = tuple(one.left(values) for one in joints)
+    missed = sum(float(one @ one) for one in left)
     if belief is not None:
         missed += float(np.sum(belief.missed(values) ** 2))
     logs = sum(one.log_deviations for one in joints)
-    return Fit(joints, values, factor, scale, -0.5 * missed - logs, belief)
+    return Fit(joints, left, values, factor, scale, -0.5 * missed - logs, belief)

@@ -62,6 +62,16 @@ class JointNoise:
         starts = np.concatenate([[0], np.cumsum(known + 1)])
         return csr_array((weights[known][inside], columns, starts), (len(place), len(place)))
 
+    def departure(self, other: "JointNoise", residual: Vector, place: Indices) -> float:
+        """Give by how much less likely noise like a residual, which is of this kind, is under another kind.
+
+        To be expected, in logarithms, and never below zero: Kullback & Leibler's divergence.
+        """
+        own, theirs = (one.whitening(place) @ residual for one in (self, other))
+        ratio = float(theirs @ theirs) / max(float(own @ own), 1e-300)
+        scale = other.log_deviations(place) - self.log_deviations(place)
+        return scale + 0.5 * len(place) * (ratio - 1.0)
+
     def log_deviations(self, place: Indices) -> float:
         """Give the sum over rows of the logarithm of their innovation's deviation."""
         counts = np.bincount(np.minimum(place, self.order), minlength=self.order + 1)

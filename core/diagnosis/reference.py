@@ -12,12 +12,15 @@ import numpy as np
 from scipy.linalg import null_space, qr, solve_triangular
 
 from core.arrays import BaseParameters, Matrix, Parameters
-from core.diagnosis.equations import Belief
+from core.diagnosis.belief import Belief
 from core.errors import RobotError
 from core.estimate.constraints import link_columns
+from core.estimate.system import RANK_TOLERANCE, System, column_scale
 from core.reduction.base import BaseModel
 from core.robot.inertia import link_parameters, pseudo_inertia
 
+PRIOR = "prior"
+"""The name of the reference that is the robot's own description."""
 LEAST_DEVIATION = 0.005
 """No parameter is taken to be known better than this share of itself: so far two logs of one robot disagree
 by what the model leaves out, which the noise of neither tells."""
@@ -55,6 +58,25 @@ class Reference:
     def belief(self) -> Belief:
         """Give it as equations."""
         return Belief(self.rows, self.rows @ self.values)
+
+    @property
+    def left_open(self) -> tuple[str, ...]:
+        """Name the base parameters of which it tells nothing by themselves."""
+        told = np.abs(self.rows).max(axis=0, initial=0.0)
+        return tuple(
+            name for name, one in zip(self.base.names, told, strict=True) if one <= 1e-12 * told.max()
+        )
+
+    def completed(self, system: System) -> BaseParameters:
+        """Give its base parameters, what it leaves open filled in from a log's equations.
+
+        A description that tells nothing of friction is judged with the log's friction.
+        """
+        scale = column_scale(self.rows)
+        free = null_space(self.rows / scale) / scale[:, None]
+        missed = system.target - system.triangle @ self.values
+        step, *_ = np.linalg.lstsq(system.triangle @ free, missed, rcond=RANK_TOLERANCE)
+        return np.asarray(self.values + free @ step)
 
 
 def doubted(rows: Matrix, values: BaseParameters, share: float = LEAST_DEVIATION) -> Matrix:
@@ -98,7 +120,7 @@ def reference_from_prior(base: BaseModel) -> Reference:
     unknown = [column for column in range(len(standard)) if column not in known]
     told = null_space(base.grouping[:, unknown].T).T if unknown else np.eye(len(base.kept))
     values = base.base_of(standard)
-    return Reference("prior", base, standard, values, _whitened(told, np.hstack(spread)))
+    return Reference(PRIOR, base, standard, values, _whitened(told, np.hstack(spread)))
 
 
 def _body_spread(body: np.ndarray) -> Matrix:

@@ -8,16 +8,12 @@ regressor).
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from core.arrays import EquationRows, Matrix, SquareMatrix, Vector, Weights
-from core.diagnosis.equations import Columns, Fit, JointRows
-
-OPEN_SHARE = 1e-6
-"""A column of which the model already spans all but this share is no evidence for anything."""
+from core.arrays import EquationRows, Matrix, Weights
+from core.diagnosis.equations import OPEN_SHARE, Columns, Fit, JointRows
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +24,8 @@ class Score:
     ----------
     statistic
         Rise of twice the log-likelihood at this noise model.
+    freedom
+        How many directions of its linear parameters the rows tell.
     values, covariance
         What its linear parameters would be.
     clear_share
@@ -35,6 +33,7 @@ class Score:
     """
 
     statistic: float
+    freedom: int
     values: Weights
     covariance: EquationRows
     clear_share: float
@@ -43,43 +42,71 @@ class Score:
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
     """Score candidates given as columns over all rows of the look."""
     widths = [next(iter(one.values())).shape[1] for one in candidates]
-    starts = np.concatenate([[0], np.cumsum(widths)]).astype(int)
-    size, total = len(found.values), int(starts[-1])
-    cross, right, squares = np.zeros((size, total)), np.zeros(total), np.zeros(total)
-    grams = [np.zeros((width, width)) for width in widths]
+    out: dict[int, Score] = {}
+    for width in set(widths):
+        alike = [index for index, one in enumerate(widths) if one == width]
+        scores = _alike(found, joints, [candidates[index] for index in alike], width)
+        out.update(zip(alike, scores, strict=True))
+    return [out[index] for index in range(len(candidates))]
+
+
+def _alike(
+    found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns], width: int
+) -> list[Score]:
+    """Score candidates of the same number of columns."""
+    count, size = len(candidates), len(found.values)
+    cross = np.zeros((count, size, width))
+    right, squares = np.zeros((count, width)), np.zeros((count, width))
+    grams = np.zeros((count, width, width))
     for joint, rows in enumerate(joints):
         present = [index for index, one in enumerate(candidates) if joint in one]
         if not present:
             continue
-        raw = np.hstack([candidates[index][joint][rows.rows] for index in present])
-        white = found.joints[joint].whitening @ raw
-        places = np.concatenate([np.arange(starts[index], starts[index + 1]) for index in present])
-        squares[places] += np.sum(white**2, axis=0)
-        white = found.joints[joint].free.cleared(white)
-        cross[:, places] += found.joints[joint].columns.T @ white
-        right[places] += white.T @ found.left[joint]
-        begin = 0
-        for index in present:
-            part = white[:, begin : begin + widths[index]]
-            grams[index] += part.T @ part
-            begin += widths[index]
-    reduced = solve_triangular(found.factor[0], cross / found.scale[:, None], lower=True)
-    own = [slice(start, stop) for start, stop in pairwise(starts)]
-    return [
-        _judged(gram, reduced[:, one], right[one], squares[one]) for gram, one in zip(grams, own, strict=True)
-    ]
+        own = found.joints[joint]
+        white = own.whitening @ np.hstack([candidates[index][joint][rows.rows] for index in present])
+        inside = own.free.inside(white)
+        right[present] += (found.left[joint] @ white).reshape(-1, width)
+        squares[present] += np.einsum("ij,ij->j", white, white).reshape(-1, width)
+        acting = np.flatnonzero(own.columns.any(axis=0))
+        both = own.columns[:, acting].T @ white - own.inside[:, acting].T @ inside
+        both = both.reshape(len(acting), len(present), width)
+        cross[np.array(present)[:, None], acting] += np.moveaxis(both, 0, 1)
+        grams[present] += _grams(white, width) - _grams(inside, width)
+    flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
+    reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
+    return _judged(grams - _grams(reduced, width), right, squares)
 
 
-def _judged(gram: SquareMatrix, reduced: Matrix, right: Vector, squares: Vector) -> Score:
+def _grams(columns: Matrix, width: int) -> np.ndarray:
+    """Give the Gram matrix of every so many columns."""
+    parts = columns.reshape(len(columns), columns.shape[1] // width, width)
+    out = np.empty((parts.shape[1], width, width))
+    for one in range(width):
+        for other in range(one, width):
+            out[:, one, other] = np.einsum("ij,ij->j", parts[:, :, one], parts[:, :, other])
+            out[:, other, one] = out[:, one, other]
+    return out
+
+
+def _judged(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
+    """Judge candidates by what is left of their Gram matrices, and by their products with the residual."""
     size = np.sqrt(np.maximum(squares, 1e-300))
-    left = (gram - reduced.T @ reduced) / np.outer(size, size)
-    clear = np.clip(np.diag(left), 0.0, 1.0)
-    if not np.isfinite(left).all() or clear.max() < OPEN_SHARE:
-        return Score(0.0, np.zeros(len(right)), np.eye(len(right)), 0.0)
-    values, vectors = np.linalg.eigh(left)
-    kept = values > OPEN_SHARE
-    turned = vectors[:, kept].T @ (right / size)
-    spread = vectors[:, kept] / size[:, None]
-    covariance = (spread / values[kept]) @ spread.T
-    found = spread @ (turned / values[kept])
-    return Score(float(np.sum(turned**2 / values[kept])), found, covariance, float(clear.max()))
+    left = grams / (size[:, :, None] * size[:, None, :])
+    clear = np.clip(np.diagonal(left, axis1=1, axis2=2), 0.0, 1.0).max(axis=1)
+    judged = np.isfinite(left).all(axis=(1, 2)) & (clear >= OPEN_SHARE)
+    out = [_open(right.shape[1])] * len(right)
+    values, vectors = np.linalg.eigh(left[judged])
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > OPEN_SHARE)
+    spread = vectors / size[judged][:, :, None]
+    turned = np.einsum("nij,ni->nj", spread, right[judged])
+    covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)
+    found = np.einsum("nij,nj->ni", spread, turned * inverse)
+    for place, index in enumerate(np.flatnonzero(judged)):
+        statistic = float(turned[place] ** 2 @ inverse[place])
+        freedom = int(np.count_nonzero(inverse[place]))
+        out[index] = Score(statistic, freedom, found[place], covariance[place], float(clear[index]))
+    return out
+
+
+def _open(width: int) -> Score:
+    return Score(0.0, 1, np.zeros(width), np.eye(width), 0.0)

@@ -22,7 +22,7 @@ from core.diagnosis.look import Look, look_at
 from core.diagnosis.raw import RawCause, RawFinding
 from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
-from core.diagnosis.residual.learner import Predictable, predictable_share
+from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
 from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, log_p_of, select
 from core.dynamics.model import DynamicModel
@@ -73,6 +73,7 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     """
     tell = progress or _say_nothing
     raw, look = _looked(question)
+    refuse_too_little(look.clear)
     tell("search", 0.1)
     bench = _bench(question, look)
     searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))

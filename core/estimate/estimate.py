@@ -146,7 +146,7 @@ def estimate(
     unconstrained = system.solved()
     if options.estimator != "sdp":
         return Estimate(
-            unconstrained, _nearest(base, unconstrained, prior), unconstrained, system, prior, None
+            unconstrained, nearest(base, unconstrained, prior), unconstrained, system, prior, None
         )
     solution = solve(
         Programme(base, system, prior, options.bounds, options.pull, options.entropy), options.solver
@@ -172,8 +172,8 @@ def _restricted(system: System, kept: Indices) -> System:
     return replace(system, triangle=triangle)
 
 
-def _nearest(base: BaseModel, values: BaseParameters, prior: Prior) -> Parameters:
-    """Give the standard parameters nearest the prior that group into these base parameters."""
+def nearest(base: BaseModel, values: BaseParameters, prior: Prior) -> Parameters:
+    """Give the standard parameters nearest a prior that group into these base parameters."""
     scaled = base.grouping * prior.scale
     step, *_ = np.linalg.lstsq(scaled, values - base.base_of(prior.centre), rcond=1e-12)
     return np.asarray(prior.centre + prior.scale * step)

@@ -4,7 +4,7 @@ Joints differ in noise by orders of magnitude, so the default weighs each joint 
 IDIM-LS practice does. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,26 @@ class System:
         """Give the weighted sum of squared residuals."""
         miss = self.target - self.triangle @ base
         return float(miss @ miss) + self.rest
+
+    def informed(self, rows: Matrix, target: Vector) -> "System":
+        """Add what is known beforehand of the first base parameters: equations with errors of unit variance.
+
+        Examples
+        --------
+        One that weighs as much as the log's own meets it half-way:
+
+        >>> own = System(np.eye(1), np.array([1.0]), 0.0, 10, np.ones(1))
+        >>> own.informed(np.eye(1), np.array([3.0])).solved().round(12)
+        array([2.])
+        """
+        size = self.triangle.shape[1]
+        wide = np.zeros((len(rows) + 1, size + 1))
+        wide[:-1, : rows.shape[1]], wide[:-1, -1] = rows, target
+        whole = Factor.of(np.vstack([np.column_stack([self.triangle, self.target]), wide])).triangle
+        rest = whole[size:, -1]
+        return replace(
+            self, triangle=whole[:size, :-1], target=whole[:size, -1], rest=self.rest + float(rest @ rest)
+        )
 
     def solved(self) -> BaseParameters:
         """Give the unconstrained optimum of smallest norm, should the motion leave directions open."""

@@ -23,6 +23,15 @@ def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
     )
 
 
+def sizes(diagnosis: Diagnosis) -> dict[str, float]:
+    """Give, by name, what counts as one unit of deviation of the parameters that join the model."""
+    return {
+        f"{one.name}{one.joint}": 10.0 * abs(one.value)
+        for finding in diagnosis.findings
+        for one in finding.quantities
+    }
+
+
 def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
     """Append terms to a model and their parameters to its base parameters."""
     model: DynamicModel = base.model

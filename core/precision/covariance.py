@@ -69,7 +69,12 @@ class Precision:
 
 
 def assess(
-    system: System, memory: tuple[LaggedProducts, ...], columns_of: tuple[Indices, ...], base: BaseParameters
+    system: System,
+    memory: tuple[LaggedProducts, ...],
+    columns_of: tuple[Indices, ...],
+    base: BaseParameters,
+    *,
+    known: Matrix | None = None,
 ) -> Precision:
     """Judge the base parameters of a fit.
 
@@ -81,12 +86,16 @@ def assess(
         Per joint, the lagged products of the fitted rows.
     base
         The parameters whose residual tells the noise.
+    known
+        Equations of unit variance over the first base parameters that the system holds beside the log's.
     """
     information = system.triangle.T @ system.triangle
     size = len(information)
     covariance, spread, factors = np.zeros((size, size)), np.zeros((size, size)), np.ones(len(memory))
     for _ in range(_ROUNDS):
         spread = np.zeros((size, size))
+        if known is not None:
+            spread[: known.shape[1], : known.shape[1]] = known.T @ known
         for joint, (products, columns, noise) in enumerate(
             zip(memory, columns_of, system.noise, strict=True)
         ):

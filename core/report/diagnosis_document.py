@@ -4,10 +4,12 @@ Names are those that clients are written against; fields may be added, never ren
 in the document, so that a report can be drawn from it alone, at any time.
 """
 
+from typing import cast
+
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
 from core.extension.gain import JointGain
 from core.extension.motion_gain import motion_intervals
-from core.report.diagnosed import Diagnosed
+from core.report.diagnosed import Compared, Diagnosed
 from core.report.document import base_parameter_rows, identification_document
 from core.report.finding import finding_row, not_identifiable_row
 from core.report.identification import Identification
@@ -19,7 +21,8 @@ from core.simulation.multistep import Comparison, MultiStep
 def diagnosis_document(found: Diagnosed, *, version: str, options: object) -> dict[str, object]:
     """Compose the document; what is said of the robot in it is of the model as it was before the cure."""
     document = identification_document(found.before, version=version, options=options)
-    return document | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}
+    doubted = {"doubts": [*cast("list[str]", document["doubts"]), *_doubts(found.compared)]}
+    return document | doubted | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}
 
 
 def _diagnosis(found: Diagnosed) -> dict[str, object]:
@@ -29,8 +32,9 @@ def _diagnosis(found: Diagnosed) -> dict[str, object]:
         "findings": [finding_row(one) for one in diagnosis.findings],
         "not_identifiable": [not_identifiable_row(one) for one in diagnosis.not_identifiable],
         "unexplained": unexplained(diagnosis, least=UNEXPLAINED_SHARE),
+        "reference": None if found.compared is None else _reference(found.compared, found.before),
         "gain": [_gain(one) for one in found.gains],
-        "before": _side(found.before),
+        "before": _side(found.before if found.compared is None else found.compared),
         "after": {"validation": [], "base_parameters": []}
         if found.after is None
         else _side(found.after) | _extended(found.before, found.after),
@@ -61,7 +65,31 @@ def _gain(gain: JointGain) -> dict[str, object]:
     }
 
 
-def _side(found: Identification) -> dict[str, object]:
+def _reference(compared: Compared, found: Identification) -> dict[str, object]:
+    """Say what the logs were compared with, and where it and what was identified anew disagree."""
+    return {
+        "name": compared.reference.name,
+        "left_open": compared.reference.left_open,
+        "worse_than_nothing": compared.worse_than_nothing,
+        "base_parameters": [
+            {"name": name, "reference": old, "identified": new}
+            for name, old, new in zip(found.base.names, compared.base, found.estimate.base, strict=True)
+        ],
+    }
+
+
+def _doubts(compared: Compared | None) -> list[str]:
+    if compared is None or not compared.worse_than_nothing:
+        return []
+    joints = ", ".join(map(str, compared.worse_than_nothing))
+    sentence = (
+        f"The reference misses the torque of joint {joints} by more than there is of it: it may be another "
+        "robot's, or in other units or signs"
+    )
+    return [sentence]
+
+
+def _side(found: Identification | Compared) -> dict[str, object]:
     return {
         "fit": found.fit,
         "fit_total_percent": found.fit_total_percent,

@@ -11,6 +11,7 @@ from core.precision.covariance import INTERVAL_95, relative_deviation_percent
 from core.reduction.base import BaseModel
 from core.regressor.observe import Observation
 from core.report.doubts import doubts
+from core.report.earlier import written_factor
 from core.report.identification import Identification
 from core.report.numbers import plain
 from core.robot.writing import to_description
@@ -146,6 +147,7 @@ def _precision(found: Identification) -> dict[str, object]:
         "equations": system.rows,
         "noise": system.noise,
         "memory_factor": found.precision.memory_factor,
+        "information_factor": written_factor(found.precision.root),
         "left_out_percent": 100.0 * (1.0 - _used(found.observation)),
         "bootstrap_draws": len(found.draws),
         "bootstrap_seed": found.seed,

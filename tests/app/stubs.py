@@ -1,10 +1,12 @@
-"""An executor that computes nothing: it waits until it is released, then gives its outcome."""
+"""Executors for tests: one computes nothing and waits until it is released, one computes in the thread."""
 
 import threading
 
 from app.documents import json_bytes
+from app.jobs import science
 from app.jobs.computation import Failed, Finished, Stopped
-from app.problems import Problem
+from app.problems import Problem, problem_of
+from core.errors import VeritorqueError
 from tests.core.report.documents import identified
 
 RESULT = identified()
@@ -35,3 +37,28 @@ class StubExecutor:
 def failing(kind="excitation", cause="the motion is too slow"):
     problem = Problem(kind, cause, evidence={"speed": 0.01}, remedy="move faster")
     return StubExecutor(Failed(problem.document()))
+
+
+class InlineExecutor:
+    """Let the science run in the tests' process, where warnings are errors and shapes are checked.
+
+    What is not an error of its own becomes a 5xx. `told` are the last computation's stages and fractions.
+    """
+
+    def __init__(self):
+        self.told = []
+
+    def prepare(self):
+        pass
+
+    def run(self, computation, *, progress, stop, timeout_s):
+        self.told = []
+
+        def tell(stage, fraction):
+            self.told.append((stage, fraction))
+            progress(stage, fraction)
+
+        try:
+            return Finished(json_bytes(science.compute(computation, tell)))
+        except VeritorqueError as error:
+            return Failed(problem_of(error).document())

@@ -78,11 +78,20 @@ def test_a_diagnosis_is_computed_as_one(finished, log_bytes):
     assert client.executor.computations[-1].kind == "diagnose"
 
 
-@pytest.mark.parametrize("reference", [7, True, ["job-1"], "job-1", "prior"])
-def test_a_reference_that_cannot_be_compared_with_is_refused(finished, log_bytes, reference):
+@pytest.mark.parametrize(
+    ("reference", "kind"),
+    [
+        *((wrong, "option") for wrong in (7, True, ["job-1"], "", "j" * 201)),
+        ("job-1", "unknown-reference"),
+        ("prior", "robot"),
+    ],
+)
+def test_a_reference_that_cannot_be_compared_with_is_refused(finished, log_bytes, reference, kind):
     client, _ = finished
     body = asked(client, log_bytes) | {"kind": "diagnose", "options": {"reference": reference}}
-    assert_problem(client.post("/v1/jobs", json=body), 422, "option")
+    problem = assert_problem(client.post("/v1/jobs", json=body), 422, kind)
+    assert problem["evidence"]
+    assert problem["remedy"]
 
 
 def test_an_identification_knows_no_reference(finished, log_bytes):

@@ -1,4 +1,4 @@
-"""Suspect that a joint's friction or offset is no longer that of the reference: wear, grease, cold, a service."""
+"""Suspect that a joint's friction or offset is not the reference's any more: wear, grease, cold, service."""
 
 from dataclasses import dataclass
 

@@ -17,6 +17,8 @@ from core.robot.parameters import INERTIAL_SYMBOLS
 
 INSTANTS = 12
 HEAVIEST = 500.0
+UNKNOWN = 1.0
+"""A coordinate of the mass centre, m, that is known worse is not told: a planar arm sees two only."""
 _FIRST = INERTIAL_SYMBOLS.index("MX")
 
 
@@ -84,7 +86,7 @@ class PayloadChange(OwnJointCause):
         return light and (not self.throughout or is_body(solved.values, solved.covariance))
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report mass (negative: taken off), mass centre in the link's frame, and instant."""
+        """Report mass (negative: taken off), mass centre in the link's frame where it shows, and instant."""
         body = body_of(solved.values, solved.covariance)[0] if self.throughout else solved.values
         joint, mass = solved.site[0], float(body[MASS])
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
@@ -94,7 +96,8 @@ class PayloadChange(OwnJointCause):
             slope = np.zeros(len(body))
             slope[place], slope[MASS] = 1.0 / mass, -centre / mass
             deviation = float(np.sqrt(max(slope @ solved.covariance @ slope, 0.0)))
-            found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))
+            if deviation < UNKNOWN:
+                found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))
         when = [
             Quantity("time", None, "s", time, solved.deviations.get("time", 0.0))
             for time in solved.scalars.values()
@@ -104,12 +107,12 @@ class PayloadChange(OwnJointCause):
     def statement(self, solved: Solved) -> str:
         """Say what mass, where and since when."""
         found = named(self.quantities(solved))
-        centre = ", ".join(f"{found[f'com_{axis}'].value:.2g}" for axis in "xyz")
+        told = [(axis, found[f"com_{axis}"]) for axis in "xyz" if f"com_{axis}" in found]
+        centre = ", ".join(f"{axis} = {one.value:.2g}" for axis, one in told)
         word = "carries" if found["mass"].value > 0.0 else "has lost"
         mass = Quantity("mass", None, "kg", abs(found["mass"].value), found["mass"].standard_deviation)
-        return (
-            f"The link of joint {solved.site[0]} {word} {shown(mass)} since {self._since(found)}, "
-            f"centred at ({centre}) m in its frame"
+        return f"The link of joint {solved.site[0]} {word} {shown(mass)} since {self._since(found)}" + (
+            f", centred at {centre} m in its frame" if told else ""
         )
 
     def _links(self, look: Look) -> dict[int, int]:

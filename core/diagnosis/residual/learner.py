@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Indices, JointSeries, Matrix, Vector
+from core.arrays import Indices, JointMask, JointSeries, Matrix, Vector
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise
 from core.diagnosis.residual.blocks import Share, row_blocks, share_on_blocks
@@ -103,14 +103,7 @@ def predictable_share(
         If every joint has too few rows to hold any out.
     """
     mask = look.usable if near_reversals else look.clear
-    rows = mask.sum(axis=0)
-    if rows.max() < FEWEST_ROWS:
-        raise ExcitationError(
-            "the log holds too little motion to hold any of it out: no joint has enough instants away from "
-            "standstill and reversals",
-            evidence={"instants": rows.tolist(), "needed": FEWEST_ROWS},
-            remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
-        )
+    rows = refuse_too_little(mask)
     block, shared = row_blocks(look), _shared(look)
     found = []
     for joint in range(look.joints):
@@ -123,6 +116,25 @@ def predictable_share(
         judged = share_on_blocks(prediction, residual[:, joint], block)
         found.append(_predictable(look, believed, joint + 1, residual[:, joint], judged))
     return tuple(found)
+
+
+def refuse_too_little(mask: JointMask) -> Indices:
+    """Count the rows that a mask (rows x joints) leaves of every joint, and refuse if no joint has enough.
+
+    Raises
+    ------
+    ExcitationError
+        If every joint has too few rows to hold any out.
+    """
+    rows = mask.sum(axis=0)
+    if rows.max() < FEWEST_ROWS:
+        raise ExcitationError(
+            "the log holds too little motion to hold any of it out: no joint has enough instants away from "
+            "standstill and reversals",
+            evidence={"instants": rows.tolist(), "needed": FEWEST_ROWS},
+            remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
+        )
+    return np.asarray(rows)
 
 
 def _not_judged(joint: int, rows: int) -> Predictable:

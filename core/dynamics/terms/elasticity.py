@@ -6,11 +6,13 @@ Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
-from core.arrays import JointSeries
+from core.arrays import JointSeries, Samples, Spectrum
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
 from core.robot.model import RobotModel
@@ -42,21 +44,32 @@ class Elasticity(AllJointsTerm):
         """Give the change of all joints' loads per unit of compliance."""
         del robot
         own = self.joint - 1
-        load = smoothed(self.believed.load(state)[:, [own]], state, self.band_hz)
-        load = swung(load, state, self.resonance_hz, self.damping_ratio)
+        load = _load_spectrum(self.believed, state, own, self.band_hz)
+        load = swung(load, state, self.resonance_hz, self.damping_ratio)[:, None]
         first, second = rates(load, state)
         return [-self.believed.change(state, own, MotionState(load, first, second))]
 
 
-def swung(values: JointSeries, state: MotionState, resonance_hz: float, damping_ratio: float) -> JointSeries:
-    """Let columns pass a spring with a mass on it, gain one at rest; the series is mirrored at its ends."""
-    count = len(values)
-    mirrored = np.concatenate([values, values[::-1]])
-    ratio = np.fft.rfftfreq(2 * count, step_of(state)) / resonance_hz
+@lru_cache(maxsize=64)
+def _load_spectrum(believed: Prediction, state: MotionState, own: int, band_hz: float) -> Spectrum:
+    """Give the spectrum of one joint's smoothed load; kept, because a scan asks for the same ones again."""
+    return spectrum_of(smoothed(believed.load(state)[:, [own]], state, band_hz)[:, 0])
+
+
+def spectrum_of(values: Samples) -> Spectrum:
+    """Transform a series that is mirrored at its end, and held where it began for as long as is quick."""
+    size = next_fast_len(2 * len(values), real=True)
+    held = np.full(size - 2 * len(values), values[0])
+    return np.asarray(rfft(np.concatenate([values, values[::-1], held])))
+
+
+def swung(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_ratio: float) -> Samples:
+    """Let a series of a state's samples pass a spring with a mass on it, gain one at rest."""
+    count = len(state.position)
+    size = next_fast_len(2 * count, real=True)
+    ratio = rfftfreq(size, step_of(state)) / resonance_hz
     response = 1.0 / (1.0 - ratio**2 + 2j * damping_ratio * ratio)
-    return np.asarray(
-        np.fft.irfft(np.fft.rfft(mirrored, axis=0) * response[:, None], 2 * count, axis=0)[:count]
-    )
+    return np.asarray(irfft(spectrum * response, size)[:count])
 
 
 def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:

@@ -55,9 +55,32 @@ def test_fitting_only_the_joints_that_a_column_touches_is_fitting_all_of_them(eq
     column = {1: smooth(np.random.default_rng(10), equations.count, 1)}
     rows = equations.with_columns(column)
     before = fit(equations.joints, NOISE, rounds=0)
-    part, whole = refit(rows, before, frozenset({1}), rounds=0), fit(rows, NOISE, rounds=0)
+    part, whole = refit(rows, before, len(BASE), frozenset({1}), rounds=0), fit(rows, NOISE, rounds=0)
     np.testing.assert_allclose(part.values, whole.values, rtol=1e-9)
     assert part.log_likelihood == pytest.approx(whole.log_likelihood, rel=1e-12)
+
+
+def test_columns_that_take_the_place_of_others_are_fitted_as_if_those_had_never_been(equations):
+    rng = np.random.default_rng(12)
+    first, second = (equations.with_columns({1: smooth(rng, equations.count, 1)}) for _ in range(2))
+    swapped = refit(second, fit(first, NOISE, rounds=0), len(BASE), rounds=0)
+    plain = fit(second, NOISE, rounds=0)
+    np.testing.assert_allclose(swapped.values, plain.values, rtol=1e-9)
+    assert swapped.log_likelihood == pytest.approx(plain.log_likelihood, rel=1e-12)
+
+
+def test_a_fit_that_begins_with_the_noise_of_another_ends_with_its_own():
+    rng = np.random.default_rng(13)
+    shape = smooth(rng, Equations().count, 1)
+    effect = np.zeros((len(shape), 3))
+    effect[:, 0] = 3.0 * shape[:, 0]
+    equations = Equations(effect=effect)
+    rows = equations.with_columns({0: shape})
+    found, alone = refit(rows, fit(equations.joints), len(BASE)), fit(rows)
+    assert found.log_likelihood == pytest.approx(alone.log_likelihood, abs=0.3)
+    np.testing.assert_allclose(
+        found.values, alone.values, atol=0.1 * np.sqrt(np.diag(alone.covariance)).min()
+    )
 
 
 def test_the_noise_that_a_fit_learns_is_the_noise_that_is_there(equations):
@@ -84,7 +107,7 @@ def test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away():
     effect[:, 0] = 3.0 * shape[:, 0]
     equations = Equations(effect=effect)
     before = fit(equations.joints)
-    after = refit(equations.with_columns({0: shape}), before, frozenset({0}))
+    after = refit(equations.with_columns({0: shape}), before, len(BASE), frozenset({0}))
     assert before.joints[0].noise.deviations[-1] > 1.2
     assert after.joints[0].noise.deviations[-1] == pytest.approx(1.0, abs=0.1)
     assert after.values[-1] == pytest.approx(3.0, abs=0.3)

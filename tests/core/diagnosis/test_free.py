@@ -59,6 +59,16 @@ def test_independent_columns_all_stay():
     np.testing.assert_array_equal(independent(csr_array(columns)).toarray(), columns)
 
 
+@pytest.mark.parametrize("count", [1, 12, 25])
+def test_products_less_those_of_the_parts_inside_are_products_of_what_is_left(count):
+    free = free_of(independent(csr_array(bumps(count))))
+    rows = np.random.default_rng(4).normal(size=(ROWS, 4))
+    inside = free.inside(rows)
+    left = free.cleared(rows)
+    np.testing.assert_allclose(rows.T @ rows - inside.T @ inside, left.T @ left, atol=1e-6)
+    assert free.inside(rows[:, :0]).shape == (free.count, 0)
+
+
 @pytest.mark.parametrize(
     "columns", [np.zeros((ROWS, 0)), np.full((ROWS, 2), 1e-9)], ids=["none", "elsewhere"]
 )

@@ -33,6 +33,17 @@ def log_likelihood(noise: JointNoise, series: np.ndarray, place: np.ndarray) -> 
     return -0.5 * float(white @ white) - noise.log_deviations(place) - 0.5 * len(series) * np.log(2.0 * np.pi)
 
 
+def test_noise_of_one_kind_departs_from_another_by_the_likelihood_it_loses_on_average():
+    rng, slow, wavy = np.random.default_rng(0), exact_noise(SLOW), exact_noise(WAVY)
+    place = one_run(2000)
+    lost = []
+    for _ in range(40):
+        series = drawn(SLOW, rng, len(place))[:, 0]
+        lost.append(log_likelihood(slow, series, place) - log_likelihood(wavy, series, place))
+    assert slow.departure(slow, series, place) == 0.0
+    assert slow.departure(wavy, series, place) == pytest.approx(np.mean(lost), rel=0.1)
+
+
 @every_process
 @pytest.mark.parametrize("seed", range(5))
 def test_what_was_learned_from_coloured_noise_makes_it_white(weights, seed):

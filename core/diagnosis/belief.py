@@ -1,0 +1,23 @@
+"""Hold what is believed of coefficients before any row is seen, in the form of further rows.
+
+A normal distribution about an earlier estimate is the same as equations whose errors have unit variance.
+Source: Gelman et al., Bayesian Data Analysis (2013), ch. 14.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Matrix, Vector, Weights
+
+
+@dataclass(frozen=True, eq=False)
+class Belief:
+    """Hold what is believed of the first columns' coefficients: white equations, rows @ values = target."""
+
+    rows: Matrix
+    target: Vector
+
+    def missed(self, values: Weights) -> Vector:
+        """Give by how much coefficients depart from it, in standard deviations."""
+        return np.asarray(self.target - self.rows @ values[: self.rows.shape[1]])
