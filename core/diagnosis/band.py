@@ -6,6 +6,7 @@ would seem to explain it. Source: Fuller, Measurement Error Models (1987), ch. 1
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -39,14 +40,16 @@ def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
     """
     width = BAND_OVER_MOTION
     look, believed, noise = look_again(width)
+    shares = position_noise_share(look, believed, noise)
     for _ in range(_LOOKS):
-        share = float(np.max(position_noise_share(look, believed, noise)))
+        share = float(np.max(shares))
         if share <= LARGEST_SHARE or width <= NARROWEST:
             break
         actual = look.band_hz / look.motion_band_hz
         width = max(NARROWEST, min(width, actual) * float(np.clip((LARGEST_SHARE / share) ** 0.2, 0.5, 0.85)))
         look, believed, noise = look_again(width)
-    return look, believed, noise
+        shares = position_noise_share(look, believed, noise)
+    return replace(look, position_share=shares), believed, noise
 
 
 def position_noise_share(look: Look, believed: Prediction, noise: tuple[JointNoise, ...]) -> JointVector:

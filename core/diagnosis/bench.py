@@ -137,7 +137,7 @@ class Bench:
         found = score(under.fit, self.base, self.columns(asked))
         best: dict[object, tuple[bool, Scored]] = {}
         for one, judged in zip(asked, found, strict=True):
-            scored = Scored(one, judged.statistic, len(judged.values), judged.values, judged.clear_share)
+            scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
             possible = _allowed(one, judged)
             if one.key not in best or (possible, scored.statistic) > (
                 best[one.key][0],

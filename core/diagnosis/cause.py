@@ -85,6 +85,8 @@ class Cause(Protocol):
     event
         Whether it acts in short spans only. Noise learned before it is known holds it, so that a scan says
         little about it.
+    like_position_noise
+        Whether noise of the positions, on its way to a torque, passes for a little of it.
     """
 
     id: ClassVar[str]
@@ -93,6 +95,7 @@ class Cause(Protocol):
     coordinate: ClassVar[str]
     near_reversals: ClassVar[bool]
     event: ClassVar[bool]
+    like_position_noise: ClassVar[bool]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
+from scipy.sparse.linalg import spsolve_triangular
 
 from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.belief import Belief
@@ -24,6 +25,8 @@ RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
 ROUNDING = 1e-12
 """Share of a column's square below which what is left of it beside free columns is rounding."""
+OPEN_SHARE = 1e-6
+"""A column of which the others already span all but this share is no evidence for anything."""
 ROUNDS = 3
 TRIAL_ROUNDS = 2
 SETTLED = 0.03
@@ -57,6 +60,12 @@ class JointRows:
         """Give what the columns leave over, less what the free ones take."""
         left = self.torque - self.columns @ values
         return self.free.cleared(left[:, None])[:, 0]
+
+    def missed_under(self, values: Weights, white: "Whitened") -> Vector:
+        """Give the same, what the free columns take being judged under a noise and not row by row."""
+        left = white.whitening @ (self.torque - self.columns @ values)
+        cleared = white.free.cleared(left[:, None])[:, 0]
+        return np.asarray(spsolve_triangular(white.whitening, cleared, lower=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,10 +268,10 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
     """Learn the noise of some joints from their residual, and fit again where that makes a difference."""
     parts = list(found.joints)
     for joint in touched:
-        rows, known = joints[joint], found.joints[joint].noise
-        residual = rows.missed(found.values)
+        rows, known = joints[joint], found.joints[joint]
+        residual = rows.missed_under(found.values, known)
         learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))
-        if learned.departure(known, residual, rows.place) > SETTLED:
+        if learned.departure(known.noise, residual, rows.place) > SETTLED:
             parts[joint] = whitened(rows, learned)
     return found if tuple(parts) == found.joints else _solved(tuple(parts), found.belief)
 

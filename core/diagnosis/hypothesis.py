@@ -8,7 +8,7 @@ import numpy as np
 from core.arrays import SquareMatrix, Vector
 from core.diagnosis.cause import Cause, Scalars, Site, Solved
 from core.diagnosis.chance import log_chance
-from core.diagnosis.equations import Fit
+from core.diagnosis.equations import OPEN_SHARE, Fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,14 +52,14 @@ class Scored:
 
     candidate: Candidate
     statistic: float
-    width: int
+    freedom: int
     values: Vector
     clear_share: float
 
     @property
     def log_p(self) -> float:
         """Give log of (trials times the chance of so large a rise by luck)."""
-        return log_chance(self.statistic, self.width) + float(np.log(self.candidate.trials))
+        return log_chance(self.statistic, self.freedom) + float(np.log(self.candidate.trials))
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +75,13 @@ class Hypothesis:
         """Say where a member's linear parameters stand among the fit's values."""
         start = self.base + sum(self.widths[:index])
         return slice(start, start + self.widths[index])
+
+    def freedom(self, index: int) -> int:
+        """Count the directions of a member's linear parameters that the rows tell."""
+        place = self.columns_of(index)
+        scale = self.fit.scale[place]
+        spread = np.linalg.eigvalsh(self.fit.covariance[place, place] * np.outer(scale, scale))
+        return max(int(np.count_nonzero(spread < 1.0 / OPEN_SHARE)), 1)
 
     def solved(self, index: int) -> Solved:
         """Give what was found for a member."""

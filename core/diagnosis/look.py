@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from core.arrays import Indices, JointMask, JointSeries, Samples
+from core.arrays import Indices, JointMask, JointSeries, JointVector, Samples
 from core.diagnosis.piece import pieces_of, thinning
 from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
@@ -59,6 +59,8 @@ class Look:
         Per joint, rows x columns that stand for any friction while the joint is as good as at rest.
     band_hz
         Cut-off of the parallel filter; `motion_band_hz` that of the motion.
+    position_share
+        Per joint, the share of the white residual's mean square that noise of the positions has.
     """
 
     robot: RobotModel
@@ -75,6 +77,7 @@ class Look:
     sticking: tuple[csr_array, ...]
     band_hz: float
     motion_band_hz: float
+    position_share: JointVector
 
     @property
     def joints(self) -> int:
@@ -181,6 +184,7 @@ def look_at(
         ),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
+        position_share=np.zeros(len(model.robot.joints)),
     )
 
 

@@ -5,14 +5,14 @@ anew. Two explanations whose criteria differ by less than six are not told apart
 & Anderson, Model Selection (2002), ch. 2.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.selection import merit, rise, with_candidate
+from core.diagnosis.selection import Selection, Step, merit, rise, with_candidate
 
 INDIFFERENCE = 6.0
 OTHER_SHARE = 0.03
@@ -41,13 +41,38 @@ class Standing:
     without: Hypothesis
 
 
+def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standing]]:
+    """Weigh every member, and give up those that only make up for what another leaves.
+
+    Beside a strong effect whose columns are not exact, much fits what is left a little; a member that another
+    candidate would beat in its place, and that was not swapped for it, is such a stopgap. Gives what remains,
+    with its members' standings.
+    """
+    while True:
+        found = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
+        most = max((one.statistic for one in found), default=0.0)
+        weak = [
+            index for index, one in enumerate(found) if one.margin < -INDIFFERENCE and one.statistic < most
+        ]
+        if not weak:
+            return selection, found
+        least = min(weak, key=lambda index: found[index].statistic)
+        step = Step("dropped", selection.chosen.members[least], -found[least].statistic)
+        selection = replace(selection, chosen=found[least].without, steps=(*selection.steps, step))
+
+
 def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
     """Weigh a member against the best of all other candidates in its place."""
     member = chosen.members[index]
     without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
     own = bench.tried((*without.members, member), without)
     taken = {one.key for one in chosen.members}
-    others = [one for one in bench.scanned(without) if one.candidate.key not in taken][:WEIGHED]
+    excluded = {name for one in without.members for name in one.cause.excludes}
+    others = [
+        one
+        for one in bench.scanned(without)
+        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
+    ][:WEIGHED]
     trials = [
         bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
     ]

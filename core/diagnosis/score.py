@@ -13,10 +13,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from core.arrays import EquationRows, Matrix, Weights
-from core.diagnosis.equations import Columns, Fit, JointRows
-
-OPEN_SHARE = 1e-6
-"""A column of which the model already spans all but this share is no evidence for anything."""
+from core.diagnosis.equations import OPEN_SHARE, Columns, Fit, JointRows
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +24,8 @@ class Score:
     ----------
     statistic
         Rise of twice the log-likelihood at this noise model.
+    freedom
+        How many directions of its linear parameters the rows tell.
     values, covariance
         What its linear parameters would be.
     clear_share
@@ -34,6 +33,7 @@ class Score:
     """
 
     statistic: float
+    freedom: int
     values: Weights
     covariance: EquationRows
     clear_share: float
@@ -103,9 +103,10 @@ def _judged(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
     found = np.einsum("nij,nj->ni", spread, turned * inverse)
     for place, index in enumerate(np.flatnonzero(judged)):
         statistic = float(turned[place] ** 2 @ inverse[place])
-        out[index] = Score(statistic, found[place], covariance[place], float(clear[index]))
+        freedom = int(np.count_nonzero(inverse[place]))
+        out[index] = Score(statistic, freedom, found[place], covariance[place], float(clear[index]))
     return out
 
 
 def _open(width: int) -> Score:
-    return Score(0.0, np.zeros(width), np.eye(width), 0.0)
+    return Score(0.0, 1, np.zeros(width), np.eye(width), 0.0)

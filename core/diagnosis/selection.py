@@ -20,14 +20,18 @@ NOTHING: frozenset[Key] = frozenset()
 
 LEVEL = 1e-4
 """Chance of naming anything in a log that hides nothing."""
-TRIED = 8
+FURTHER_LEVEL = 1e-7
+"""The same beside another cause: no columns are exact, and what they leave is not luck."""
+TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
 FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 MOST = 5
 """Causes looked for at most."""
 UNSEEN_SHARE = 0.25
-"""Share of the rise to be expected on held-out rows that has to be seen there."""
+"""Share of the rise to be expected on held-out rows that has to be seen there,"""
+UNLUCKY = 2.5
+"""unless it is so small that luck, within so many of its deviations, can take it away."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -91,9 +95,13 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
-    hurdle = np.log(LEVEL) - np.log(max(count, 1))
+    hurdle = np.log(FURTHER_LEVEL if now.members else LEVEL) - np.log(max(count, 1))
     likely = sorted(
-        (trial for trial in trials if log_p(now, trial) < hurdle and _share(now, trial) > LEAST_SHARE),
+        (
+            trial
+            for trial in trials
+            if log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial)
+        ),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
@@ -104,9 +112,15 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
 
 
 def _holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
-    """Tell whether a new member helps on held-out rows as far as it acts there."""
+    """Tell whether a new member helps on held-out rows as far as it acts there.
+
+    An event is judged where it happens: what a fit knows of it from half its span says little of the rest.
+    """
+    if trial.members[-1].cause.event:
+        return True
     expected = bench.unseen_share(trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
-    return bench.unseen_rise(now, trial) >= UNSEEN_SHARE * expected
+    luck = 2.0 * float(np.sqrt(max(expected, 0.0)))
+    return bench.unseen_rise(now, trial) >= min(UNSEEN_SHARE * expected, expected - UNLUCKY * luck)
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
@@ -121,7 +135,7 @@ def log_p(now: Hypothesis, trial: Hypothesis) -> float:
     return Scored(
         added,
         min(weight(trial, len(trial.members) - 1), rise(now, trial)),
-        trial.widths[-1],
+        trial.freedom(len(trial.members) - 1),
         np.zeros(0),
         1.0,
     ).log_p
@@ -135,7 +149,7 @@ def rise(now: Hypothesis, trial: Hypothesis) -> float:
 def log_p_of(bench: Bench, chosen: Hypothesis, index: int) -> float:
     """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned."""
     member = chosen.members[index]
-    scored = Scored(member, weight(chosen, index), chosen.widths[index], np.zeros(0), 1.0)
+    scored = Scored(member, weight(chosen, index), chosen.freedom(index), np.zeros(0), 1.0)
     return min(scored.log_p + float(np.log(bench.kinds)), 0.0)
 
 
@@ -150,12 +164,21 @@ def weight(hypothesis: Hypothesis, index: int) -> float:
 def merit(now: Hypothesis, trial: Hypothesis) -> float:
     """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
     rows = max(len(one.torque) for one in trial.fit.joints)
-    return rise(now, trial) - (trial.widths[-1] + len(trial.members[-1].scalars)) * float(np.log(rows))
+    added = len(trial.members) - 1
+    freedom = trial.freedom(added) + len(trial.members[added].scalars)
+    return rise(now, trial) - freedom * float(np.log(rows))
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
     rows = min(len(one.torque) for one in trial.fit.joints)
     return rise(now, trial) / rows
+
+
+def _least_share(bench: Bench, trial: Hypothesis) -> float:
+    member = trial.members[-1]
+    if not member.cause.like_position_noise:
+        return LEAST_SHARE
+    return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in member.site))
 
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Key]) -> Hypothesis:

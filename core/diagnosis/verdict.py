@@ -23,7 +23,7 @@ from core.diagnosis.raw import RawCause, RawFinding
 from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
-from core.diagnosis.rivals import Standing, standing
+from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, log_p_of, select
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
@@ -76,12 +76,12 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     refuse_too_little(look.clear)
     tell("search", 0.1)
     bench = _bench(question, look)
-    selection = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
+    searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
     tell("weigh rivals", 0.6)
+    selection, standings = weighed(bench, searched)
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
     after = bench.residual(chosen)
     before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
-    standings = [standing(bench, chosen, index) for index in everyone]
     found = [
         _finding(bench, selection, place, one, (_without(bench, chosen, place, one), after))
         for place, one in enumerate(standings)

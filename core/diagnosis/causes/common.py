@@ -28,6 +28,7 @@ class OwnJointCause:
     coordinate: ClassVar[str] = "velocity"
     near_reversals: ClassVar[bool] = False
     event: ClassVar[bool] = False
+    like_position_noise: ClassVar[bool] = False
     excludes: ClassVar[tuple[str, ...]] = ()
     settled: ClassVar[tuple[str, ...]] = ()
 

@@ -83,7 +83,7 @@ class _Search:
                 improved = False
                 for change in ((-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step)):
                     trial = (span[0] + change[0], span[1] + change[1])
-                    if SHORTEST / 2 < trial[1] - trial[0] < 2.0 * LONGEST and self.worth(trial) > best:
+                    if SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST and self.worth(trial) > best:
                         span, best, improved = trial, self.worth(trial), True
             step /= 2.0
         return span

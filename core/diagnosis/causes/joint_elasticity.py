@@ -37,6 +37,7 @@ class JointElasticity(OwnJointCause):
     )
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
+    like_position_noise = True
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the resonance from a few times the motion's band to beyond the look's, and the damping."""
