@@ -110,8 +110,8 @@ def gained(document: Document) -> str | None:
 def _nothing_sure(document: Document) -> str:
     moved = _moved_better(document["diagnosis"].get("simulation") or {})
     return (
-        f"In the band that the model is fitted in ({fit_band(document)}), the cure gains nothing sure on data "
-        f"that no fit has seen.{moved}"
+        f"In the band that the model is fitted in ({fit_band(document)}), the cure gains nothing sure on "
+        f"data that no fit has seen.{moved}"
     )
 
 
