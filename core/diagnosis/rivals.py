@@ -67,12 +67,7 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
     without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
     own = bench.tried((*without.members, member), without)
     taken = {one.key for one in chosen.members}
-    excluded = {name for one in without.members for name in one.cause.excludes}
-    others = [
-        one
-        for one in bench.scanned(without)
-        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
-    ][:WEIGHED]
+    others = [one for one in bench.scanned(without) if one.candidate.key not in taken][:WEIGHED]
     trials = [
         bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
     ]
