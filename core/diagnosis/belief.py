@@ -18,6 +18,6 @@ class Belief:
     rows: Matrix
     target: Vector
 
-    def missed(self, values: Weights) -> Vector:
-        """Give by how much coefficients depart from it, in standard deviations."""
-        return np.asarray(self.target - self.rows @ values[: self.rows.shape[1]])
+    def departure(self, values: Weights) -> float:
+        """Give the squared distance of coefficients from it, in standard deviations."""
+        return float(np.sum((self.target - self.rows @ values[: self.rows.shape[1]]) ** 2))

@@ -180,7 +180,7 @@ class Bench:
             white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
             missed.append(sum(float(np.sum(w.left(one.fit.values) ** 2)) for w in white))
             if self.belief:
-                missed[-1] += share * float(np.sum(self.belief.missed(one.fit.values) ** 2))
+                missed[-1] += share * self.belief.departure(one.fit.values)
         return missed[0] - missed[1]
 
     def unseen_share(self, trial: Hypothesis) -> float:

@@ -13,7 +13,6 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
-from scipy.sparse.linalg import spsolve_triangular
 
 from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.belief import Belief
@@ -63,9 +62,8 @@ class JointRows:
 
     def missed_under(self, values: Weights, white: "Whitened") -> Vector:
         """Give the same, what the free columns take being judged under a noise and not row by row."""
-        left = white.whitening @ (self.torque - self.columns @ values)
-        cleared = white.free.cleared(left[:, None])[:, 0]
-        return np.asarray(spsolve_triangular(white.whitening, cleared, lower=True))
+        left = self.torque - self.columns @ values
+        return np.asarray(left - self.free.columns @ white.free.coefficients(white.whitening @ left))
 
 
 @dataclass(frozen=True, eq=False)
@@ -294,8 +292,6 @@ def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
     factor = cho_factor(scaled, lower=True)
     values = cho_solve(factor, right / scale) / scale
     left = tuple(one.left(values) for one in joints)
-    missed = sum(float(one @ one) for one in left)
-    if belief is not None:
-        missed += float(np.sum(belief.missed(values) ** 2))
+    missed = sum(float(one @ one) for one in left) + (belief.departure(values) if belief else 0.0)
     logs = sum(one.log_deviations for one in joints)
     return Fit(joints, left, values, factor, scale, -0.5 * missed - logs, belief)

@@ -14,7 +14,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 from scipy.linalg.lapack import dpstrf, dtbtrs
 from scipy.sparse import csr_array
 
-from core.arrays import EquationRows, Matrix, Vector
+from core.arrays import EquationRows, Matrix, Vector, Weights
 
 LEAST = 1e-6
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
@@ -25,11 +25,15 @@ RIDGE = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Free:
-    """Hold independent columns in the order of time, their transpose, and the factor of their Gram matrix."""
+    """Hold independent columns in the order of time, their transpose, and the factor of their Gram matrix.
+
+    The columns are scaled to unit size; `sizes` are those they had.
+    """
 
     columns: csr_array
     turned: csr_array
     factor: Matrix
+    sizes: Vector
 
     @property
     def count(self) -> int:
@@ -44,6 +48,14 @@ class Free:
             along = cho_solve_banded((self.factor, True), self.turned @ rows, check_finite=False)
             rows = rows - self.columns @ along
         return rows
+
+    def coefficients(self, rows: Vector) -> Weights:
+        """Give how much of each column, in the size it came in, a column over the same rows holds."""
+        along = np.zeros(self.count)
+        for _ in range(2 if self.count else 0):
+            left = self.turned @ (rows - self.columns @ along)
+            along += cho_solve_banded((self.factor, True), left, check_finite=False)
+        return np.asarray(along / self.sizes)
 
     def inside(self, rows: Matrix) -> EquationRows:
         """Write what the free ones span of columns along orthonormal axes: products of such parts are theirs.
@@ -72,7 +84,8 @@ def free_of(columns: csr_array) -> Free:
     banded = np.zeros((int(np.max(row - column, initial=0)) + 1, gram.shape[0]))
     banded[row - column, column] = value
     banded[0] += RIDGE
-    return Free(scaled, turned, cholesky_banded(banded, lower=True) if banded.size else banded)
+    factor = cholesky_banded(banded, lower=True) if banded.size else banded
+    return Free(scaled, turned, factor, _sizes(columns))
 
 
 def independent(columns: csr_array) -> csr_array:

@@ -7,11 +7,12 @@ Sources: Burg 1975; Brockwell & Davis, Time Series (1991), ch. 5 and 8.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, Matrix, Vector, Weights
+from core.arrays import Indices, Matrix, SquareMatrix, Vector, Weights
 
 HIGHEST_ORDER = 12
 ROWS_PER_ORDER = 30
@@ -51,23 +52,34 @@ class JointNoise:
 
     def whitening(self, place: Indices) -> csr_array:
         """Write the whitening as a matrix: each row less what the rows before it in its run predict."""
-        weights = np.zeros((self.order + 1, self.order + 1))
-        for known, predictor in enumerate(self.predictors):
-            weights[known, 0] = 1.0
-            weights[known, 1 : known + 1] = -predictor
-        weights /= self.deviations[:, None]
         known, lags = np.minimum(place, self.order), np.arange(self.order + 1)
         inside = lags <= known[:, None]
         columns = (np.arange(len(place))[:, None] - lags)[inside]
         starts = np.concatenate([[0], np.cumsum(known + 1)])
-        return csr_array((weights[known][inside], columns, starts), (len(place), len(place)))
+        return csr_array((self._weights[known][inside], columns, starts), (len(place), len(place)))
+
+    def innovations(self, residual: Vector, place: Indices) -> Vector:
+        """Turn one column into innovations of unit variance, at less cost than by the matrix."""
+        lagged = np.zeros((len(residual), self.order + 1))
+        for lag in range(min(self.order + 1, len(residual))):
+            lagged[lag:, lag] = residual[: len(residual) - lag]
+        return np.asarray(np.einsum("ij,ij->i", self._weights[np.minimum(place, self.order)], lagged))
+
+    @cached_property
+    def _weights(self) -> SquareMatrix:
+        """Give, for 0, 1, ... p known values, the weights of a value and of those before it."""
+        weights = np.zeros((self.order + 1, self.order + 1))
+        for known, predictor in enumerate(self.predictors):
+            weights[known, 0] = 1.0
+            weights[known, 1 : known + 1] = -predictor
+        return np.asarray(weights / self.deviations[:, None])
 
     def departure(self, other: "JointNoise", residual: Vector, place: Indices) -> float:
         """Give by how much less likely noise like a residual, which is of this kind, is under another kind.
 
         To be expected, in logarithms, and never below zero: Kullback & Leibler's divergence.
         """
-        own, theirs = (one.whitening(place) @ residual for one in (self, other))
+        own, theirs = (one.innovations(residual, place) for one in (self, other))
         ratio = float(theirs @ theirs) / max(float(own @ own), 1e-300)
         scale = other.log_deviations(place) - self.log_deviations(place)
         return scale + 0.5 * len(place) * (ratio - 1.0)

@@ -1,6 +1,7 @@
 """The demonstration: what it prints from a document, what it says when something fails, the real thing."""
 
 import json
+import re
 import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from typing import ClassVar
@@ -217,7 +218,18 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     assert max(distances) < 5.0
     page = capsys.readouterr().out
     assert "Time from upload to result" in page
-    assert page.index("Time from upload to result") < page.index("hidden_log.csv") < page.index("Hidden was")
+    words = " ".join(page.split())
+    assert (
+        words.index("Time from upload to result")
+        < words.index("hidden_log.csv")
+        < words.index("What had been")
+    )
+    assert "not found" not in words
+    told = re.findall(r"(?m)^ +.*?([+-]\d+\.\d) *$", page[page.index("What had been") :])
+    assert len(told) == 4
+    assert all(abs(float(z)) < 3.0 for z in told)  # one log in four hundred exceeds 3 per number
+    shown = re.search(r"```\n(The simulation of.*?)```", (demo.ROOT / "README.md").read_text(), re.DOTALL)
+    assert all(" ".join(line.split()) in words for line in shown.group(1).splitlines() if line[:1] != " ")
     report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
     assert "gets two things wrong" in report
     assert "torque ripples along the angle (joint 4)" in report

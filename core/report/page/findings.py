@@ -20,11 +20,16 @@ from core.report.page.words import (
     unit_of_effort,
 )
 
+_RAW = "raw check"
+_NOT_CURED = (
+    "Nothing joins the model for it, so that there is no gain to measure: it has to be mended where the log "
+    "is recorded."
+)
 _READ = {
     "likelihood ratio": "With it in the model the log is more likely: twice the log-likelihood rises by {}",
     "log10 p": "Luck leaves so clear a trace with a chance of ten to the power of {}, all trials counted in",
     "criterion difference": "The best rival in its place falls behind by {}; less than 6 would tell nothing",
-    "raw check": "The raw samples show it before any model is fitted; the check's statistic is {}",
+    _RAW: "The raw samples show it before any model is fitted; the check's statistic is {}",
 }
 _READ_WITHOUT_VALUE = {
     "log10 p": "Luck leaves so clear a trace with a chance smaller than can be computed",
@@ -53,9 +58,13 @@ def _card(place: int, finding: Document, document: Document) -> Html:
         tag("h4", "Why this cause"),
         listing(_reasons(finding)),
         _undecided(finding["ambiguous_with"]),
-        _refuted(finding["refuted"]),
+        tag("p", _NOT_CURED, class_="note") if _is_raw(finding) else _refuted(finding["refuted"]),
         class_="finding",
     )
+
+
+def _is_raw(finding: Document) -> bool:
+    return any(one["statistic"] == _RAW for one in finding["evidence"])
 
 
 def _key_figures(finding: Document, band: str) -> Html:

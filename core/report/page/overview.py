@@ -6,11 +6,13 @@ from core.report.page.markup import Html, tag
 from core.report.page.words import (
     Document,
     count,
+    fit_band,
     interval,
     is_real,
     joints,
     lower,
     percent,
+    reference,
     series,
     share,
     unbroken,
@@ -19,28 +21,46 @@ from core.report.page.words import (
 
 def headline(document: Document) -> str:
     """Give the verdict as a sentence or two."""
-    diagnosis, name = document["diagnosis"], document["robot"]["name"]
-    found, left = diagnosis["findings"], diagnosis["unexplained"]["joints"]
-    if not found:
-        if diagnosis["verdict"] == "nothing_found":
-            return f"Nothing that this log can show is wrong with the simulation of {name}."
-        return (
-            f"The simulation of {name} leaves structure in the torque of {joints(left)}, and no known cause "
-            "explains it."
-        )
-    where = _where_by_title(found)
-    unsure = {one["title"] for one in found if one["ambiguous_with"]}
-    titles = series(
-        [
-            f"{lower(title)}{', or a cause like it' * (title in unsure)} ({joints(places)})"
-            for title, places in where.items()
-        ]
-    )
-    what = f"{count(len(where))} thing{'s' if len(where) > 1 else ''}"
-    sentence = f"The simulation of {name} gets {what} wrong: {titles}."
+    diagnosis, left = document["diagnosis"], document["diagnosis"]["unexplained"]["joints"]
+    if not diagnosis["findings"]:
+        return _nothing(document) if diagnosis["verdict"] == "nothing_found" else _unnamed(document)
+    sentence = f"{_subject(document)}: {_titles(diagnosis['findings'])}."
     if diagnosis["verdict"] == "unexplained" and left:
         sentence += f" Part of what is left on {joints(left)} has no known cause."
     return sentence
+
+
+def _nothing(document: Document) -> str:
+    name, other = document["robot"]["name"], reference(document)
+    if other:
+        return f"{name} differs from {other} in nothing that this log can show."
+    return f"Nothing that this log can show is wrong with the simulation of {name}."
+
+
+def _unnamed(document: Document) -> str:
+    name, other = document["robot"]["name"], reference(document)
+    left = joints(document["diagnosis"]["unexplained"]["joints"])
+    who = f"What {name} does differently from {other}" if other else f"The simulation of {name}"
+    return f"{who} leaves structure in the torque of {left}, and no known cause explains it."
+
+
+def _subject(document: Document) -> str:
+    name, other = document["robot"]["name"], reference(document)
+    size = len(_where_by_title(document["diagnosis"]["findings"]))
+    what = f"{count(size)} thing{'s' if size > 1 else ''}"
+    return (
+        f"{name} differs from {other} in {what}" if other else f"The simulation of {name} gets {what} wrong"
+    )
+
+
+def _titles(found: Sequence[Document]) -> str:
+    unsure = {one["title"] for one in found if one["ambiguous_with"]}
+    return series(
+        [
+            f"{lower(title)}{', or a cause like it' * (title in unsure)} ({joints(places)})"
+            for title, places in _where_by_title(found).items()
+        ]
+    )
 
 
 def at_a_glance(document: Document) -> Html | None:
@@ -75,7 +95,7 @@ def gained(document: Document) -> str | None:
         one for one in diagnosis.get("gain") or [] if is_real(one["improvement_percent"], one["interval_95"])
     ]
     if not helped:
-        return None
+        return _nothing_sure(document) if diagnosis.get("gain") else None
     parts = [
         f"by {percent(one['improvement_percent'])} on joint {one['joint']} "
         f"(95 %: {interval(one['interval_95'])})"
@@ -85,6 +105,14 @@ def gained(document: Document) -> str | None:
         f"With the cure in the model, the torque error on data that no fit has seen falls {series(parts)}."
     )
     return torque + _moved_better(diagnosis.get("simulation") or {})
+
+
+def _nothing_sure(document: Document) -> str:
+    moved = _moved_better(document["diagnosis"].get("simulation") or {})
+    return (
+        f"In the band that the model is fitted in ({fit_band(document)}), the cure gains nothing sure on "
+        f"data that no fit has seen.{moved}"
+    )
 
 
 def _moved_better(simulation: Document) -> str:

@@ -3,7 +3,7 @@
 import json
 
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import Document, number
+from core.report.page.words import Document, number, reference
 
 _IDENTIFY = (
     "Position is differentiated and torque filtered by the same zero-phase filters; the equations of motion "
@@ -11,9 +11,16 @@ _IDENTIFY = (
     "constraints say that every link can exist. Standard deviations know the memory of the noise. Blocks of "
     "time that no fit has seen are predicted to measure the error."
 )
-_DIAGNOSE = (
+_ANEW = (
     "First everything the standard model has was identified, so that what is left cannot be absorbed by any "
-    "of its parameters. Then every known cause was tried on every joint against the whitened residual, "
+    "of its parameters. "
+)
+_COMPARED = (
+    "The parameters of the model were believed to be those of {}, as near to them as they are known there, "
+    "so that a change shows which a new identification would absorb. "
+)
+_DIAGNOSE = (
+    "Then every known cause was tried on every joint against the whitened residual, "
     "corrected for the number of trials; causes joined the model one by one, each had to defend its place "
     "against being dropped and against its rivals, and none was built from the measured torque. The extended "
     "model was identified again under the same physical constraints and measured on blocks of time that no "
@@ -45,7 +52,7 @@ def data_section(document: Document) -> Html | None:
 def method_section(document: Document) -> Html:
     """Say in short how it was done, and from what."""
     given = document.get("provenance") or {}
-    text = f"{_DIAGNOSE} {_IDENTIFY}" if document.get("kind") == "diagnose" else _IDENTIFY
+    text = f"{_first(document)}{_DIAGNOSE} {_IDENTIFY}" if document.get("diagnosis") else _IDENTIFY
     hashes = ", ".join(str(one) for one in given.get("log_sha256") or [] if one) or "none"
     return section(
         "How this was done",
@@ -58,6 +65,11 @@ def method_section(document: Document) -> Html:
             ]
         ),
     )
+
+
+def _first(document: Document) -> str:
+    other = reference(document)
+    return _COMPARED.format(other) if other else _ANEW
 
 
 def _defect(defect: Document) -> Html:

@@ -234,6 +234,20 @@ def cure(kind: str) -> str:
     return _CURES.get(kind, kind)
 
 
+def reference(document: Document) -> str | None:
+    """Say what a diagnosis compares its logs with; None where everything was identified from them first.
+
+    Examples
+    --------
+    >>> reference({"diagnosis": {"reference": {"name": "prior"}}}), reference({"diagnosis": {}})
+    ('its own description', None)
+    """
+    found = document["diagnosis"].get("reference")
+    if not found:
+        return None
+    return "its own description" if found["name"] == "prior" else f"the result of {found['name']}"
+
+
 def band(document: Document) -> str:
     """Say up to which frequency a diagnosis looked; nothing of it counts above.
 

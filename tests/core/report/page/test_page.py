@@ -227,6 +227,35 @@ def test_a_gain_is_marked_as_real_only_where_its_interval_leaves_zero_out():
     assert page.count("<span>50 %</span>") == 1  # joint 2 in motion
 
 
+def test_a_cure_that_gains_nothing_sure_is_said_to_gain_nothing():
+    weak = diagnosed()["diagnosis"]["gain"][1:]
+    text = Page(compose_page(diagnosed(gain=weak))).text
+    assert "(up to 9.50 Hz), the cure gains nothing sure on data that no fit has seen." in text
+    assert "falls by" not in text
+
+
+def test_what_only_the_raw_samples_show_is_said_not_to_be_cured():
+    raw = {"statement": "Raw", "statistic": "raw check", "value": 6.3}
+    found = finding(gain=None, curve=None, evidence=[raw], ambiguous_with=[], refuted=[])
+    text = Page(compose_page(diagnosed(findings=[found], gain=[]))).text
+    assert "show it before any model is fitted; the check's statistic is 6.30." in text
+    assert "it has to be mended where the log is recorded" in text
+    assert "No other cause comes near" not in text
+
+
+def test_against_a_reference_the_report_says_what_differs_from_it():
+    compared = {"name": "job-7", "left_open": [], "worse_than_nothing": [], "base_parameters": []}
+    sure = finding(ambiguous_with=[])
+    text = Page(compose_page(diagnosed(findings=[sure], reference=compared))).text
+    grows = "friction grows with the transmitted torque (joint 1)."
+    assert f"bench arm differs from the result of job-7 in one thing: {grows}" in text
+    assert "believed to be those of the result of job-7" in text
+    same = Page(compose_page(diagnosed(verdict="nothing_found", findings=[], reference=compared))).text
+    assert "bench arm differs from the result of job-7 in nothing that this log can show." in same
+    prior = Page(compose_page(diagnosed(findings=[sure], reference=compared | {"name": "prior"}))).text
+    assert "bench arm differs from its own description in one thing" in prior
+
+
 def test_nothing_found_is_said_as_plainly_as_a_cause():
     text = Page(compose_page(nothing_found())).text
     assert "Nothing that this log can show is wrong with the simulation of bench arm." in text
