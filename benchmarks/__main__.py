@@ -7,7 +7,17 @@ import argparse
 import importlib
 import os
 
-NAMES = ("regressor", "simulation", "pipeline", "hour", "programme", "nelder_mead", "bootstrap", "coverage")
+NAMES = (
+    "regressor",
+    "simulation",
+    "pipeline",
+    "hour",
+    "programme",
+    "nelder_mead",
+    "bootstrap",
+    "coverage",
+    "diagnosis",
+)
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 

@@ -4,7 +4,7 @@ This is the only module that meets every chapter; each step takes what the step 
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 
 from core.arrays import Parameters
@@ -16,11 +16,12 @@ from core.diagnosis.verdict import diagnose as find_causes
 from core.dynamics.model import DynamicModel, standard_model
 from core.errors import OptionError, VeritorqueError
 from core.estimate.constraints import default_prior
-from core.estimate.estimate import estimate, nearest
+from core.estimate.estimate import estimate
 from core.estimate.feasibility import active_constraints, feasibility
 from core.estimate.measured import Measured, smoothed, weighted_system
 from core.estimate.system import System
 from core.extension.extend import cures, extended_base, remembers, sizes
+from core.extension.fold import folded
 from core.extension.gain import gains
 from core.log.model import JointLog
 from core.options import IdentifyOptions, parse_diagnose_options, parse_options
@@ -30,7 +31,8 @@ from core.precision.essential import essential_parameters
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import torque_scales
-from core.report.diagnosed import Compared, Diagnosed
+from core.report.compared import compared
+from core.report.diagnosed import Diagnosed
 from core.report.diagnosis_document import diagnosis_document
 from core.report.document import grouping_row, identification_document
 from core.report.earlier import reference_from_document
@@ -144,31 +146,20 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     before = _identified(request, options, _Fitting(data, base), lambda stage, done: tell(stage, 0.3 * done))
     question = Question(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
     found = find_causes(question, lambda stage, done: tell(stage, 0.3 + 0.5 * done))
-    compared = None if reference is None else _compared(reference, before, data)
+    as_it_is = None if reference is None else compared(reference, before, data.parts(before.observation))
     terms = cures(found)
     if not terms:
-        return Diagnosed(before, found, None, (), None, "nothing joined the model", compared)
+        return Diagnosed(before, found, None, (), None, "nothing joined the model", as_it_is)
     whole = extended_base(base, terms)
     wider = Measured(ColumnPlan(whole.model, whole.kept), data.motions, data.held_out)
     fitting = _Fitting(wider, whole, sizes(found), None if reference is None else reference.belief)
     after = _identified(request, options, fitting, lambda stage, done: tell(stage, 0.8 + 0.15 * done))
     tell("simulate", 0.95)
     held = data.parts(before.observation)[1]
-    old = before.estimate if compared is None else compared
+    old = before.estimate if as_it_is is None else as_it_is
     gained = gains((before.observation, old.base), (after.observation, after.estimate.base), held)
     motion, note = _motion((base.model, old.standard), after, found, data)
-    return Diagnosed(before, found, after, gained, motion, note, compared)
-
-
-def _compared(reference: Reference, found: Identification, data: Measured) -> Compared:
-    """Let a reference predict the logs as it is."""
-    observation, parts = found.observation, data.parts(found.observation)
-    values = reference.completed(found.estimate.system)
-    believed = replace(found.estimate.prior, centre=reference.standard)
-    fit, held = (
-        (scores(observation, part, values), total_percent(observation, part, values)) for part in parts
-    )
-    return Compared(reference, values, nearest(found.base, values, believed), *fit, *held)
+    return Diagnosed(before, found, after, gained, motion, note, as_it_is)
 
 
 def _motion(
@@ -178,7 +169,7 @@ def _motion(
     if any(remembers(one, found) for one in found.findings):
         return None, "a finding's torque depends on the motion before the instant, which is not simulated"
     try:
-        old, new = mechanism_of(*before), mechanism_of(after.base.model, after.estimate.standard)
+        old, new = (mechanism_of(*one) for one in (before, folded(after.base.model, after.estimate.standard)))
         return compare(old, new, data.motions, chosen=data.held_out or None), ""
     except VeritorqueError as error:
         return None, str(error)

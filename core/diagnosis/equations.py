@@ -26,8 +26,7 @@ ROUNDING = 1e-12
 """Share of a column's square below which what is left of it beside free columns is rounding."""
 OPEN_SHARE = 1e-6
 """A column of which the others already span all but this share is no evidence for anything."""
-ROUNDS = 3
-TRIAL_ROUNDS = 2
+ROUNDS, TRIAL_ROUNDS = 3, 2
 SETTLED = 0.03
 """What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
 
@@ -89,11 +88,16 @@ class Whitened:
     free: Free
 
     @cached_property
+    def acting(self) -> tuple[Indices, Matrix, EquationRows]:
+        """List the columns that are not all zero, and give them with what free ones span of them."""
+        acting = np.flatnonzero(self.columns.any(axis=0))
+        return acting, self.columns[:, acting], self.inside[:, acting]
+
+    @cached_property
     def gram(self) -> SquareMatrix:
         """Give the products of the columns with each other, less what free columns span."""
         out = np.zeros((self.columns.shape[1], self.columns.shape[1]))
-        acting = np.flatnonzero(self.columns.any(axis=0))
-        columns, inside = self.columns[:, acting], self.inside[:, acting]
+        acting, columns, inside = self.acting
         whole = columns.T @ columns
         out[np.ix_(acting, acting)] = whole - inside.T @ inside + ROUNDING * np.diag(np.diag(whole))
         return out
@@ -224,8 +228,7 @@ def fit(
         noise = tuple(learn_noise(rows.torque, rows.place, order=0) for rows in joints)
         rounds += 1
     found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)), belief)
-    everywhere = frozenset(range(len(joints)))
-    return _settled(joints, found, everywhere, rounds)
+    return _settled(joints, found, None, rounds)
 
 
 def refit(
@@ -249,12 +252,11 @@ def refit(
         old.with_columns(kept, rows.columns[:, kept:])
         for old, rows in zip(before.joints, joints, strict=True)
     )
-    everywhere = frozenset(range(len(joints)))
-    return _settled(joints, _solved(parts, before.belief), everywhere if touched is None else touched, rounds)
+    return _settled(joints, _solved(parts, before.belief), touched, rounds)
 
 
-def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int], rounds: int) -> Fit:
-    """Learn the noise of some joints again and again, until that hardly makes the rows more likely."""
+def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
+    """Learn the noise of some or all joints again and again, until that hardly makes the rows more likely."""
     for _ in range(rounds):
         before, found = found, _relearned(joints, found, touched)
         if found is before:
@@ -262,10 +264,10 @@ def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int],
     return found
 
 
-def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int]) -> Fit:
-    """Learn the noise of some joints from their residual, and fit again where that makes a difference."""
+def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
+    """Learn the noise of some or all joints from their residual, and fit again where that makes a difference."""
     parts = list(found.joints)
-    for joint in touched:
+    for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
         residual = rows.missed_under(found.values, known)
         learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))

@@ -67,8 +67,8 @@ def _alike(
         inside = own.free.inside(white)
         right[present] += (found.left[joint] @ white).reshape(-1, width)
         squares[present] += np.einsum("ij,ij->j", white, white).reshape(-1, width)
-        acting = np.flatnonzero(own.columns.any(axis=0))
-        both = own.columns[:, acting].T @ white - own.inside[:, acting].T @ inside
+        acting, known, spanned = own.acting
+        both = known.T @ white - spanned.T @ inside
         both = both.reshape(len(acting), len(present), width)
         cross[np.array(present)[:, None], acting] += np.moveaxis(both, 0, 1)
         grams[present] += _grams(white, width) - _grams(inside, width)

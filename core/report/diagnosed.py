@@ -2,37 +2,11 @@
 
 from dataclasses import dataclass
 
-from core.arrays import BaseParameters, Parameters
 from core.diagnosis.diagnosis import Diagnosis
-from core.diagnosis.reference import Reference
 from core.extension.gain import JointGain
+from core.report.compared import Compared
 from core.report.identification import Identification
 from core.simulation.multistep import Comparison
-from core.validation.scores import JointScore
-
-
-@dataclass(frozen=True, eq=False)
-class Compared:
-    """Hold how well a reference predicts the logs as it is.
-
-    Attributes
-    ----------
-    base, standard
-        Its base parameters, with what it leaves open filled in from the logs, and a robot that has them.
-    """
-
-    reference: Reference
-    base: BaseParameters
-    standard: Parameters
-    fit: tuple[JointScore, ...]
-    fit_total_percent: float
-    validation: tuple[JointScore, ...]
-    validation_total_percent: float
-
-    @property
-    def worse_than_nothing(self) -> tuple[int, ...]:
-        """List the joints whose torque the reference misses by more than there is."""
-        return tuple(one.joint for one in self.validation if one.rms_residual > one.rms_torque)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,8 @@ from typing import cast
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
 from core.extension.gain import JointGain
 from core.extension.motion_gain import motion_intervals
-from core.report.diagnosed import Compared, Diagnosed
+from core.report.compared import Compared
+from core.report.diagnosed import Diagnosed
 from core.report.document import base_parameter_rows, identification_document
 from core.report.finding import finding_row, not_identifiable_row
 from core.report.identification import Identification

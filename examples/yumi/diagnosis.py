@@ -35,7 +35,7 @@ def print_diagnosis(console: Console, result: Document, hidden: Sequence[Documen
 
 def headline(result: Document) -> str:
     """Say in a sentence what came out."""
-    found, name = len(result["diagnosis"]["findings"]), result["robot"]["name"]
+    found, name = len({one["cause"] for one in result["diagnosis"]["findings"]}), result["robot"]["name"]
     if not found:
         return f"Nothing that this log can show is wrong with the simulation of {name}."
     return f"The simulation of {name} gets {found} thing{'s' if found > 1 else ''} wrong."

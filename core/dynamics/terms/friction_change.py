@@ -34,6 +34,11 @@ class FrictionChange(OneJointTerm):
     )
     kind: ClassVar[str] = "friction_change"
 
+    @property
+    def changes(self) -> tuple[str, ...]:
+        """Name the parameters that change."""
+        return tuple(f"{symbol}{self.joint}" for symbol in ("FV", "FC", "OFF"))
+
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give velocity, its sign, and one."""
         del robot

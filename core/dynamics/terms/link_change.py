@@ -25,6 +25,11 @@ class LinkChange(AllJointsTerm):
     )
     kind: ClassVar[str] = "link_parameters"
 
+    @property
+    def changes(self) -> tuple[str, ...]:
+        """Name the parameters that change."""
+        return tuple(f"{symbol}{self.link}" for symbol in INERTIAL_SYMBOLS)
+
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque per unit of change."""
         return list(body_torques(robot, self.link, state))

@@ -31,6 +31,12 @@ class Payload(AllJointsTerm):
     )
     kind: ClassVar[str] = "payload_change"
 
+    @property
+    def changes(self) -> tuple[str, ...]:
+        """Name the parameters that a body which was there throughout adds to."""
+        whole = self.begin == -np.inf
+        return tuple(f"{symbol}{self.link}" for symbol in INERTIAL_SYMBOLS) if whole else ()
+
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque per unit of the body's ten parameters while it is there."""
         columns = body_torques(robot, self.link, state)

@@ -20,6 +20,9 @@ _SOURCES = {
     "none": "unknown",
 }
 
+_WELL_ABOVE = 1.5
+"""A noise floor from another band than the residual's is no better known than this factor."""
+
 
 def unexplained_section(document: Document) -> Html:
     """Tabulate per joint what a generic learner still predicts, beside the noise floor."""
@@ -64,9 +67,24 @@ def _said(left: Document) -> list[str]:
         f"time, cannot predict the residual of {others} on data it has not seen. No extension of the model "
         "would gain much."
     )
-    if not parked:
-        return [told]
-    return [told, f"Of {joints(parked)}, which the motion hardly moves, nothing can be said."]
+    said = [told]
+    if above := _above_the_floor(left):
+        said.append(
+            f"On {joints(above)} what is left lies well above the noise floor without following the motion: "
+            "vibration, or noise that remembers for long and hides structure from the learner."
+        )
+    if parked:
+        said.append(f"Of {joints(parked)}, which the motion hardly moves, nothing can be said.")
+    return said
+
+
+def _above_the_floor(left: Document) -> list[int]:
+    pairs = zip(left["rms_residual"], left["noise_floor"], strict=True)
+    return [
+        joint
+        for joint, (rms, floor) in enumerate(pairs, start=1)
+        if joint not in left["joints"] and rms is not None and floor is not None and rms > _WELL_ABOVE * floor
+    ]
 
 
 def _clearest(document: Document) -> list[tuple[Document, str]]:

@@ -141,6 +141,14 @@ def test_every_joint_is_told_what_was_found_on_it_and_in_which_band_it_was_judge
     assert "smaller error on data that no fit has seen, up to 20.0 Hz" in text
 
 
+def test_what_is_left_well_above_the_noise_floor_is_not_called_nothing():
+    left = diagnosed()["diagnosis"]["unexplained"]
+    above = left | {"rms_residual": [0.2, 0.2], "noise_floor": [0.1, 0.19]}
+    text = Page(compose_page(diagnosed(unexplained=above))).text
+    assert "On joint 1 what is left lies well above the noise floor" in text
+    assert "well above" not in Page(compose_page(diagnosed())).text
+
+
 def test_a_joint_that_hardly_moved_is_not_said_to_be_without_fault():
     left = diagnosed()["diagnosis"]["unexplained"]
     left |= {"predictable_residual_fraction": [0.0, None], "interval_95": [[0.0, 0.0], [None, None]]}

@@ -1,0 +1,34 @@
+"""Put what only changes parameters that the model has where it belongs: into those parameters.
+
+A payload that was there throughout, another friction or another link joins a model as a term of its own, so
+that its size has a deviation of its own. Simulated, or given to others, it is simply another robot.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core.arrays import Parameters
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import Term
+
+
+def folded(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Parameters]:
+    """Add the terms' parameters to those they change, and leave the terms out.
+
+    Terms that change parameters which the model does not have stay.
+    """
+    place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
+    values, start = np.array(standard), 0
+    kept: list[int] = []
+    terms: list[Term] = []
+    for term in model.terms:
+        stop = start + len(term.parameters(model.robot))
+        changed = getattr(term, "changes", ())
+        if changed and all(name in place for name in changed):
+            values[[place[name] for name in changed]] += values[start:stop]
+        else:
+            terms.append(term)
+            kept += range(start, stop)
+        start = stop
+    return replace(model, terms=tuple(terms)), values[kept]
