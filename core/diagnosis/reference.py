@@ -24,7 +24,7 @@ PRIOR = "prior"
 LEAST_DEVIATION = 0.005
 """No parameter is taken to be known better than this share of itself: so far two logs of one robot disagree
 by what the model leaves out, which the noise of neither tells."""
-PRIOR_DEVIATION = 0.05
+PRIOR_DEVIATION = 0.02
 """Of a description's bodies: every entry of a pseudo-inertia is off by this share of the roots of its
 diagonal."""
 
