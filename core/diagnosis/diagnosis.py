@@ -121,12 +121,34 @@ class NotIdentifiable:
     separating_experiment: str
 
 
+@dataclass(frozen=True)
+class Stranger:
+    """Say what a residual still follows that is in no list.
+
+    Attributes
+    ----------
+    joint
+        Where it acts, from 1.
+    statement
+        What it follows.
+    statistic, log10_p
+        Rise of twice the log-likelihood, and the chance of it by luck, all patterns and joints counted in.
+    """
+
+    joint: int
+    statement: str
+    statistic: float
+    log10_p: float
+
+
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
     """Hold a diagnosis.
 
     Attributes
     ----------
+    stranger
+        A pattern that what is left still follows; None where none is found.
     believed
         The model whose prediction the causes' columns were built on.
     residual_before, residual_after
@@ -137,6 +159,7 @@ class Diagnosis:
     findings: tuple[Finding, ...]
     not_identifiable: tuple[NotIdentifiable, ...]
     predictable: tuple[Predictable, ...]
+    stranger: Stranger | None
     atlas: Atlas
     look: Look
     believed: Prediction

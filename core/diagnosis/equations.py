@@ -265,7 +265,7 @@ def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] 
 
 
 def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
-    """Learn the noise of some or all joints from their residual, and fit again where that makes a difference."""
+    """Learn the noise of some or all joints from their residual; fit again where that makes a difference."""
     parts = list(found.joints)
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]

@@ -13,10 +13,13 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.selection import Selection, Step, merit, rise, with_candidate
+from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0
 OTHER_SHARE = 0.03
 """Share of a finding's rise below which its lead over a rival not known to be confused with it is nothing."""
+STRANGER_SHARE = 0.25
+"""Share of a finding's rise by which a pattern without a name has to lead to refute it."""
 WEIGHED = 6
 WORTH_NAMING = 0.1
 """A rival that reaches less than this share of the finding's own rise is not worth a line."""
@@ -30,11 +33,14 @@ class Standing:
     ----------
     statistic
         Rise of twice the log-likelihood that it brings itself.
+    merit
+        The same less what its parameters would gain by themselves.
     margin
         By how much its criterion beats that of the best rival that is another cause or acts elsewhere.
     """
 
     statistic: float
+    merit: float
     margin: float
     ambiguous: tuple[Rival, ...]
     refuted: tuple[Rival, ...]
@@ -42,17 +48,20 @@ class Standing:
 
 
 def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standing]]:
-    """Weigh every member, and give up those that only make up for what another leaves.
+    """Weigh every member, and give up those that only make up for what is not known.
 
     Beside a strong effect whose columns are not exact, much fits what is left a little; a member that another
-    candidate would beat in its place, and that was not swapped for it, is such a stopgap. Gives what remains,
-    with its members' standings.
+    candidate would beat in its place, and that was not swapped for it, is such a stopgap. So is one that a
+    pattern without a name beats by far. Gives what remains, with its members' standings.
     """
+    suspects = strangers(bench)
     while True:
         found = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
         most = max((one.statistic for one in found), default=0.0)
         weak = [
-            index for index, one in enumerate(found) if one.margin < -INDIFFERENCE and one.statistic < most
+            index
+            for index, one in enumerate(found)
+            if (one.margin < -INDIFFERENCE and one.statistic < most) or _beaten(bench, one, suspects)
         ]
         if not weak:
             return selection, found
@@ -61,18 +70,20 @@ def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standin
         selection = replace(selection, chosen=found[least].without, steps=(*selection.steps, step))
 
 
+def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> bool:
+    """Tell whether a pattern without a name explains much more than a member in its place."""
+    stranger = best_stranger(bench, own.without, suspects)
+    lead = max(INDIFFERENCE, STRANGER_SHARE * own.statistic)
+    return stranger is not None and merit(own.without, stranger) > own.merit + lead
+
+
 def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
     """Weigh a member against the best of all other candidates in its place."""
     member = chosen.members[index]
     without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
     own = bench.tried((*without.members, member), without)
     taken = {one.key for one in chosen.members}
-    excluded = {name for one in without.members for name in one.cause.excludes}
-    others = [
-        one
-        for one in bench.scanned(without)
-        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
-    ][:WEIGHED]
+    others = [one for one in bench.scanned(without) if one.candidate.key not in taken][:WEIGHED]
     trials = [
         bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
     ]
@@ -87,7 +98,7 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
             ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
             refuted.append(_refuted(rival, rise(without, trial), own_rise, possible=trial.possible))
-    return Standing(own_rise, float(margin), tuple(ambiguous), tuple(refuted), without)
+    return Standing(own_rise, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
 
 
 def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float:

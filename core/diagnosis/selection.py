@@ -95,23 +95,24 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
-    hurdle = np.log(FURTHER_LEVEL if now.members else LEVEL) - np.log(max(count, 1))
     likely = sorted(
-        (
-            trial
-            for trial in trials
-            if log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial)
-        ),
+        (trial for trial in trials if clear_enough(bench, now, trial, count)),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
     whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
     # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
     ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -merit(now, trial)))
-    return next((trial for trial in ranked if trial.possible and _holds_unseen(bench, now, trial)), None)
+    return next((trial for trial in ranked if trial.possible and holds_unseen(bench, now, trial)), None)
 
 
-def _holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
+def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
+    """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
+    hurdle = np.log(FURTHER_LEVEL if now.members else LEVEL) - np.log(max(kinds, 1))
+    return log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial)
+
+
+def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
     """Tell whether a new member helps on held-out rows as far as it acts there.
 
     An event is judged where it happens: what a fit knows of it from half its span says little of the rest.

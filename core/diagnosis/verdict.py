@@ -15,7 +15,7 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
 from core.diagnosis.confidence import confidence
 from core.diagnosis.curve import curve
-from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Verdict
+from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look, look_at
@@ -24,7 +24,8 @@ from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
 from core.diagnosis.rivals import Standing, weighed
-from core.diagnosis.selection import Selection, log_p_of, select
+from core.diagnosis.selection import Selection, log_p, log_p_of, rise, select
+from core.diagnosis.strangers import best_stranger, strangers
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
@@ -87,15 +88,19 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         for place, one in enumerate(standings)
     ]
     found += raw
+    stranger, most = _stranger(bench, selection), max((one.statistic for one in standings), default=0.0)
     tell("learn what is left", 0.8)
     noise = tuple(one.noise for one in chosen.fit.joints)
     predictable = predictable_share(look, after, bench.believed, noise)
     tell("lay out", 0.95)
     return Diagnosis(
-        verdict=_verdict(found, predictable),
+        verdict=_verdict(
+            found, predictable, stranger, max((one.statistic for one in standings), default=0.0)
+        ),
         findings=tuple(sorted(found, key=lambda one: one.p_value)),
         not_identifiable=_not_identifiable(bench, selection),
         predictable=predictable,
+        stranger=stranger,
         atlas=atlas(look, after, bench.believed, noise),
         look=look,
         believed=bench.believed,
@@ -235,7 +240,26 @@ def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiab
     )
 
 
-def _verdict(found: Sequence[Finding], predictable: Sequence[Predictable]) -> Verdict:
+def _stranger(bench: Bench, selection: Selection) -> Stranger | None:
+    found = best_stranger(bench, selection.chosen, strangers(bench))
+    if found is None:
+        return None
+    last = found.members[-1]
+    chance = log_p(selection.chosen, found) + float(np.log(bench.look.joints))
+    return Stranger(
+        joint=last.site[0],
+        statement=last.cause.statement(found.solved(len(found.members) - 1)),
+        statistic=rise(selection.chosen, found),
+        log10_p=chance / float(np.log(10.0)),
+    )
+
+
+def _verdict(
+    found: Sequence[Finding], predictable: Sequence[Predictable], stranger: Stranger | None, most: float
+) -> Verdict:
+    """Say `unexplained` where what no cause explains is more than what the causes found do."""
+    if stranger is not None and stranger.statistic > most:
+        return "unexplained"
     left = [one for one in predictable if one.interval[0] > UNEXPLAINED_SHARE]
     if not found:
         return "unexplained" if left else "nothing_found"

@@ -11,7 +11,7 @@ from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
 
-LARGEST = 0.3
+LARGEST = 0.5
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,8 @@ class EncoderOffset(OwnJointCause):
     """Suspect a constant zero error of one encoder."""
 
     id = "encoder_offset"
+    # What a first-order column leaves of a large angle looks like a small error of a length.
+    excludes = ("kinematic_error",)
     title = "The joint's zero is off"
     cure = "signal"
     units = (("offset", "rad"),)

@@ -20,6 +20,8 @@ class GravityMisalignment(OwnJointCause):
     """Suspect a tilted base."""
 
     id = "gravity_misalignment"
+    # What a first-order column leaves of a large angle looks like a small error of a length.
+    excludes = ("kinematic_error",)
     title = "The base is tilted against the description"
     cure = "robot"
     units = (("tilt_x", "rad"), ("tilt_y", "rad"))

@@ -1,0 +1,163 @@
+"""Suspect something that is in no list: a residual that follows a pattern which no listed cause has.
+
+What is found so carries no name; it says that something is left, on which joint and what it follows, and it
+keeps listed causes from being named for want of better. Source: Brynjarsdottir & O'Hagan, Inverse Problems
+30, 2014, for why a free discrepancy may not claim a physical name.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from core.diagnosis.cause import Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause
+from core.diagnosis.look import Look
+from core.diagnosis.misfit import fitted_rows, misfit, whitened_by_joint
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
+
+WAVES = (1.0, 2.0)
+SLOWEST, QUICKEST = 0.15, 1.0
+"""Repetitions in time that are looked for, Hz."""
+SWINGS = tuple(float(one) for one in np.geomspace(0.7, 4.0, 12))
+"""Rates of a swing, Hz."""
+JUMP_EVERY = 0.1
+"""Jumps are looked for at so many seconds' distance,"""
+JUMP_APART = 0.4
+"""named at least so far apart,"""
+CLEAR_JUMP = 20.0
+"""and only where each explains so much of the white residual by itself."""
+MOST_JUMPS = 12
+_NAMES = tuple(PATTERNS)
+
+
+@dataclass(frozen=True)
+class Unlisted(OwnJointCause):
+    """Suspect what no listed cause explains."""
+
+    id = "unlisted"
+    title = "Something follows a pattern that no listed cause has"
+    units = ()
+    coordinate = "time"
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """List all patterns, numbers after their place."""
+        points = [(name, numbers) for name, numbers in _fixed(look.joints, site[0], _seconds(look))]
+        jumps = _jumps(look, believed, site[0] - 1)
+        if jumps:
+            points.append(("jumps", jumps))
+        return [_scalars(name, numbers) for name, numbers in points]
+
+    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
+        """Count the patterns; for jumps every set of so many instants."""
+        pattern, numbers = _read(scalars)
+        if pattern != "jumps":
+            return float(len(grid))
+        return float(len(grid)) ** len(numbers)
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, believed
+        return Trace(site[0], *_read(scalars))
+
+    @property
+    def settled(self) -> tuple[str, ...]:  # type: ignore[override]
+        """Take every number from the grid."""
+        return ("pattern", *(f"number_{place}" for place in range(MOST_JUMPS)))
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Report no numbers: they would mean nothing elsewhere."""
+        del solved
+        return ()
+
+    def statement(self, solved: Solved) -> str:
+        """Say what the residual follows."""
+        return f"What is left on joint {solved.site[0]} follows {_words(*_read(solved.scalars))}"
+
+
+@cache
+def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], ...]:
+    others = [one for one in range(1, joints + 1) if one != own]
+    out: list[tuple[str, Numbers]] = [
+        ("speeds", (float(one), float(other)))
+        for one in range(1, joints + 1)
+        for other in range(one, joints + 1)
+    ]
+    out += [
+        ("angle", (float(one), wave, float(factor)))
+        for one in others
+        for wave in WAVES
+        for factor in range(len(FACTORS))
+    ]
+    out += [
+        ("clock", (float(rate),)) for rate in np.arange(max(SLOWEST, 2.0 / seconds), QUICKEST, 0.5 / seconds)
+    ]
+    out += [("swing", (rate,)) for rate in SWINGS]
+    return tuple(out)
+
+
+def _seconds(look: Look) -> float:
+    """Give the length of the longest log, s, no more than a minute: what lasts longer is drift."""
+    return float(np.clip(max(motion.log.duration for motion in look.motions), 4.0, 60.0))
+
+
+def _jumps(look: Look, believed: Prediction, own: int) -> Numbers:
+    """Find instants at which the white residual of a joint jumps."""
+    if len(look.motions) > 1:
+        return ()
+    mask = fitted_rows(look)[:, [own]]
+    instants = np.arange(look.time[0] + 0.5, look.time[-1] - 0.5, JUMP_EVERY)
+    term = Trace(own + 1, "jumps", tuple(float(one) for one in instants))
+    steps = look.columns([term])[0][own]
+    whole = np.zeros((*steps.shape, look.joints))
+    whole[:, :, own] = steps
+    columns, left = whitened_by_joint(look, whole, misfit(look, believed), fitted_rows(look))
+    columns, left = columns[:, :, own] * mask, left[:, own] * mask[:, 0]
+    worth = (columns.T @ left) ** 2 / np.maximum(np.sum(columns**2, axis=0), 1e-12)
+    found: list[float] = []
+    for place in np.argsort(-worth, kind="stable"):
+        if worth[place] < CLEAR_JUMP or len(found) == MOST_JUMPS:
+            break
+        if all(abs(instants[place] - one) > JUMP_APART for one in found):
+            found.append(float(instants[place]))
+    return tuple(sorted(found))
+
+
+def _scalars(name: str, numbers: Numbers) -> Scalars:
+    return {"pattern": float(_NAMES.index(name))} | {
+        f"number_{place}": value for place, value in enumerate(numbers)
+    }
+
+
+def _read(scalars: Scalars) -> tuple[str, Numbers]:
+    return _NAMES[int(scalars["pattern"])], tuple(
+        scalars[f"number_{place}"] for place in range(len(scalars) - 1)
+    )
+
+
+def _words(pattern: str, numbers: Numbers) -> str:
+    if pattern == "speeds":
+        first, second = (int(one) for one in numbers)
+        return (
+            f"the square of joint {first}'s speed"
+            if first == second
+            else (f"the product of the speeds of joints {first} and {second}")
+        )
+    if pattern == "angle":
+        factor = (
+            "",
+            " times its own speed",
+            " with the sign of its own speed",
+            " times its own speed squared",
+        )
+        return (
+            f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per turn){factor[int(numbers[2])]}"
+        )
+    if pattern == "clock":
+        return f"a rhythm of {1.0 / numbers[0]:.3g} s, whatever the robot does"
+    if pattern == "swing":
+        return f"something that swings by itself at about {numbers[0]:.2g} Hz"
+    return f"{len(numbers)} jumps in time, at " + ", ".join(f"{one:.3g} s" for one in numbers)

@@ -1,0 +1,114 @@
+"""Give traces that no physics here stands for: what a residual follows when no listed effect explains it.
+
+Products of speeds, waves over another joint's angle, waves and jumps in time, and a swing at its own rate:
+a family wide enough to show that something is left, and where, without saying what it is.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from scipy.signal import lfilter
+
+from core.arrays import Samples
+from core.dynamics.terms.effect import OneJointTerm, step_of
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+from core.signals.state import MotionState
+
+HARMONICS = 3
+SWING_DAMPING = 0.05
+Numbers = tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Trace(OneJointTerm):
+    """Follow one pattern (`PATTERNS`), made definite by numbers.
+
+    Attributes
+    ----------
+    pattern
+        ``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
+        angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
+        ``swing``: deflection and rate of a swing at f Hz, driven by the own acceleration. ``jumps``: steps at
+        given instants, s.
+    """
+
+    pattern: str
+    numbers: Numbers
+    kind: ClassVar[str] = "unlisted"
+    remembers: ClassVar[bool] = True
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List a number per column."""
+        del robot
+        count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2}.get(
+            self.pattern, len(self.numbers)
+        )
+        return tuple(
+            Parameter(f"trace_{place}", self.joint, self.joint, "N m", None) for place in range(count)
+        )
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        """Give the pattern's columns."""
+        del robot
+        return PATTERNS[self.pattern](self.joint - 1, self.numbers, state)
+
+
+def _speeds(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    del own
+    first, second = (int(one) - 1 for one in numbers)
+    return [state.velocity[:, first] * state.velocity[:, second]]
+
+
+FACTORS: tuple[Callable[[Samples], Samples], ...] = (
+    np.ones_like,
+    np.asarray,
+    np.sign,
+    lambda v: v * np.abs(v),
+)
+"""How a wave over another joint's angle may depend on the own speed."""
+
+
+def _angle(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    other, harmonic, factor = int(numbers[0]) - 1, numbers[1], int(numbers[2])
+    size = FACTORS[factor](state.velocity[:, own])
+    angle = harmonic * state.position[:, other]
+    return [size * np.cos(angle), size * np.sin(angle)]
+
+
+def _clock(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    del own
+    turns = 2.0 * np.pi * numbers[0] * _time(state)
+    return [wave(number * turns) for number in range(1, HARMONICS + 1) for wave in (np.cos, np.sin)]
+
+
+def _swing(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    rate, step = 2.0 * np.pi * numbers[0], step_of(state)
+    # Deflections and rates step by step: s' = -2 z w s - w^2 x - a, x' = s, with s known first.
+    swings = [
+        1.0,
+        -2.0 + step * (2.0 * SWING_DAMPING * rate + step * rate**2),
+        1.0 - 2.0 * SWING_DAMPING * rate * step,
+    ]
+    deflection = lfilter([-(step**2)], swings, state.acceleration[:, own])
+    return [np.asarray(deflection), np.gradient(deflection, step)]
+
+
+def _jumps(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    del own
+    return [(_time(state) >= instant).astype(float) for instant in numbers]
+
+
+def _time(state: MotionState) -> Samples:
+    return np.arange(len(state.position), dtype=float) if state.time is None else state.time
+
+
+PATTERNS: Mapping[str, Callable[[int, Numbers, MotionState], list[Samples]]] = {
+    "speeds": _speeds,
+    "angle": _angle,
+    "clock": _clock,
+    "swing": _swing,
+    "jumps": _jumps,
+}
