@@ -66,7 +66,12 @@ CAUSES: tuple[Cause, ...] = (
 )
 """Causes that add torque."""
 
-CHANGES: tuple[Cause, ...] = (PayloadChange(throughout=True), LinkParameters(), FrictionChange())
+CHANGES: tuple[Cause, ...] = (
+    PayloadChange(throughout=True),
+    LinkParameters(),
+    FrictionChange(),
+    TorqueGain(together=True),
+)
 """Causes that show only against a reference: without one the base parameters absorb them."""
 
 ONLY_CHANGES: tuple[Cause, ...] = tuple(

@@ -1,5 +1,6 @@
 """Suspect that one torque channel's scale is wrong: its torque constant, its gear ratio or its sensor."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
@@ -7,6 +8,7 @@ from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
+from core.dynamics.terms.torque_gain import CommonGain
 from core.dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
 
 LARGEST = 0.9
@@ -14,7 +16,16 @@ LARGEST = 0.9
 
 @dataclass(frozen=True)
 class TorqueGain(OwnJointCause):
-    """Suspect a wrong torque constant."""
+    """Suspect a wrong torque constant.
+
+    Attributes
+    ----------
+    together
+        Whether all channels are wrong by the same share, which shows only against a reference: without one it
+        is the same as bodies and friction that are larger by that share.
+    """
+
+    together: bool = False
 
     id = "torque_gain"
     title = "The torque channel's scale is wrong"
@@ -40,10 +51,14 @@ class TorqueGain(OwnJointCause):
     experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
     coordinate = "torque"
 
+    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+        """List every joint, or the robot as a whole."""
+        return [()] if self.together else super().sites(look, believed)
+
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
         del look, scalars
-        return TorqueGainTerm(site[0], believed)
+        return TorqueGainTerm(site[0], believed) if site else CommonGain(0, believed)
 
     def possible(self, solved: Solved) -> bool:
         """Want a channel that still has most of its sense."""
@@ -53,7 +68,7 @@ class TorqueGain(OwnJointCause):
         """Say by how many per cent the channel is wrong."""
         found = named(self.quantities(solved))["relative_error"]
         way = "much" if found.value > 0.0 else "little"
-        return (
-            f"Joint {solved.site[0]}'s torque channel reads {100.0 * abs(found.value):.3g} ± "
-            f"{rounded(100.0 * found.standard_deviation)} % too {way} against the other joints"
-        )
+        size = f"{100.0 * abs(found.value):.3g} ± {rounded(100.0 * found.standard_deviation)} % too {way}"
+        if not solved.site:
+            return f"All torque channels read {size} against the reference"
+        return f"Joint {solved.site[0]}'s torque channel reads {size} against the other joints"

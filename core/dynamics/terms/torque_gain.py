@@ -1,4 +1,4 @@
-"""Give what a wrong torque constant adds on one joint: its own predicted torque.
+"""Give what a wrong torque constant adds on one joint, or a wrong unit on all: their own predicted torque.
 
 The channel reads (1 + e) times the true torque, so that e times the predicted torque is missing. Source:
 Gautier & Briot, IFAC World Congress 2011.
@@ -7,9 +7,9 @@ Gautier & Briot, IFAC World Congress 2011.
 from dataclasses import dataclass
 from typing import ClassVar
 
-from core.arrays import Samples
+from core.arrays import JointSeries, Samples
 from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import OneJointTerm, Symbol
+from core.dynamics.terms.effect import AllJointsTerm, OneJointTerm, Symbol
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
@@ -26,3 +26,17 @@ class TorqueGain(OneJointTerm):
         """Give the joint's predicted torque."""
         del robot
         return [self.believed.torque(state)[:, self.joint - 1]]
+
+
+@dataclass(frozen=True, eq=False)
+class CommonGain(AllJointsTerm):
+    """Model torque channels whose scales are all wrong by the same share."""
+
+    believed: Prediction
+    symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
+    kind: ClassVar[str] = "torque_gain"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the predicted torque."""
+        del robot
+        return [self.believed.torque(state)]
