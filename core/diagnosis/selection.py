@@ -109,7 +109,7 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
 def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
     """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
     hurdle = np.log(FURTHER_LEVEL if now.members else LEVEL) - np.log(max(kinds, 1))
-    return log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial)
+    return bool(log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial))
 
 
 def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
