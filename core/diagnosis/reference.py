@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import null_space, qr, solve_triangular
 
-from core.arrays import BaseParameters, Matrix, Parameters
+from core.arrays import BaseParameters, EquationRows, LinkParameters, Matrix, Parameters
 from core.diagnosis.belief import Belief
 from core.errors import RobotError
 from core.estimate.constraints import link_columns
@@ -111,7 +111,7 @@ def reference_from_prior(base: BaseModel) -> Reference:
             remedy="describe the robot with the inertial parameters of its links, or name a job as reference",
         )
     standard = np.zeros(len(base.model.parameters))
-    spread: list[Matrix] = []
+    spread: list[EquationRows] = []
     known: set[int] = set()
     for body, columns in zip(believed, links, strict=True):
         standard[list(columns)] = body
@@ -123,7 +123,7 @@ def reference_from_prior(base: BaseModel) -> Reference:
     return Reference(PRIOR, base, standard, values, _whitened(told, np.hstack(spread)))
 
 
-def _body_spread(body: np.ndarray) -> Matrix:
+def _body_spread(body: LinkParameters) -> EquationRows:
     """Give the directions in which a body's ten parameters are off, each by one standard deviation."""
     root = np.sqrt(np.maximum(np.diag(pseudo_inertia(body)), 0.0))
     directions = []
@@ -135,7 +135,7 @@ def _body_spread(body: np.ndarray) -> Matrix:
     return np.array(directions).T
 
 
-def _whitened(told: Matrix, spread: Matrix) -> Matrix:
+def _whitened(told: EquationRows, spread: EquationRows) -> EquationRows:
     """Give combinations of base parameters in units of their deviation; those without one are left out."""
     values, vectors = np.linalg.eigh(told @ spread @ spread.T @ told.T)
     kept = values > 1e-12 * max(float(values[-1]), 1e-300) if len(values) else np.zeros(0, dtype=bool)

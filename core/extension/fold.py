@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Parameters
+from core.arrays import Parameters, Weights
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
 
 
-def folded(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Parameters]:
+def folded(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Weights]:
     """Add the terms' parameters to those they change, and leave the terms out.
 
     Terms that change parameters which the model does not have stay.
