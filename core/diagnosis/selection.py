@@ -147,10 +147,14 @@ def rise(now: Hypothesis, trial: Hypothesis) -> float:
     return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
 
 
-def log_p_of(bench: Bench, chosen: Hypothesis, index: int) -> float:
-    """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned."""
+def log_p_of(bench: Bench, chosen: Hypothesis, index: int, statistic: float) -> float:
+    """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned.
+
+    `statistic` is the rise that it brings by itself.
+    """
     member = chosen.members[index]
-    scored = Scored(member, weight(chosen, index), chosen.freedom(index), np.zeros(0), 1.0)
+    size = min(weight(chosen, index), statistic)
+    scored = Scored(member, size, chosen.freedom(index), np.zeros(0), 1.0)
     return min(scored.log_p + float(np.log(bench.kinds)), 0.0)
 
 

@@ -154,7 +154,7 @@ def _finding(
     mask = look.usable & look.held_out[:, None]
     block = look.log * (1 + look.block.max()) + look.block
     measured = gain(left[0], left[1], mask, block, joints)
-    log_p = log_p_of(bench, chosen, place)
+    log_p = log_p_of(bench, chosen, place, own.statistic)
     return Finding(
         cause=cause.id,
         title=cause.title,

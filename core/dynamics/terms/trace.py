@@ -1,7 +1,8 @@
 """Give traces that no physics here stands for: what a residual follows when no listed effect explains it.
 
 Products of speeds, waves over another joint's angle, waves and jumps in time, and a swing at its own rate:
-a family wide enough to show that something is left, and where, without saying what it is.
+a family wide enough to show that something is left, and where, without saying what it is. Source: Kennedy &
+O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
 """
 
 from collections.abc import Callable, Mapping
