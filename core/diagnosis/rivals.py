@@ -20,6 +20,8 @@ OTHER_SHARE = 0.03
 """Share of a finding's rise below which its lead over a rival not known to be confused with it is nothing."""
 STRANGER_SHARE = 0.25
 """Share of a finding's rise by which a pattern without a name has to lead to refute it."""
+EVENT_SHARE = 0.5
+"""An event at picked instants fits a little of anything: this share of its rise is not counted."""
 WEIGHED = 6
 WORTH_NAMING = 0.1
 """A rival that reaches less than this share of the finding's own rise is not worth a line."""
@@ -31,6 +33,8 @@ class Standing:
 
     Attributes
     ----------
+    member
+        What is judged.
     statistic
         Rise of twice the log-likelihood that it brings itself.
     merit
@@ -39,6 +43,7 @@ class Standing:
         By how much its criterion beats that of the best rival that is another cause or acts elsewhere.
     """
 
+    member: Candidate
     statistic: float
     merit: float
     margin: float
@@ -74,6 +79,8 @@ def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> boo
     """Tell whether a pattern without a name explains much more than a member in its place."""
     stranger = best_stranger(bench, own.without, suspects)
     lead = max(INDIFFERENCE, STRANGER_SHARE * own.statistic)
+    if own.member.cause.event:
+        lead = -EVENT_SHARE * own.statistic
     return stranger is not None and merit(own.without, stranger) > own.merit + lead
 
 
@@ -98,7 +105,7 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
             ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
             refuted.append(_refuted(rival, rise(without, trial), own_rise, possible=trial.possible))
-    return Standing(own_rise, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
+    return Standing(member, own_rise, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
 
 
 def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float:

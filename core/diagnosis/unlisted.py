@@ -14,7 +14,6 @@ import numpy as np
 from core.diagnosis.cause import Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause
 from core.diagnosis.look import Look
-from core.diagnosis.misfit import fitted_rows, misfit, whitened_by_joint
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
@@ -24,13 +23,6 @@ SLOWEST, QUICKEST = 0.15, 1.0
 """Repetitions in time that are looked for, Hz."""
 SWINGS = tuple(float(one) for one in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
-JUMP_EVERY = 0.1
-"""Jumps are looked for at so many seconds' distance,"""
-JUMP_APART = 0.4
-"""named at least so far apart,"""
-CLEAR_JUMP = 20.0
-"""and only where each explains so much of the white residual by itself."""
-MOST_JUMPS = 12
 _NAMES = tuple(PATTERNS)
 
 
@@ -45,18 +37,8 @@ class Unlisted(OwnJointCause):
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """List all patterns, numbers after their place."""
-        points = [(name, numbers) for name, numbers in _fixed(look.joints, site[0], _seconds(look))]
-        jumps = _jumps(look, believed, site[0] - 1)
-        if jumps:
-            points.append(("jumps", jumps))
-        return [_scalars(name, numbers) for name, numbers in points]
-
-    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
-        """Count the patterns; for jumps every set of so many instants."""
-        pattern, numbers = _read(scalars)
-        if pattern != "jumps":
-            return float(len(grid))
-        return float(len(grid)) ** len(numbers)
+        del believed
+        return [_scalars(name, numbers) for name, numbers in _fixed(look.joints, site[0], _seconds(look))]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
@@ -66,7 +48,7 @@ class Unlisted(OwnJointCause):
     @property
     def settled(self) -> tuple[str, ...]:  # type: ignore[override]
         """Take every number from the grid."""
-        return ("pattern", *(f"number_{place}" for place in range(MOST_JUMPS)))
+        return ("pattern", "number_0", "number_1", "number_2")
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report no numbers: they would mean nothing elsewhere."""
@@ -104,28 +86,6 @@ def _seconds(look: Look) -> float:
     return float(np.clip(max(motion.log.duration for motion in look.motions), 4.0, 60.0))
 
 
-def _jumps(look: Look, believed: Prediction, own: int) -> Numbers:
-    """Find instants at which the white residual of a joint jumps."""
-    if len(look.motions) > 1:
-        return ()
-    mask = fitted_rows(look)[:, [own]]
-    instants = np.arange(look.time[0] + 0.5, look.time[-1] - 0.5, JUMP_EVERY)
-    term = Trace(own + 1, "jumps", tuple(float(one) for one in instants))
-    steps = look.columns([term])[0][own]
-    whole = np.zeros((*steps.shape, look.joints))
-    whole[:, :, own] = steps
-    columns, left = whitened_by_joint(look, whole, misfit(look, believed), fitted_rows(look))
-    columns, left = columns[:, :, own] * mask, left[:, own] * mask[:, 0]
-    worth = (columns.T @ left) ** 2 / np.maximum(np.sum(columns**2, axis=0), 1e-12)
-    found: list[float] = []
-    for place in np.argsort(-worth, kind="stable"):
-        if worth[place] < CLEAR_JUMP or len(found) == MOST_JUMPS:
-            break
-        if all(abs(instants[place] - one) > JUMP_APART for one in found):
-            found.append(float(instants[place]))
-    return tuple(sorted(found))
-
-
 def _scalars(name: str, numbers: Numbers) -> Scalars:
     return {"pattern": float(_NAMES.index(name))} | {
         f"number_{place}": value for place, value in enumerate(numbers)
@@ -158,6 +118,4 @@ def _words(pattern: str, numbers: Numbers) -> str:
         )
     if pattern == "clock":
         return f"a rhythm of {1.0 / numbers[0]:.3g} s, whatever the robot does"
-    if pattern == "swing":
-        return f"something that swings by itself at about {numbers[0]:.2g} Hz"
-    return f"{len(numbers)} jumps in time, at " + ", ".join(f"{one:.3g} s" for one in numbers)
+    return f"something that swings by itself at about {numbers[0]:.2g} Hz"

@@ -94,9 +94,7 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     predictable = predictable_share(look, after, bench.believed, noise)
     tell("lay out", 0.95)
     return Diagnosis(
-        verdict=_verdict(
-            found, predictable, stranger, max((one.statistic for one in standings), default=0.0)
-        ),
+        verdict=_verdict(found, predictable, stranger, most),
         findings=tuple(sorted(found, key=lambda one: one.p_value)),
         not_identifiable=_not_identifiable(bench, selection),
         predictable=predictable,

@@ -1,6 +1,6 @@
 """Give traces that no physics here stands for: what a residual follows when no listed effect explains it.
 
-Products of speeds, waves over another joint's angle, waves and jumps in time, and a swing at its own rate:
+Products of speeds, waves over another joint's angle, waves in time, and a swing at its own rate:
 a family wide enough to show that something is left, and where, without saying what it is. Source: Kennedy &
 O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
 """
@@ -32,8 +32,7 @@ class Trace(OneJointTerm):
     pattern
         ``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
         angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
-        ``swing``: deflection and rate of a swing at f Hz, driven by the own acceleration. ``jumps``: steps at
-        given instants, s.
+        ``swing``: deflection and rate of a swing at f Hz, driven by the own acceleration.
     """
 
     pattern: str
@@ -44,9 +43,7 @@ class Trace(OneJointTerm):
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List a number per column."""
         del robot
-        count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2}.get(
-            self.pattern, len(self.numbers)
-        )
+        count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2}[self.pattern]
         return tuple(
             Parameter(f"trace_{place}", self.joint, self.joint, "N m", None) for place in range(count)
         )
@@ -97,11 +94,6 @@ def _swing(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     return [np.asarray(deflection), np.gradient(deflection, step)]
 
 
-def _jumps(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
-    del own
-    return [(_time(state) >= instant).astype(float) for instant in numbers]
-
-
 def _time(state: MotionState) -> Samples:
     return np.arange(len(state.position), dtype=float) if state.time is None else state.time
 
@@ -111,5 +103,4 @@ PATTERNS: Mapping[str, Callable[[int, Numbers, MotionState], list[Samples]]] = {
     "angle": _angle,
     "clock": _clock,
     "swing": _swing,
-    "jumps": _jumps,
 }
