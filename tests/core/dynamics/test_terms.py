@@ -1,7 +1,7 @@
 """Hold every torque term to the same contract, found by listing the files of `core/dynamics/terms`.
 
-A term is one of the standard model, asked for by name, the cure of a cause of the diagnosis, or a pattern that
-no cause has.
+A term is one of the standard model, asked for by name, the cure of a cause of the diagnosis, or a pattern
+that no cause has.
 """
 
 import ast
