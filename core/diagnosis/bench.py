@@ -103,20 +103,30 @@ class Bench:
         return [self._found(one) for one in candidates]
 
     def tried(self, members: tuple[Candidate, ...], start: Hypothesis | None = None) -> Hypothesis:
-        """Fit a hypothesis, learning its noise anew."""
+        """Fit a hypothesis, learning its noise anew, from where another's fit left it if one is given.
+
+        Noise that has learned a large effect can lead to where nature does not allow it; then all noise is
+        learned from the beginning.
+        """
         columns = self.columns(members)
         rows = extended(self.base, columns)
-        kept = self.base[0].columns.shape[1]
-        found = fit(rows, belief=self.belief) if start is None else refit(rows, start.fit, kept)
-        return self._hypothesis(members, columns, found)
+        if start is not None:
+            found = self._hypothesis(members, columns, refit(rows, start.fit, self.base[0].columns.shape[1]))
+            if found.possible or start.members == members:
+                return found
+        return self._hypothesis(members, columns, fit(rows, belief=self.belief))
 
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
-        """Fit a hypothesis with one more member, learning its noise anew where the member acts."""
+        """Fit a hypothesis with one more member, learning its noise anew where the member acts.
+
+        Where nature does not allow what is found, all noise is learned from the beginning (see `tried`).
+        """
         members = (*start.members, candidate)
         columns = self.columns(members)
         rows = extended(self.base, columns)
         kept, touched = len(start.fit.values), frozenset(columns[-1])
-        return self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
+        found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
+        return found if found.possible else self.tried(members)
 
     def _hypothesis(
         self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit

@@ -16,6 +16,9 @@ from core.arrays import Indices, Matrix, SquareMatrix, Vector, Weights
 
 HIGHEST_ORDER = 12
 ROWS_PER_ORDER = 30
+FORGOTTEN = 2e-3
+"""Share by which correlations with the past are taken for smaller. A noise that remembers all costs nothing:
+a fit would leave ever more of the slow torque to it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +137,7 @@ def _burg(residual: Vector, place: Indices) -> tuple[list[Weights], Weights]:
         both = float(known @ known + partner @ partner)
         if both <= 0.0 or np.count_nonzero(inside) < 10 * order:
             break
-        reflection = 2.0 * float(known @ partner) / both
+        reflection = 2.0 * float(known @ partner) / (both * (1.0 + FORGOTTEN))
         before = predictors[-1]
         predictors.append(np.append(before - reflection * before[::-1], reflection))
         variances.append(variances[-1] * (1.0 - reflection**2))

@@ -110,7 +110,7 @@ def test_all_channels_whose_scale_has_changed_alike_are_one_thing():
 
 @pytest.mark.slow
 def test_a_base_that_was_tilted_is_named_with_its_two_angles():
-    found = the_finding(compared("tilt", "franka-panda"))
+    found = the_finding(compared("tilt", "yumi-left"))
     assert found["cause"] == "gravity_misalignment"
     assert_sizes(found, TILT)
 

@@ -1,6 +1,7 @@
 """Hold every torque term to the same contract, found by listing the files of `core/dynamics/terms`.
 
-A term is one of the standard model, asked for by name, or the cure of a cause of the diagnosis.
+A term is one of the standard model, asked for by name, the cure of a cause of the diagnosis, or a pattern
+that no cause has.
 """
 
 import ast
@@ -11,10 +12,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import CAUSES
+from core.diagnosis.catalogue import AGAINST_REFERENCE
+from core.diagnosis.unlisted import Unlisted
 from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from core.dynamics.term import Term
 from core.dynamics.terms.coulomb import Coulomb, direction
+from core.dynamics.terms.trace import PATTERNS, Trace
 from core.errors import OptionError
 from core.regressor.columns import all_columns
 from core.robot.model import Coupling, RobotModel
@@ -54,21 +57,36 @@ def cures() -> tuple[Term, ...]:
     return tuple(
         cause.term(look, scene.believed, site, cause.grid(look, scene.believed, site)[0])
         for look in looks
-        for cause in CAUSES
+        for cause in AGAINST_REFERENCE
         for site in [cause.sites(look, scene.believed)[-1]]
     )
 
 
-def test_every_file_of_terms_is_a_standard_term_or_the_cure_of_a_cause():
-    assert set(FILES) == set(STANDARD_TERMS) | {file_of(term) for term in cures()}
+@cache
+def traces() -> tuple[Term, ...]:
+    """Give every pattern that has no cause, each with the first numbers that a search would try."""
+    scene, suspect = eventful_scene(), Unlisted()
+    site = suspect.sites(scene.look, scene.believed)[-1]
+    grid = suspect.grid(scene.look, scene.believed, site)
+    terms = [suspect.term(scene.look, scene.believed, site, one) for one in reversed(grid)]
+    return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
+
+
+def test_every_file_of_terms_is_a_standard_term_or_the_cure_of_a_cause_or_the_patterns_without_one():
+    searched = {file_of(term) for term in (*cures(), *traces())}
+    assert set(FILES) == set(STANDARD_TERMS) | searched
     assert all(term().name == name for name, term in STANDARD_TERMS.items())
 
 
+def test_a_search_tries_every_pattern_that_has_no_cause():
+    assert {term.pattern for term in traces()} == set(PATTERNS)
+
+
 @pytest.mark.parametrize("name", sorted(set(FILES) - set(STANDARD_TERMS)))
-def test_a_cure_keeps_the_contract_of_all_terms(name):
+def test_a_searched_term_keeps_the_contract_of_all_terms(name):
     scene = eventful_scene()
     robot, state = scene.look.robot, scene.look.stretches[0].state
-    terms = [one for one in cures() if file_of(one) == name]
+    terms = [one for one in (*cures(), *traces()) if file_of(one) == name]
     assert terms
     for term in terms:
         assert isinstance(term, Term)

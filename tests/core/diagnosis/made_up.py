@@ -1,0 +1,102 @@
+"""Make up causes with whatever columns a law needs, on the second joint, so that what hides what is known."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Samples
+from core.diagnosis.bench import Bench
+from core.diagnosis.cause import Cause, Scalars
+from core.diagnosis.causes.common import NOTHING, OwnJointCause
+from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.dynamics.terms.effect import OneJointTerm
+from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
+from core.signals.state import MotionState
+from tests.core.diagnosis.scenes import Effect
+
+JOINT = 2
+
+Columns = Callable[[MotionState, Scalars], Sequence[Samples]]
+"""Take a motion and a cause's scalars, give its columns on the joint, N m."""
+
+
+@dataclass(frozen=True, eq=False)
+class MadeUpTerm(OneJointTerm):
+    """Give made-up columns."""
+
+    make: Columns
+    scalars: Mapping[str, float]
+    kind = "made_up"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        count = len(self.make(NO_MOTION, self.scalars))
+        return tuple(Parameter(f"c{place}", self.joint, self.joint, "1", None) for place in range(count))
+
+    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+        return list(self.make(state, self.scalars))
+
+
+class MadeUpCause(OwnJointCause):
+    """Suspect made-up columns, at scalars of which nature allows some."""
+
+    make: Columns
+    points: Sequence[Scalars]
+    allowed: Callable[[Scalars], bool]
+    units = ()
+    experiment = "any other motion"
+
+    def sites(self, look, believed):
+        return [(JOINT,)]
+
+    def grid(self, look, believed, site):
+        return self.points
+
+    def term(self, look, believed, site, scalars):
+        return MadeUpTerm(site[0], type(self).make, scalars)
+
+    def possible(self, solved):
+        return type(self).allowed(solved.scalars)
+
+    def statement(self, solved):
+        return f"Joint {solved.site[0]} does as made up"
+
+
+def made_up(
+    name: str,
+    make: Columns,
+    points: Sequence[Scalars] = NOTHING,
+    *,
+    allowed: Callable[[Scalars], bool] = lambda scalars: True,
+    like_position_noise: bool = False,
+) -> MadeUpCause:
+    """Make up a cause of a given name."""
+    own = {"id": name, "title": name, "make": make, "points": points, "allowed": allowed}
+    return type(name, (MadeUpCause,), own | {"like_position_noise": like_position_noise})()
+
+
+NO_MOTION = MotionState(*(np.zeros((2, 3)) for _ in range(3)), time=np.array([0.0, 1.0]))
+
+
+def on_joint(torque: Callable[[MotionState], Samples]) -> Effect:
+    """Put a torque on the joint and none on the others."""
+
+    def effect(state: MotionState) -> np.ndarray:
+        out = np.zeros_like(state.position)
+        out[:, JOINT - 1] = torque(state)
+        return out
+
+    return effect
+
+
+def candidate(cause: Cause, scalars: Scalars | None = None) -> Candidate:
+    """Name a made-up cause on its joint."""
+    return Candidate(cause, (JOINT,), scalars or {}, 1.0)
+
+
+def nothing_found(bench: Bench) -> Hypothesis:
+    """Fit the model alone, and believe what it finds."""
+    none = bench.tried(())
+    bench.believe(none.fit)
+    return none

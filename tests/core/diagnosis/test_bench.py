@@ -1,0 +1,78 @@
+"""Hold a scan to giving what nature allows, and a hypothesis to counting only what its rows tell."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.hypothesis import Scored
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
+from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
+
+TRUE, NEAR = 7.0, 6.5
+"""Waves per radian: what is there, and what resembles it."""
+WAVE = on_joint(lambda state: np.sin(TRUE * state.position[:, 1]))
+RATES = tuple({"rate": rate} for rate in (NEAR, TRUE))
+
+
+def wave(state, scalars):
+    return [np.sin(scalars["rate"] * state.position[:, 1])]
+
+
+def scanned(allowed) -> Scored:
+    """Scan both waves, of which nature allows those that are given."""
+    cause = made_up("wave", wave, RATES, allowed=lambda one: one["rate"] in allowed)
+    bench = bench_of(measured_arm(WAVE), (cause,))
+    (found,) = bench.scanned(nothing_found(bench))
+    return found
+
+
+def test_of_all_scalars_that_nature_allows_a_scan_gives_the_likeliest():
+    assert scanned({NEAR, TRUE}).candidate.scalars == {"rate": TRUE}
+
+
+def test_scalars_that_nature_allows_go_before_likelier_ones_that_it_does_not():
+    found = scanned({NEAR})
+    assert found.candidate.scalars == {"rate": NEAR}
+    assert found.statistic < scanned({TRUE}).statistic
+
+
+def test_where_nature_allows_none_the_likeliest_scalars_are_given_all_the_same():
+    """So that a report can say what would fit if it could be."""
+    assert scanned(set()).candidate.scalars == {"rate": TRUE}
+
+
+@pytest.fixture(scope="module")
+def arm() -> Scene:
+    return measured_arm()
+
+
+def freedom(arm: Scene, *columns) -> int:
+    """Count the directions of a cause with so many columns of the second joint's motion."""
+    cause = made_up("columns", lambda state, scalars: [one(state) for one in columns])
+    return bench_of(arm, ()).tried((candidate(cause),)).freedom(0)
+
+
+SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731
+COSINE = lambda state: np.cos(TRUE * state.position[:, 1])  # noqa: E731
+VISCOUS = lambda state: state.velocity[:, 1]  # noqa: E731
+
+
+def test_columns_of_their_own_are_directions_of_their_own(arm):
+    assert [freedom(arm, SINE), freedom(arm, SINE, COSINE)] == [1, 2]
+
+
+def test_the_size_of_a_column_does_not_matter_to_what_the_rows_tell(arm):
+    assert freedom(arm, SINE, lambda state: 1e6 * COSINE(state)) == 2
+    assert freedom(arm, SINE, lambda state: 1e-6 * COSINE(state)) == 2
+
+
+def test_a_column_that_is_there_twice_is_one_direction(arm):
+    assert freedom(arm, SINE, lambda state: -3.0 * SINE(state)) == 1
+
+
+def test_a_column_that_the_model_has_already_is_no_direction(arm):
+    assert freedom(arm, SINE, VISCOUS) == 1
+
+
+def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
+    """A chance needs a direction; that it explains nothing is seen from its rise."""
+    assert freedom(arm, VISCOUS) == 1
