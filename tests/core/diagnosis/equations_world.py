@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import block_diag
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, hstack
 
 from core.diagnosis.equations import Columns, JointRows, extended, joint_rows
 from core.diagnosis.look import Look
@@ -46,6 +46,12 @@ class Equations:
         """Take the rows anew, after a change of the look."""
         return joint_rows(self.look, self.base, self.mask)
 
+    def with_rests(self) -> tuple[JointRows, ...]:
+        """Let friction be anything on all joints for half of the time, in short stretches."""
+        rests = short_polynomials(self.count)
+        sticking = tuple(csr_array(hstack([one, rests])) for one in self.look.sticking)
+        return joint_rows(replace(self.look, sticking=sticking), self.base, self.mask)
+
     def with_columns(self, *columns: Columns) -> tuple[JointRows, ...]:
         """Append candidates' columns."""
         return extended(self.joints, columns)
@@ -69,3 +75,13 @@ def smooth(rng: np.random.Generator, count: int, columns: int) -> np.ndarray:
     """Draw columns that vary slowly, as a filter leaves them."""
     raw = rng.normal(size=(count + 8, columns))
     return np.array([np.convolve(one, np.hanning(11)[1:-1], mode="valid") for one in raw.T]).T[:count]
+
+
+def short_polynomials(count: int, *, every: int = 40, rows: int = 20, degree: int = 5) -> csr_array:
+    """Put polynomials on so many rows of every so many, and nothing between."""
+    shapes = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, rows), degree)
+    starts = range(every // 4, count - rows, every)
+    columns = np.zeros((count, len(starts), degree + 1))
+    for place, start in enumerate(starts):
+        columns[start : start + rows, place] = shapes
+    return csr_array(columns.reshape(count, -1))

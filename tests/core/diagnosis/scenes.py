@@ -28,6 +28,8 @@ SHOVE = (6.0, 6.8)
 """When something pushes, s: long enough to be seen, short enough to be an event."""
 
 
+ARM_RATE_HZ = 250.0
+
 Effect = Callable[[MotionState], np.ndarray]
 """Take a motion, give the torque (samples x joints, N m) that no standard model has."""
 
@@ -122,17 +124,27 @@ def change_with_measurement(cause: Cause, scene: Scene) -> float:
     return float(np.linalg.norm(after - before) / np.linalg.norm(before))
 
 
-def measured_arm(effect: Effect | None = None, *, seed: int = 6, seconds: float = 20.0) -> Scene:
+def measured_arm(
+    effect: Effect | None = None, *, seed: int = 6, seconds: float = 20.0, noise: float = 0.05
+) -> Scene:
     """Look at the skew arm with friction and rotors as the standard model has them, and an effect if given.
 
-    Noise has a deviation of 0.05 N m; the last fifth is held out.
+    Noise has a deviation of so many N m; the last fifth is held out.
     """
     model, state = standard_model(skew_arm()), swinging(3, seconds)
     truth = true_parameters(model)
-    torque = model.torque(truth, state) + 0.05 * np.random.default_rng(seed).normal(size=state.position.shape)
+    torque = model.torque(truth, state)
+    torque += noise * np.random.default_rng(seed).normal(size=state.position.shape)
     if effect is not None:
         torque += effect(state)
-    log = log_from_arrays("arm", np.asarray(state.time), state.position, torque)
+    return look_at_arm(state.position, torque)
+
+
+def look_at_arm(position: np.ndarray, torque: np.ndarray) -> Scene:
+    """Look at a log of the skew arm at the rate and with the true parameters of `measured_arm`."""
+    model, time = standard_model(skew_arm()), np.arange(len(position)) / ARM_RATE_HZ
+    truth = true_parameters(model)
+    log = log_from_arrays("arm", time, position, torque)
     look = look_at(model, (log,), held_out=frozenset({(0, 4)}), blocks=5)
     return Scene(look, Prediction(model, truth))
 

@@ -89,6 +89,16 @@ def test_the_noise_that_a_fit_learns_is_the_noise_that_is_there(equations):
         assert joint.noise.deviations[-1] == pytest.approx(noise.deviations[-1], rel=0.1)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it(seed):
+    """Taken out row by row, as if noise were white, friction leaves more than the innovations there are."""
+    found = fit(Equations(seed).with_rests())
+    for joint, left, noise in zip(found.joints, found.left, NOISE, strict=True):
+        assert joint.noise.deviations[-1] == pytest.approx(noise.deviations[-1], rel=0.1)
+        taken = joint.free.count + len(BASE) / len(NOISE)
+        assert left @ left == pytest.approx(len(left) - taken, rel=0.05)
+
+
 def test_parameters_scatter_as_their_covariance_says():
     scores = []
     for seed in range(40):

@@ -94,8 +94,8 @@ def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_
     assert {name, rival.cause} == {"one", "other"}
     assert rival.joints == site
     assert rival.separating_experiment == "move the joint while its twin rests"
-    # Both are fitted in a few rounds from different starts; six would be a difference.
-    assert standing(bench, selection.chosen, 0).margin == pytest.approx(0.0, abs=0.1)
+    # Noise is learned from different starts, until it gains less than 0.03 per joint; six would be much.
+    assert standing(bench, selection.chosen, 0).margin == pytest.approx(0.0, abs=0.3)
 
 
 def test_a_rival_that_explains_little_is_not_equally_good():
