@@ -74,6 +74,14 @@ def test_every_step_of_the_search_is_on_record():
     assert {one.key for one in misled().chosen.members} <= set(added)
 
 
+@pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
+def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    type(causes[0]).excludes = keeps_out
+    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
+    assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
+
+
 @cache
 def twins():
     """Offer one wave under two names, and another one; the wave of the twins is there."""
