@@ -114,7 +114,7 @@ class Cause(Protocol):
 
     @property
     def excludes(self) -> tuple[str, ...]:
-        """List causes that are not named together with it: one of the two explains what either shows."""
+        """List causes that are not added once it is there: what it explains, or leaves, looks like them."""
         ...
 
     @property

@@ -1,5 +1,6 @@
 """Hold the search to what it is for: what is there is named, what is not is not, a wrong start is mended."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,7 +9,8 @@ import pytest
 from core.diagnosis.catalogue import CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.rivals import standing
-from core.diagnosis.selection import Selection, select
+from core.diagnosis.selection import Selection, clear_enough, rise, select
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 
@@ -72,6 +74,33 @@ def test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_fou
 def test_every_step_of_the_search_is_on_record():
     added = [step.candidate.key for step in misled().steps if step.action in ("added", "swapped")]
     assert {one.key for one in misled().chosen.members} <= set(added)
+
+
+@pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
+def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    type(causes[0]).excludes = keeps_out
+    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
+    assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
+
+
+@pytest.mark.parametrize(
+    ("like_noise", "share", "named"),
+    [(False, 0.5, True), (True, 0.1, True), (True, 0.5, False)],
+    ids=["unlike", "more than noise has", "less than noise has"],
+)
+def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_than_it_has(
+    like_noise, share, named
+):
+    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731
+    cause = made_up("noisy", columns, like_position_noise=like_noise)
+    scene = measured_arm(wave_effect({QUICK: 0.04}))
+    look = replace(scene.look, position_share=np.array([0.9, share, 0.9]))
+    bench = bench_of(replace(scene, look=look), (cause,))
+    none = nothing_found(bench)
+    trial = bench.tried((candidate(cause),))
+    assert 0.1 < rise(none, trial) / len(trial.fit.joints[1].torque) < 0.5
+    assert clear_enough(bench, none, trial, kinds=1) == named
 
 
 @cache

@@ -22,6 +22,11 @@ def hidden(state):
     return UNEVEN * np.abs(state.velocity) * [0.0, 1.0, 0.0]
 
 
+def foreign(state):
+    """Drag the second joint by the product of its neighbours' speeds, as no listed cause does."""
+    return 0.3 * (state.velocity[:, 0] * state.velocity[:, 2])[:, None] * [0.0, 1.0, 0.0]
+
+
 def asked(scene: Scene) -> Question:
     model = scene.believed.model
     plan = ColumnPlan(model, base_model(model).kept)
@@ -91,6 +96,19 @@ def test_the_same_logs_give_the_same_diagnosis():
     assert [one.confidence for one in second.findings] == [one.confidence for one in first.findings]
     assert [one.share for one in second.predictable] == [one.share for one in first.predictable]
     np.testing.assert_array_equal(second.residual_after, first.residual_after)
+
+
+def test_a_pattern_that_no_listed_cause_has_is_told_without_a_name_and_makes_the_verdict():
+    found = diagnosed(foreign)
+    assert (found.verdict, found.findings, cures(found)) == ("unexplained", (), ())
+    assert found.stranger.joint == 2
+    assert "the product of the speeds of joints 1 and 3" in found.stranger.statement
+    assert found.stranger.log10_p < -10.0
+
+
+def test_nothing_strange_is_told_where_nothing_is_left():
+    assert diagnosed(None).stranger is None
+    assert diagnosed(hidden).stranger is None
 
 
 @pytest.mark.parametrize("joint", [1, 2, 3])

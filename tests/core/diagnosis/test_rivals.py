@@ -1,0 +1,70 @@
+"""Put causes where a search might have left them: what others explain better in their place is given up."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.diagnosis.bench import Bench
+from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.rivals import Standing, weighed
+from core.diagnosis.selection import Selection
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
+from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
+"""Waves per radian: none of them is gravity."""
+STRONG, WEAK = wave_cause("strong", {QUICK: 1.0}), wave_cause("weak", {QUICKER: 1.0})
+STOPGAP = wave_cause("stopgap", {QUICKER: 1.0, SLOW: 0.8})
+
+
+@cache
+def two_waves() -> tuple[Bench, Hypothesis]:
+    """Hide a strong and a weak wave; suspect them, and something that resembles the weak one."""
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
+    return bench, nothing_found(bench)
+
+
+def weighed_from(
+    start: tuple[Bench, Hypothesis], *members: Candidate
+) -> tuple[list[str], Selection, list[Standing]]:
+    """Weigh what is put there; give the names that remain, with everything else."""
+    bench, none = start
+    selection, standings = weighed(bench, Selection(none, bench.tried(members), ()))
+    return [one.cause.id for one in selection.chosen.members], selection, standings
+
+
+def test_what_was_hidden_stands_against_all_rivals():
+    names, selection, standings = weighed_from(two_waves(), candidate(STRONG), candidate(WEAK))
+    assert names == ["strong", "weak"]
+    assert selection.steps == ()
+    assert all(one.margin > 6.0 for one in standings)
+
+
+def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record():
+    names, selection, standings = weighed_from(two_waves(), candidate(STRONG), candidate(STOPGAP))
+    assert names == ["strong"]
+    assert [(one.action, one.candidate.cause.id) for one in selection.steps] == [("dropped", "stopgap")]
+    assert len(standings) == 1
+
+
+def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
+    """Alone it is a finding with a rival that explains more, and the report says so."""
+    names, _, (standing,) = weighed_from(two_waves(), candidate(STOPGAP))
+    assert names == ["stopgap"]
+    assert standing.margin < -6.0
+
+
+def product(state):
+    return 0.3 * state.velocity[:, 0] * state.velocity[:, 2]
+
+
+@pytest.mark.parametrize(("spoilt", "kept"), [(0.0, ["alike"]), (0.3, [])], ids=["the same", "half of it"])
+def test_a_name_that_a_pattern_without_one_beats_by_far_is_given_up(spoilt, kept):
+    def columns(state, scalars):
+        return [product(state) + spoilt * np.sin(QUICK * state.position[:, 1])]
+
+    cause = made_up("alike", columns)
+    bench = bench_of(measured_arm(on_joint(product)), (cause,))
+    assert weighed_from((bench, nothing_found(bench)), candidate(cause))[0] == kept
