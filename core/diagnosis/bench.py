@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import JointSeries
+from core.arrays import JointSeries, Vector
 from core.diagnosis.belief import Belief
-from core.diagnosis.cause import Cause, Scalars, Solved
+from core.diagnosis.cause import Cause, Solved
 from core.diagnosis.equations import (
     TRIAL_ROUNDS,
     Columns,
@@ -22,15 +22,13 @@ from core.diagnosis.equations import (
     refit,
     whitened,
 )
+from core.diagnosis.grid import between, neighbours
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 from core.diagnosis.look import Look
 from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
-
-FINER = 9
-"""Points laid between the neighbours of the best grid point, in each of two rounds."""
 
 
 class Bench:
@@ -209,9 +207,9 @@ class Bench:
     def _refined(self, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
         points = sorted({one.scalars[name] for one in self._grid(candidate)})
         here = candidate.scalars[name]
-        low, high = _neighbours(points, here)
+        low, high = neighbours(points, here)
         for _ in range(2):
-            values = _between(low, high)
+            values = between(low, high)
             trials = [
                 replace(candidate, scalars={**candidate.scalars, name: value}) for value in (*values, here)
             ]
@@ -220,33 +218,40 @@ class Bench:
             best = ranks.index(max(ranks))
             here = trials[best].scalars[name]
             order = sorted({*values, here})
-            low, high = _neighbours(order, here)
+            low, high = neighbours(order, here)
+        settled = replace(candidate, scalars={**candidate.scalars, name: here})
+        deviation, slope = self._spread(under, settled, name, (low, high))
         return replace(
-            candidate,
-            scalars={**candidate.scalars, name: here},
-            deviations={
-                **candidate.deviations,
-                name: self._deviation(under, candidate, name, here, (low, high)),
-            },
+            settled,
+            deviations={**candidate.deviations, name: deviation},
+            slopes={**candidate.slopes, name: slope},
         )
 
-    def _deviation(
-        self, under: Hypothesis, candidate: Candidate, name: str, here: float, around: tuple[float, float]
-    ) -> float:
-        """Read a scalar's deviation off the curvature of the profile likelihood."""
+    def _spread(
+        self, under: Hypothesis, candidate: Candidate, name: str, around: tuple[float, float]
+    ) -> tuple[float, Vector]:
+        """Read a scalar's deviation off the curvature of the profile likelihood, and the values' slope."""
+        here = candidate.scalars[name]
         step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
-        drop = 0.0
-        for _ in range(8):
-            trials = [
-                replace(candidate, scalars={**candidate.scalars, name: here + shift})
-                for shift in (-step, 0.0, step)
-            ]
-            low, middle, high = (one.statistic for one in score(under.fit, self.base, self.columns(trials)))
-            drop = middle - 0.5 * (low + high)
-            if drop > 0.5 or here - 2.0 * step <= 0.0 < here:
+        low, middle, high = self._beside(under, candidate, name, step)
+        for _ in range(7):
+            if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
                 break
             step *= 2.0
-        return float(step / np.sqrt(drop)) if drop > 0.0 else float("inf")
+            low, middle, high = self._beside(under, candidate, name, step)
+        slope = (high.values - low.values) / (2.0 * step)
+        drop = _drop(low, middle, high)
+        if drop <= 0.0:
+            return float("inf"), np.zeros_like(slope)
+        return float(step / np.sqrt(drop)), slope
+
+    def _beside(self, under: Hypothesis, candidate: Candidate, name: str, step: float) -> list[Score]:
+        here = candidate.scalars[name]
+        trials = [
+            replace(candidate, scalars={**candidate.scalars, name: here + shift})
+            for shift in (-step, 0.0, step)
+        ]
+        return score(under.fit, self.base, self.columns(trials))
 
     def _grid(self, candidate: Candidate) -> list[Candidate]:
         same = (candidate.cause, candidate.site)
@@ -263,34 +268,10 @@ class Bench:
         )
 
 
+def _drop(low: Score, middle: Score, high: Score) -> float:
+    return middle.statistic - 0.5 * (low.statistic + high.statistic)
+
+
 def _allowed(candidate: Candidate, judged: Score) -> bool:
     solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
     return candidate.cause.possible(solved)
-
-
-def _neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
-    """Give the points on either side; beyond an end, as far as the other neighbour."""
-    points = sorted({*points, here})
-    place = points.index(here)
-    if len(points) == 1:
-        return 0.5 * here, 2.0 * here
-    low = points[place - 1] if place else _mirrored(here, points[place + 1])
-    high = points[place + 1] if place + 1 < len(points) else _mirrored(here, points[place - 1])
-    return low, high
-
-
-def _mirrored(here: float, other: float) -> float:
-    if here > 0.0 and other > 0.0:
-        return here * here / other
-    return 2.0 * here - other
-
-
-def _between(low: float, high: float) -> list[float]:
-    if low > 0.0:
-        return [float(one) for one in np.geomspace(low, high, FINER + 2)[1:-1]]
-    return [float(one) for one in np.linspace(low, high, FINER + 2)[1:-1]]
-
-
-def scalars_text(scalars: Scalars) -> str:
-    """Write scalars for a statement."""
-    return ", ".join(f"{name} {value:.3g}" for name, value in scalars.items())

@@ -10,6 +10,9 @@ from core.diagnosis.cause import Cause, Scalars, Site, Solved
 from core.diagnosis.chance import log_chance
 from core.diagnosis.equations import OPEN_SHARE, Fit
 
+COLUMN_ERROR = 0.03
+"""Share of a size that a first-order column is inexact by: no size is known better."""
+
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
@@ -19,8 +22,9 @@ class Candidate:
     ----------
     trials
         How many grid points its kind was given: what its p-value is corrected for.
-    deviations
-        Standard deviations of the scalars, as far as they were refined.
+    deviations, slopes
+        Standard deviations of the scalars, as far as they were refined, and by how much the linear parameters
+        change with them.
     """
 
     cause: Cause
@@ -28,6 +32,7 @@ class Candidate:
     scalars: Scalars
     trials: float
     deviations: Scalars = field(default_factory=dict)
+    slopes: Mapping[str, Vector] = field(default_factory=dict)
 
     @property
     def key(self) -> tuple[str, Site]:
@@ -83,13 +88,19 @@ class Hypothesis:
         spread = np.linalg.eigvalsh(self.fit.covariance[place, place] * np.outer(scale, scale))
         return max(int(np.count_nonzero(spread < 1.0 / OPEN_SHARE)), 1)
 
+    def covariance(self, index: int) -> SquareMatrix:
+        """Give the covariance of a member's linear parameters where its scalars are what they are."""
+        place = self.columns_of(index)
+        return np.asarray(self.fit.covariance[place, place])
+
     def solved(self, index: int) -> Solved:
-        """Give what was found for a member."""
-        member, place = self.members[index], self.columns_of(index)
-        covariance: SquareMatrix = self.fit.covariance[place, place]
-        return Solved(
-            member.site, self.fit.values[place], covariance, member.scalars, dict(member.deviations)
-        )
+        """Give what was found for a member; deviations count what scalars and columns are not exact by."""
+        member, values = self.members[index], self.fit.values[self.columns_of(index)]
+        covariance = self.covariance(index) + np.diag((COLUMN_ERROR * values) ** 2)
+        for name, slope in member.slopes.items():
+            if np.isfinite(member.deviations[name]):
+                covariance += np.outer(slope, slope) * member.deviations[name] ** 2
+        return Solved(member.site, values, covariance, member.scalars, dict(member.deviations))
 
     @property
     def possible(self) -> bool:

@@ -85,8 +85,12 @@ class RawCause(Protocol):
 
 def residual_share(look: Look, believed: Prediction, spoil: Spoil) -> JointVector:
     """Spoil the smooth motion and give, per joint, the mean square of what that adds over the residual's."""
+    return share_of_residual(look, believed, disturbance(look, believed, spoil))
+
+
+def share_of_residual(look: Look, believed: Prediction, gained: JointSeries) -> JointVector:
+    """Give, per joint, the mean square of a disturbance over the residual's."""
     left, mask = misfit(look, believed), fitted_rows(look)
-    gained = disturbance(look, believed, spoil)
     had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
     return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
 

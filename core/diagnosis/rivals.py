@@ -77,7 +77,9 @@ def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standin
 
 def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> bool:
     """Tell whether a pattern without a name explains much more than a member in its place."""
-    stranger = best_stranger(bench, own.without, suspects)
+    joints = own.member.site or range(1, bench.look.joints + 1)
+    here = tuple(one for one in suspects if one.site[0] in joints)
+    stranger = best_stranger(bench, own.without, here)
     lead = max(INDIFFERENCE, STRANGER_SHARE * own.statistic)
     if own.member.cause.event:
         lead = -EVENT_SHARE * own.statistic

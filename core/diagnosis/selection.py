@@ -32,6 +32,7 @@ UNSEEN_SHARE = 0.25
 """Share of the rise to be expected on held-out rows that has to be seen there,"""
 UNLUCKY = 2.5
 """unless it is so small that luck, within so many of its deviations, can take it away."""
+MOST_OF_A_ROW = 9.0
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -108,8 +109,10 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
 
 def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
     """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
-    hurdle = np.log(FURTHER_LEVEL if now.members else LEVEL) - np.log(max(kinds, 1))
-    return bool(log_p(now, trial) < hurdle and _share(now, trial) > _least_share(bench, trial))
+    event = trial.members[-1].cause.event
+    hurdle = np.log(FURTHER_LEVEL if now.members or event else LEVEL) - np.log(max(kinds, 1))
+    chance = log_p(now, trial, bounded_rise(now, trial) if event else np.inf)
+    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
 
 
 def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
@@ -130,16 +133,24 @@ def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
     return bench.added(now, candidate)
 
 
-def log_p(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the log of the last member's p-value, corrected for its grid."""
-    added = trial.members[-1]
-    return Scored(
-        added,
-        min(weight(trial, len(trial.members) - 1), rise(now, trial)),
-        trial.freedom(len(trial.members) - 1),
-        np.zeros(0),
-        1.0,
-    ).log_p
+def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf) -> float:
+    """Give the log of the last member's p-value, corrected for its grid; its statistic is `most` at most."""
+    added = len(trial.members) - 1
+    statistic = min(weight(trial, added), rise(now, trial), most)
+    return Scored(trial.members[added], statistic, trial.freedom(added), np.zeros(0), 1.0).log_p
+
+
+def bounded_rise(now: Hypothesis, trial: Hypothesis) -> float:
+    """Give the rise where no row counts for more than so many squared deviations.
+
+    A few spikes of heavy-tailed noise are no event, however large they are.
+    """
+    before = np.pad(now.fit.values, (0, len(trial.fit.values) - len(now.fit.values)))
+    squares = [
+        sum(float(np.sum(np.minimum(part.left(values) ** 2, MOST_OF_A_ROW))) for part in trial.fit.joints)
+        for values in (before, trial.fit.values)
+    ]
+    return squares[0] - squares[1]
 
 
 def rise(now: Hypothesis, trial: Hypothesis) -> float:
@@ -160,10 +171,10 @@ def log_p_of(bench: Bench, chosen: Hypothesis, index: int, statistic: float) -> 
 
 def weight(hypothesis: Hypothesis, index: int) -> float:
     """Give a member's squared size in units of its covariance, under the noise of the whole hypothesis."""
-    solved = hypothesis.solved(index)
-    scale = np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
-    values = solved.values / scale
-    return float(values @ np.linalg.solve(solved.covariance / np.outer(scale, scale), values))
+    covariance = hypothesis.covariance(index)
+    scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    values = hypothesis.fit.values[hypothesis.columns_of(index)] / scale
+    return float(values @ np.linalg.solve(covariance / np.outer(scale, scale), values))
 
 
 def merit(now: Hypothesis, trial: Hypothesis) -> float:

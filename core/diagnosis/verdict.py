@@ -269,8 +269,3 @@ def _verdict(
 
 def _say_nothing(_stage: str, _fraction: float) -> None:
     pass
-
-
-def chosen_text(hypothesis: Hypothesis) -> str:
-    """Name the members of a hypothesis."""
-    return ", ".join(f"{one.cause.id} {list(one.site)}" for one in hypothesis.members) or "nothing"

@@ -15,11 +15,11 @@ from core.reduction.base import BaseModel
 
 
 def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
-    """Give the terms of the findings that have one."""
+    """Give the terms of the findings that have one and whose gain on unseen rows is beyond doubt."""
     return tuple(
         one.member.cause.term(diagnosis.look, diagnosis.believed, one.member.site, one.member.scalars)
         for one in diagnosis.findings
-        if one.member is not None
+        if one.member is not None and (one.gain is None or one.gain.interval_95[0] > 0.0)
     )
 
 

@@ -36,7 +36,6 @@ class Backlash(OwnJointCause):
     )
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
-    settled = ("around",)
     # The link bounces and slides as it lands; what that leaves looks like a spring or like lost time.
     excludes = ("joint_elasticity", "time_delay", "torque_filter_lag")
 

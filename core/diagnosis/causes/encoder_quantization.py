@@ -8,7 +8,7 @@ import numpy as np
 from core.arrays import JointSeries, JointVector
 from core.diagnosis.cause import Confusion, Cure, Quantity
 from core.diagnosis.look import Look
-from core.diagnosis.raw import RawFinding, Spoil, residual_share
+from core.diagnosis.raw import RawFinding, Spoil, disturbance, share_of_residual
 from core.dynamics.prediction import Prediction
 from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from core.log.defects.stretch import stretches
@@ -16,6 +16,8 @@ from core.log.model import JointLog
 
 LEAST_SHARE = 0.45
 """Share of a joint's residual that rounding must account for to be named; good encoders make a third."""
+LEAST_OF_TORQUE = 0.002
+"""The same of the torque itself: below, it is of no account to anyone."""
 BY_CHANCE = 0.2
 """Chance of one increment lying within a tenth of a whole number of steps."""
 
@@ -42,10 +44,17 @@ class EncoderQuantization:
         steps = np.max([_steps(motion.log) for motion in look.motions], axis=0)
         found = []
         for joint in np.flatnonzero(steps > 0.0):
-            share = residual_share(look, believed, _rounded(int(joint), float(steps[joint])))
-            if share.max() > LEAST_SHARE:
+            gained = disturbance(look, believed, _rounded(int(joint), float(steps[joint])))
+            share = share_of_residual(look, believed, gained)
+            if share.max() > LEAST_SHARE and _felt(look, gained):
                 found.append(_finding(int(joint), float(steps[joint]), share))
         return tuple(found)
+
+
+def _felt(look: Look, gained: JointSeries) -> bool:
+    """Tell whether an error is worth a word beside the torque itself."""
+    sizes = [np.sqrt(np.mean(one**2, axis=0)) for one in (gained, look.torque)]
+    return bool(np.max(sizes[0] / np.maximum(sizes[1], 1e-300)) > LEAST_OF_TORQUE)
 
 
 def _finding(joint: int, step: float, share: JointVector) -> RawFinding:

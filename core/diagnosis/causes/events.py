@@ -9,7 +9,7 @@ import numpy as np
 from core.arrays import JointSeries, Samples
 from core.dynamics.terms.contact import Span, swell
 
-SHORTEST, LONGEST = 0.1, 3.2
+SHORTEST, LONGEST = 0.2, 3.2
 """Lengths in s: shorter events are outliers, longer ones last."""
 LEAST_WORTH = 60.0
 """Below it, in squares of the residual's RMS, the best span of many is luck."""

@@ -19,7 +19,8 @@ SPANS_TRIED = 1200
 """Spans of time that a log of half a minute is searched for."""
 MOST = 5
 """Contacts that are told apart."""
-STRONGEST = 1e4
+STRONGEST = 1e3
+"""Force in N that would rather break a robot than show in its log."""
 LONGEST_LEVER = 0.5
 """Distance in m of a point of contact from the origin of the last link's frame."""
 
