@@ -10,7 +10,7 @@ from core.diagnosis.cause import Cause, Scalars, Site, Solved
 from core.diagnosis.chance import log_chance
 from core.diagnosis.equations import OPEN_SHARE, Fit
 
-COLUMN_ERROR = 0.03
+COLUMN_ERROR = 0.05
 """Share of a size that a first-order column is inexact by: no size is known better."""
 
 

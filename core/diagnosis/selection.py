@@ -32,7 +32,10 @@ UNSEEN_SHARE = 0.25
 """Share of the rise to be expected on held-out rows that has to be seen there,"""
 UNLUCKY = 2.5
 """unless it is so small that luck, within so many of its deviations, can take it away."""
+EVENT_LEVEL = 1e-6
+"""The same for an event, which is looked for where noise is largest."""
 MOST_OF_A_ROW = 9.0
+"""Squared deviations that a row may count for in an event."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -110,7 +113,8 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
 def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
     """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
     event = trial.members[-1].cause.event
-    hurdle = np.log(FURTHER_LEVEL if now.members or event else LEVEL) - np.log(max(kinds, 1))
+    level = FURTHER_LEVEL if now.members else EVENT_LEVEL if event else LEVEL
+    hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_rise(now, trial) if event else np.inf)
     return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
 
