@@ -190,7 +190,7 @@ def merit(now: Hypothesis, trial: Hypothesis) -> float:
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
-    rows = min(len(one.torque) for one in trial.fit.joints)
+    rows = min((len(one.torque) for one in trial.fit.joints if len(one.torque)), default=1)
     return rise(now, trial) / rows
 
 
