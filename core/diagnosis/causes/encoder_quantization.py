@@ -16,7 +16,7 @@ from core.log.model import JointLog
 
 LEAST_SHARE = 0.45
 """Share of a joint's residual that rounding must account for to be named; good encoders make a third."""
-LEAST_OF_TORQUE = 0.004
+LEAST_OF_TORQUE = 0.006
 """The same of the torque itself: below, it is of no account to anyone."""
 BY_CHANCE = 0.2
 """Chance of one increment lying within a tenth of a whole number of steps."""
