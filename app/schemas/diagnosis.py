@@ -117,10 +117,20 @@ class Place(Open):
     rms: Annotated[float, Field(description="of the prediction there, N m or N")]
 
 
+class Pattern(Open):
+    """What the residual of a joint still follows, though no listed cause would."""
+
+    joint: int
+    statement: str
+    likelihood_ratio: Annotated[float, Field(description="rise of twice the log-likelihood")]
+    log10_p: Annotated[float, Field(description="of so large a rise by luck, all patterns counted in")]
+
+
 class Unexplained(Open):
     """What is left, per joint: the share a generic learner predicts, and how low noise goes."""
 
     joints: Annotated[list[int], Field(description="where structure is left")]
+    pattern: Annotated[Pattern | None, Field(description="the clearest structure; null where there is none")]
     predictable_residual_fraction: Annotated[
         PerJoint, Field(description="null where the joint moves too little to be judged")
     ]

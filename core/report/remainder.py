@@ -1,8 +1,8 @@
-"""Write what a diagnosis leaves over: how much of it is predictable at all, where, and how low noise goes."""
+"""Write what a diagnosis leaves over: what it follows, how much is predictable at all, how low noise goes."""
 
 import numpy as np
 
-from core.diagnosis.diagnosis import Diagnosis
+from core.diagnosis.diagnosis import Diagnosis, Stranger
 from core.diagnosis.residual.atlas import Atlas
 
 SHOWN_DIGITS = 5
@@ -17,9 +17,11 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
     least
         Lower end of the predictable share's interval above which a joint is listed under `joints`.
     """
-    predictable, floor = diagnosis.predictable, diagnosis.atlas.floor
+    predictable, floor, stranger = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.stranger
+    foretold = {one.joint for one in predictable if one.interval[0] > least}
     return {
-        "joints": [one.joint for one in predictable if one.interval[0] > least],
+        "joints": sorted(foretold | ({stranger.joint} if stranger else set())),
+        "pattern": stranger and _pattern(stranger),
         "predictable_residual_fraction": [one.share for one in predictable],
         "interval_95": [one.interval for one in predictable],
         "rms_residual": [one.rms for one in predictable],
@@ -28,6 +30,15 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
         "noise_floor_source": floor.source,
         "noise_tilt": floor.tilt,
         "motion_period_s": floor.period,
+    }
+
+
+def _pattern(stranger: Stranger) -> dict[str, object]:
+    return {
+        "joint": stranger.joint,
+        "statement": stranger.statement,
+        "likelihood_ratio": stranger.statistic,
+        "log10_p": stranger.log10_p,
     }
 
 

@@ -140,6 +140,8 @@ def remainder(left: Document) -> str:
     """Say what stays unexplained."""
     if not left["joints"]:
         return "Nothing predictable is left: what remains of the torque is noise."
+    if left["pattern"]:
+        return f"{left['pattern']['statement']}, and no listed cause explains it."
     shares = left["predictable_residual_fraction"]
     told = ", ".join(f"{100.0 * shares[joint - 1]:.0f} % on joint {joint}" for joint in left["joints"])
     return f"Still predictable of what is left, without a known cause: {told}."

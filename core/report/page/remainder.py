@@ -58,15 +58,22 @@ def _said(left: Document) -> list[str]:
     shares, marked = left["predictable_residual_fraction"], left["joints"]
     parked = [joint for joint, one in enumerate(shares, start=1) if one is None]
     others = "any other joint" if parked else "any joint"
+    pattern = left["pattern"]
+    foretold = [
+        joint for joint in marked if pattern is None or joint != pattern["joint"] or shares[joint - 1]
+    ]
     told = (
-        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in marked])} part of the "
+        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in foretold])} part of the "
         "residual still follows the motion: a cause that is not in the list, or one that this log cannot "
         "separate."
-        if marked
-        else "Nothing that follows the motion is left: a generic learner, given angles, speeds, loads and "
-        f"time, cannot predict the residual of {others} on data it has not seen. No extension of the model "
-        "would gain much."
+        if foretold
+        else "A generic learner, given angles, speeds, loads and time, cannot predict the residual of "
+        f"{others} on data it has not seen."
     )
+    if pattern:
+        told += f" {pattern['statement']}, as no cause in the list would (p = 10^{pattern['log10_p']:.0f})."
+    elif not marked:
+        told += " Nothing that follows the motion is left: no extension of the model would gain much."
     said = [told]
     if above := _above_the_floor(left):
         said.append(

@@ -189,6 +189,7 @@ def diagnosis(**changes):
             "rms_residual": [0.1, 0.2],
             "places": [[], []],
             "noise_floor": [0.1, None],
+            "pattern": None,
             "noise_floor_source": ["repeats", "none"],
         },
         "gain": gains,
