@@ -21,7 +21,7 @@ from core.signals.state import MotionState
 SHAPES = 4.0
 """Polynomials per period of the look's cut-off, twice what an ideal filter would let through."""
 MOST_SHAPES = 32
-"""A longer stretch is cut: polynomials of a parked joint would be many, and all of them as long as the log."""
+"""A longer stretch is cut: a parked joint's polynomials would be many, and all of them as long as the log."""
 STILL_SHARE = 0.01
 """A coupled motor rests when it is slower than this share of its RMS speed."""
 

@@ -1,4 +1,4 @@
-"""Park a joint: whatever its friction does then is no evidence, and that costs as much as the rest is long."""
+"""Park a joint: whatever its friction does then is no evidence, and it costs as much as the rest is long."""
 
 import numpy as np
 import pytest
