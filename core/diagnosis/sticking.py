@@ -6,6 +6,8 @@ coefficients as the filter lets through, take the place of rows that would have 
 right beside a reversal stays evidence. Source: Frisch & Waugh 1933, for columns that are only to be rid of.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.sparse import csr_array
 
@@ -18,6 +20,8 @@ from core.signals.state import MotionState
 
 SHAPES = 4.0
 """Polynomials per period of the look's cut-off, twice what an ideal filter would let through."""
+MOST_SHAPES = 32
+"""A longer stretch is cut: a parked joint's polynomials would be many, and all of them as long as the log."""
 STILL_SHARE = 0.01
 """A coupled motor rests when it is slower than this share of its RMS speed."""
 
@@ -35,7 +39,9 @@ def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.nda
 def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_array, ...]:
     """Give, per joint, filtered columns for the friction of every stretch of time in which it rests."""
     band = band_hz * step_of(stretch.state)
-    return tuple(_columns(stretch, _runs(marks[:, joint]), band) for joint in range(marks.shape[1]))
+    longest = int(MOST_SHAPES / (SHAPES * band))
+    runs = [_cut(_runs(marks[:, joint]), longest) for joint in range(marks.shape[1])]
+    return tuple(_columns(stretch, one, band) for one in runs)
 
 
 def _columns(stretch: Stretch, runs: list[tuple[int, int]], band: float) -> csr_array:
@@ -74,6 +80,18 @@ def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
         (max(int(begin), 0), min(int(end), len(marks)))
         for begin, end in zip(begins[apart], ends[lasts], strict=True)
     ]
+
+
+def _cut(runs: list[tuple[int, int]], longest: int) -> list[tuple[int, int]]:
+    """Cut long runs into equal parts.
+
+    Examples
+    --------
+    >>> _cut([(0, 3), (5, 11)], 3)
+    [(0, 3), (5, 8), (8, 11)]
+    """
+    edges = [np.linspace(begin, end, 1 + -(-(end - begin) // longest)).astype(int) for begin, end in runs]
+    return [(int(begin), int(end)) for one in edges for begin, end in pairwise(one)]
 
 
 def _polynomials(begin: int, end: int, band: float) -> Series:

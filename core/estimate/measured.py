@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.dynamics.model import DynamicModel
+from core.errors import ExcitationError
 from core.estimate.estimate import EstimateOptions
 from core.estimate.robust import ROUNDS, huber_weights
 from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
@@ -56,11 +57,19 @@ def smoothed(
 def weighted_system(
     data: Measured, observation: Observation, options: EstimateOptions
 ) -> tuple[Observation, System]:
-    """Weight the equations as asked, and give the observation they come from: robust fits weigh its rows."""
+    """Weight the equations as asked, and give the observation they come from: robust fits weigh its rows.
+
+    Raises
+    ------
+    ExcitationError
+        If there are fewer usable equations than parameters, or no inertia shows.
+    """
     size = len(data.plan.columns)
     factors = observation.joint_factors(data.parts(observation)[0])
+    plain = ordinary(factors, observation.columns_of, size)
+    _refuse_without_acceleration(data, plain)
     if options.estimator == "ols":
-        return observation, ordinary(factors, observation.columns_of, size)
+        return observation, plain
     system = weighted(factors, observation.columns_of, size)
     if options.estimator != "irls" and not options.robust:
         return observation, system
@@ -70,3 +79,17 @@ def weighted_system(
         factors = observation.joint_factors(data.parts(observation)[0])
         system = stacked(factors, observation.columns_of, size, system.noise)
     return observation, system
+
+
+def _refuse_without_acceleration(data: Measured, system: System) -> None:
+    """Refuse a motion in which no inertia takes any torque: every joint keeps its speed."""
+    parameters = [data.plan.model.parameters[column] for column in data.plan.columns]
+    norms = np.linalg.norm(system.triangle, axis=0)
+    idle = [one for one, norm in zip(parameters, norms, strict=True) if norm == 0.0]
+    inertias = [one for one in parameters if one.unit == "kg m2"]
+    if inertias and {one.name for one in inertias} <= {one.name for one in idle}:
+        raise ExcitationError(
+            "no joint changes its speed, so that no inertia shows in the torque",
+            evidence={"parameters_not_excited": [one.name for one in idle]},
+            remedy="record a motion in which every joint speeds up, slows down and turns round",
+        )

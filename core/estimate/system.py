@@ -13,6 +13,8 @@ from core.errors import ExcitationError
 from core.regressor.factor import Factor
 
 RANK_TOLERANCE = 1e-8
+ROUNDING = 1e-12
+"""A column smaller than this share of the largest is what differences leave of a motion that is not there."""
 _REWEIGHTINGS = 2
 
 
@@ -83,7 +85,7 @@ def stacked(
     inner = whole[:base]
     rest = whole[base:, -1]
     return System(
-        triangle=inner[:, :-1],
+        triangle=_excited(inner[:, :-1]),
         target=inner[:, -1],
         rest=float(rest @ rest),
         rows=sum(factor.rows for factor in factors),
@@ -140,6 +142,19 @@ def column_scale(matrix: Matrix) -> Vector:
     """Give the norm of every column, one where it is zero."""
     norms = np.linalg.norm(matrix, axis=0)
     return np.where(norms > 0.0, norms, 1.0)
+
+
+def _excited(columns: Matrix) -> Matrix:
+    """Set columns to zero that are nothing but rounding beside the largest.
+
+    Examples
+    --------
+    >>> _excited(np.array([[3.0, 1e-15], [4.0, 1e-15]]))
+    array([[3., 0.],
+           [4., 0.]])
+    """
+    norms = np.linalg.norm(columns, axis=0)
+    return np.where(norms > ROUNDING * norms.max(initial=0.0), columns, 0.0)
 
 
 def _widened(factor: Factor, columns: Indices, base: int) -> Matrix:

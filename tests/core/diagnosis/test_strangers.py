@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lsim
 
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.strangers import best_stranger, strangers
@@ -10,8 +11,8 @@ from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 
 RHYTHM = 0.4
 """Repetitions of something beside the robot, Hz."""
-JUMPS = (4.0, 9.0, 13.0)
-"""Instants at which the torque jumps, s, by turns up and down; the middle one is in reach of the grid."""
+SWING, DAMPING = 1.9, 0.05
+"""Rate of something loose on the link, Hz, and its damping ratio."""
 
 
 def product(state):
@@ -26,15 +27,20 @@ def beat(state):
     return 0.1 * np.sin(2.0 * np.pi * RHYTHM * state.time) ** 3
 
 
-def jumps(state):
-    return sum(size * (state.time > instant) for instant, size in zip(JUMPS, (0.3, -0.4, 0.3), strict=True))
+def swing(state):
+    """Let something that hangs loose swing as the joint shakes it."""
+    rate = 2.0 * np.pi * SWING
+    _, deflection, _ = lsim(
+        ([-1.0], [1.0, 2.0 * DAMPING * rate, rate**2]), state.acceleration[:, 1], state.time
+    )
+    return 5.0 * deflection
 
 
 WORDS = {
     product: "the product of the speeds of joints 1 and 3",
     wave_of_another_joint: "a wave over joint 1's angle (2 per turn) with the sign of its own speed",
     beat: "a rhythm of 2.5 s, whatever the robot does",
-    jumps: "jumps in time, at 4 s, 9 s, 13 s",
+    swing: "something that swings by itself at about 1.8 Hz",
 }
 
 

@@ -1,0 +1,50 @@
+"""Log joints that keep their speed: what the torque tells is identified, what tells too little is refused."""
+
+import numpy as np
+import pytest
+
+from core.dynamics.model import standard_model
+from core.errors import ExcitationError
+from core.log.model import JointLog
+from core.signals.state import MotionState
+from core.study import IdentifyRequest, diagnose, identify
+from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+
+MODEL = standard_model(planar_robot())
+SPEED = 0.1
+"""Of a joint that keeps its speed, rad/s."""
+
+
+def log_with_constant(joints: list[int]) -> JointLog:
+    """Log a planar arm some of whose joints (from 0) keep their speed."""
+    moving = swing(len(MODEL.robot.joints), seed=1)
+    time = np.arange(len(moving.position)) / 100.0
+    position, velocity, acceleration = (
+        one.copy() for one in (moving.position, moving.velocity, moving.acceleration)
+    )
+    position[:, joints] = SPEED * (time - 5.0)[:, None]
+    velocity[:, joints], acceleration[:, joints] = SPEED, 0.0
+    state = MotionState(position, velocity, acceleration)
+    noise = 0.02 * np.random.default_rng(1).normal(size=position.shape)
+    return log_of(MODEL, true_parameters(MODEL), state, noise)
+
+
+@pytest.mark.parametrize("study", [identify, diagnose])
+@pytest.mark.parametrize("estimator", ["sdp", "ols"])
+def test_a_motion_in_which_no_joint_changes_its_speed_is_refused_for_want_of_excitation(study, estimator):
+    log = log_with_constant([0, 1])
+    with pytest.raises(ExcitationError, match="no joint changes its speed") as refusal:
+        study(IdentifyRequest(MODEL.robot, (log,), {"estimator": estimator}))
+    assert {"ZZ1", "ZZ2"} <= set(refusal.value.evidence["parameters_not_excited"])
+    assert "speeds up" in refusal.value.remedy
+
+
+def test_beside_a_joint_that_keeps_its_speed_the_others_inertia_is_identified():
+    document = identify(IdentifyRequest(MODEL.robot, (log_with_constant([0]),)))
+    (found,) = [
+        one for one in document["base_parameters"] if one["name"].startswith("ZZ") and one["joint"] == 2
+    ]
+    truth = dict(zip((one.name for one in MODEL.parameters), true_parameters(MODEL), strict=True))
+    expected = sum(weight * truth[name] for name, weight in found["relation"].items())
+    assert abs(found["value"] - expected) < 4.0 * found["standard_deviation"] < 0.4 * expected
+    assert min(document["feasibility"]["pseudo_inertia_min_eigenvalue"]) > 0.0
