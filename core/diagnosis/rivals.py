@@ -11,6 +11,7 @@ import numpy as np
 
 from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
+from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.selection import Selection, Step, merit, rise, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
@@ -22,6 +23,8 @@ STRANGER_SHARE = 0.25
 """Share of a finding's rise by which a pattern without a name has to lead to refute it."""
 EVENT_SHARE = 0.5
 """An event at picked instants fits a little of anything: this share of its rise is not counted."""
+LEAST_GAIN = 0.5
+"""Per cent of the error on unseen rows that a cause beside a clearer one has to gain, or gain for sure."""
 WEIGHED = 6
 WORTH_NAMING = 0.1
 """A rival that reaches less than this share of the finding's own rise is not worth a line."""
@@ -66,13 +69,25 @@ def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standin
         weak = [
             index
             for index, one in enumerate(found)
-            if (one.margin < -INDIFFERENCE and one.statistic < most) or _beaten(bench, one, suspects)
+            if (one.statistic < most and _stopgap(bench, selection.chosen, one))
+            or _beaten(bench, one, suspects)
         ]
         if not weak:
             return selection, found
         least = min(weak, key=lambda index: found[index].statistic)
         step = Step("dropped", selection.chosen.members[least], -found[least].statistic)
         selection = replace(selection, chosen=found[least].without, steps=(*selection.steps, step))
+
+
+def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing) -> bool:
+    """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows."""
+    if own.margin < -INDIFFERENCE:
+        return True
+    look, joints = bench.look, tuple(sorted(bench.columns([own.member])[0]))
+    mask, block = look.usable & look.held_out[:, None], look.log * (1 + look.block.max()) + look.block
+    seen = gain(bench.residual(own.without), bench.residual(chosen), mask, block, joints)
+    unsure = seen is not None and seen.interval_95[0] <= 0.0 and seen.total_percent < LEAST_GAIN
+    return unsure and not own.member.cause.event and bench.belief is None
 
 
 def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> bool:
