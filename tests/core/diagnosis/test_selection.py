@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import CAUSES
+from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.rivals import standing
 from core.diagnosis.selection import Selection, clear_enough, rise, select
@@ -52,6 +52,27 @@ def test_what_is_hidden_is_named_with_its_joint_and_nothing_else(effect, hidden)
 def test_the_size_that_is_found_is_the_size_that_was_hidden():
     found = searched(UNEVEN, 6).chosen.solved(0)
     assert abs(found.values[0] - 0.15) < 3.0 * np.sqrt(found.covariance[0, 0])
+
+
+def shoved(state):
+    """Push all joints for most of a second."""
+    during = (state.time > 6.0) & (state.time < 6.8)
+    return during[:, None] * np.array([1.0, -0.8, 0.5])
+
+
+def spiky(state):
+    """Spoil four samples of one joint's torque, close to each other."""
+    out = np.zeros_like(state.position)
+    out[np.searchsorted(state.time, [6.0, 6.1, 6.22, 6.3]), 1] = [8.0, 9.0, 7.0, 8.0]
+    return out
+
+
+@pytest.mark.parametrize(
+    ("effect", "named"), [(shoved, ["external_contact"]), (spiky, [])], ids=["shoved", "spiky"]
+)
+def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
+    found = select(bench_of(measured_arm(effect), (BY_ID["external_contact"],)))
+    assert [name for name, _ in names(found)] == named
 
 
 @cache
