@@ -36,6 +36,7 @@ class Order:
     strength: float = 1.0
     effects: int = 1
     noise: str | None = None
+    robot: str | None = None
 
 
 def orders(
@@ -68,10 +69,14 @@ def orders(
 def drawn(order: Order) -> Case:
     """Draw the case that was ordered."""
     if order.kind == "clean":
-        return kept(draw_clean, order.seed, noise=order.noise)
+        return kept(draw_clean, order.seed, noise=order.noise, **_robot(order))
     if order.kind == "foreign":
         return kept(draw_foreign, order.seed, order.strength)
-    return kept(draw, order.seed, order.cause, order.strength, effects=order.effects)
+    return kept(draw, order.seed, order.cause, order.strength, effects=order.effects, **_robot(order))
+
+
+def _robot(order: Order) -> dict[str, str]:
+    return {} if order.robot is None else {"robot": order.robot}
 
 
 def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping[str, Any]:

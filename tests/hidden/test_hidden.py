@@ -5,11 +5,11 @@ import pytest
 from tests.hidden.plan import Order, run
 
 SINGLES = (
-    Order("single", 7001, "friction_stribeck", 3.0),
+    Order("single", 7001, "friction_stribeck", 3.0, robot="planar-3"),
     Order("single", 7002, "friction_load_dependent", 3.0),
-    Order("single", 7003, "time_delay", 3.0),
-    Order("single", 7004, "torque_gain", 3.0),
-    Order("single", 7005, "torque_ripple", 3.0),
+    Order("single", 7003, "time_delay", 3.0, robot="planar-2"),
+    Order("single", 7004, "torque_gain", 3.0, robot="planar-3"),
+    Order("single", 7005, "torque_ripple", 3.0, robot="planar-2"),
     Order("single", 7006, "joint_elasticity", 3.0),
 )
 
@@ -31,11 +31,11 @@ def test_a_strong_effect_is_named_and_nothing_else(order):
 @pytest.mark.slow
 @pytest.mark.parametrize("noise", ["white", "strong_ar1"])
 def test_nothing_is_named_on_a_clean_log(noise):
-    score = scored(Order("clean", 7101, noise=noise))
+    score = scored(Order("clean", 7101, noise=noise, robot="planar-3"))
     assert score.extra == ()
 
 
 @pytest.mark.slow
 def test_two_effects_are_both_named():
-    score = scored(Order("combination", 7201, strength=3.0, effects=2))
+    score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2"))
     assert [answer.named for answer in score.answers] == [True, True]
