@@ -14,6 +14,8 @@ from core.dynamics.terms.saturation import Saturation
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
 """Limits, as shares of the largest torque that the motion shows."""
+PREDICTION_ERROR = 0.03
+"""Share that large predicted torques are inexact by."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +56,10 @@ class TorqueSaturation(OwnJointCause):
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Give the limit."""
-        deviation = solved.deviations.get("limit", 0.0)
-        return (Quantity("limit", solved.site[0], "N m", solved.scalars["limit"], deviation),)
+        """Give the limit, which is known no better than the predicted torque that it clips."""
+        limit = solved.scalars["limit"]
+        deviation = float(np.hypot(solved.deviations.get("limit", 0.0), PREDICTION_ERROR * limit))
+        return (Quantity("limit", solved.site[0], "N m", limit, deviation),)
 
     def statement(self, solved: Solved) -> str:
         """Say where the torque ends."""
