@@ -75,5 +75,5 @@ def create_app(settings: Settings | None = None, *, executor: Executor | None = 
             app.openapi_schema = openapi.document(app)
         return app.openapi_schema
 
-    app.openapi = contract  # type: ignore[method-assign]
+    app.openapi = contract  # type: ignore[method-assign]  # as FastAPI tells to extend it
     return app

@@ -7,7 +7,7 @@ orders differ.
 from typing import Any, Final
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]
+import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
 
 from core.reduction.base import BaseModel
 from core.robot.model import RobotModel
@@ -29,7 +29,7 @@ def pinocchio_model(robot: RobotModel) -> Any:  # noqa: ANN401 (pinocchio publis
     return model
 
 
-def regressors(model: Any, state: MotionState) -> np.ndarray:  # noqa: ANN401
+def regressors(model: Any, state: MotionState) -> np.ndarray:  # noqa: ANN401 (as above)
     """Call pinocchio once per sample; samples x joints x (10 links)."""
     data = model.createData()
     out = np.empty((len(state.position), model.nv, 10 * model.nv))
@@ -39,7 +39,7 @@ def regressors(model: Any, state: MotionState) -> np.ndarray:  # noqa: ANN401
     return out
 
 
-def base_columns(model: Any, base: BaseModel, state: MotionState) -> np.ndarray:  # noqa: ANN401
+def base_columns(model: Any, base: BaseModel, state: MotionState) -> np.ndarray:  # noqa: ANN401 (as above)
     """Give pinocchio's columns for the base parameters, the drives' added; samples x joints x base."""
     body = regressors(model, state)
     out = np.zeros((*state.position.shape, len(base.kept)))

@@ -8,7 +8,7 @@ shows in the difference; it ends at the same motion as the steps get shorter.
 from typing import Any
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]
+import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
 
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import pinocchio_model
@@ -78,7 +78,7 @@ def peer(mechanism: Mechanism) -> Any:  # noqa: ANN401 (pinocchio publishes no t
 
 
 def looped(
-    model: Any,  # noqa: ANN401
+    model: Any,  # noqa: ANN401 (as above)
     mechanism: Mechanism,
     start: MotionState,
     torque: np.ndarray,

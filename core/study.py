@@ -251,7 +251,7 @@ def _identified(
         active_constraints=active_constraints(model, answer.standard, prior, options.estimate.bounds),
         trajectory=check_mass_matrix(model, answer.standard, observation.positions),
         workspace=check_mass_matrix(model, answer.standard, workspace(request.robot)),
-        widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]
+        widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]  # Coulomb friction alone has them
         seed=options.bootstrap.seed,
     )
 

@@ -23,7 +23,7 @@ from core.diagnosis.equations import (
     whitened,
 )
 from core.diagnosis.grid import between, neighbours
-from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored
 from core.diagnosis.look import Look
 from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
@@ -65,7 +65,8 @@ class Bench:
         self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
         self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
         self.believed = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
-        self._columns: dict[object, Columns] = {}
+        self._lasting: dict[Place, Columns] = {}
+        self._believing: dict[Place, Columns] = {}
         self._candidates: tuple[Candidate, ...] = ()
 
     def believe(self, found: Fit) -> None:
@@ -73,7 +74,7 @@ class Bench:
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.values[: len(self.plan.columns)]
         self.believed = Prediction(self.plan.model, standard, inverse_dynamics)
-        self._columns = {place: one for place, one in self._columns.items() if not place[-1]}  # type: ignore[index]
+        self._believing = {}
         self._candidates = tuple(
             Candidate(cause, site, scalars, cause.trials(grid, scalars))
             for cause in self.causes
@@ -94,11 +95,14 @@ class Bench:
 
     def columns(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """Give the candidates' filtered columns, computing those that are new."""
-        new = [one for one in candidates if not self._known(one)]
+        new = [
+            one for one in candidates if one.place not in self._lasting and one.place not in self._believing
+        ]
         terms = [one.cause.term(self.look, self.believed, one.site, one.scalars) for one in new]
         for one, term, columns in zip(new, terms, self.look.columns(terms), strict=True):
-            self._columns[(*one.place, hasattr(term, "believed"))] = columns
-        return [self._found(one) for one in candidates]
+            (self._believing if hasattr(term, "believed") else self._lasting)[one.place] = columns
+        known = (self._lasting, self._believing)
+        return [next(kept[one.place] for kept in known if one.place in kept) for one in candidates]
 
     def tried(self, members: tuple[Candidate, ...], start: Hypothesis | None = None) -> Hypothesis:
         """Fit a hypothesis, learning its noise anew, from where another's fit left it if one is given.
@@ -256,16 +260,6 @@ class Bench:
     def _grid(self, candidate: Candidate) -> list[Candidate]:
         same = (candidate.cause, candidate.site)
         return [one for one in self._candidates if (one.cause, one.site) == same] or [candidate]
-
-    def _known(self, candidate: Candidate) -> bool:
-        return any((*candidate.place, built) in self._columns for built in (False, True))
-
-    def _found(self, candidate: Candidate) -> Columns:
-        return next(
-            self._columns[(*candidate.place, built)]
-            for built in (False, True)
-            if (*candidate.place, built) in self._columns
-        )
 
 
 def _drop(low: Score, middle: Score, high: Score) -> float:

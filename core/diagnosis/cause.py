@@ -80,8 +80,6 @@ class Cause(Protocol):
         The motion that would show it where the present one does not.
     coordinate
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
-    near_reversals
-        Whether its evidence lies next to velocity reversals, where other causes do not look.
     event
         Whether it acts in short spans only. Noise learned before it is known holds it, so that a scan says
         little about it.
@@ -93,7 +91,6 @@ class Cause(Protocol):
     title: ClassVar[str]
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
-    near_reversals: ClassVar[bool]
     event: ClassVar[bool]
     like_position_noise: ClassVar[bool]
 

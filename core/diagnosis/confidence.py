@@ -1,4 +1,4 @@
-"""Say how sure a finding is: a number calibrated on simulated logs with known causes.
+"""Say how sure a finding is: a number set on simulated logs with known causes, and checked on others.
 
 Three things decide: how far its rise lies above what luck gives, how far its criterion leads over the best
 rival, and whether it helps on rows that no fit has seen. Source: Platt, Advances in Large Margin Classifiers

@@ -10,6 +10,8 @@ from core.diagnosis.cause import Cause, Scalars, Site, Solved
 from core.diagnosis.chance import log_chance
 from core.diagnosis.equations import OPEN_SHARE, Fit
 
+Place = tuple[str, Site, tuple[tuple[str, float], ...]]
+"""A cause, its site and its scalars: what columns are kept under."""
 COLUMN_ERROR = 0.05
 """Share of a size that a first-order column is inexact by: no size is known better."""
 
@@ -40,7 +42,7 @@ class Candidate:
         return self.cause.id, self.site
 
     @property
-    def place(self) -> tuple[str, Site, tuple[tuple[str, float], ...]]:
+    def place(self) -> Place:
         """Name it with its scalars."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
 

@@ -34,6 +34,7 @@ class Unlisted(OwnJointCause):
     title = "Something follows a pattern that no listed cause has"
     units = ()
     coordinate = "time"
+    settled = ("pattern", "number_0", "number_1", "number_2")
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """List all patterns, numbers after their place."""
@@ -44,11 +45,6 @@ class Unlisted(OwnJointCause):
         """Give the columns."""
         del look, believed
         return Trace(site[0], *_read(scalars))
-
-    @property
-    def settled(self) -> tuple[str, ...]:  # type: ignore[override]
-        """Take every number from the grid."""
-        return ("pattern", "number_0", "number_1", "number_2")
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report no numbers: they would mean nothing elsewhere."""

@@ -58,12 +58,12 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
             yield from _datasets(item, f"{name}.", seen)
 
 
-def _is_text(dataset: Any) -> bool:  # noqa: ANN401
+def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # untyped
     """Tell MATLAB's text, which is stored as 16-bit numbers."""
     return bytes(dataset.attrs.get("MATLAB_class", b"")) in (b"char", b"cell")
 
 
-def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401
+def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # untyped
     if dataset.is_virtual:
         raise _refers_outside(name, "a virtual dataset")
     if dataset.external:

@@ -11,6 +11,7 @@ import numpy as np
 
 from core.arrays import Indices, Matrix, Series
 from core.dynamics.model import DynamicModel
+from core.dynamics.term import Term
 from core.dynamics.terms.rigid_body import RigidBody
 from core.regressor.kernel import rigid_body_series
 from core.robot.model import RobotModel
@@ -84,12 +85,12 @@ class ColumnPlan:
 @dataclass(frozen=True, eq=False)
 class _TermFill:
     robot: RobotModel
-    term: object
+    term: Term
     targets: Indices
 
     def __call__(self, state: MotionState, out: Series) -> None:
         keep = self.targets >= 0
-        out[self.targets[keep]] = self.term.series(self.robot, state)[keep]  # type: ignore[attr-defined]
+        out[self.targets[keep]] = self.term.series(self.robot, state)[keep]
 
 
 @dataclass(frozen=True, eq=False)

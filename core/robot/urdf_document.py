@@ -103,7 +103,7 @@ def _parse(text: bytes | str) -> Element:
             remedy="remove the DOCTYPE and write the values out",
         ) from error
     except (ParseError, ValueError, LookupError) as error:
-        if (b"xacro:" if isinstance(text, bytes) else "xacro:") in text:  # type: ignore[operator]
+        if (b"xacro:" if isinstance(text, bytes) else "xacro:") in text:  # type: ignore[operator]  # both are of one kind
             _refuse_xacro("an undeclared xacro prefix")
         raise RobotError(
             "the URDF is not well-formed XML",

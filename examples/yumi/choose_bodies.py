@@ -27,7 +27,7 @@ TABLE_3: Final = {
     "MX5": (0.0304, 2.43), "MY5": (0.0135, 8.00), "XY6": (0.0078, 7.12), "XZ6": (-0.0017, 13.94),
     "ZZ6": (0.0033, 10.20), "MX6": (0.0041, 15.18), "MY6": (-0.0166, 6.69), "YZ7": (-0.0013, 12.04),
     "ZZ7": (0.0007, 6.87), "MY7": (0.0033, 7.35),
-}  # fmt: skip
+}  # fmt: skip  # a table
 """Value and relative deviation in percent of each base parameter, by the name of its own link's column."""
 
 SHAPES: Final = (
@@ -96,7 +96,7 @@ def grouped(bodies: list[cp.Variable]) -> dict[str, cp.Expression]:
                 "XX": along, "XY": d * s * moment, "XZ": -d * c * moment, "YY": c**2 * along + d**2 * m,
                 "YZ": c * s * along, "ZZ": s**2 * along + d**2 * m,
                 "MX": d * m, "MY": -s * moment, "MZ": c * moment, "M": m,
-            }  # fmt: skip
+            }  # fmt: skip  # a table
             below = table[number - 1]
             for symbol, gain in gains.items():
                 below[symbol] = below[symbol] + gain

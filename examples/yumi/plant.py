@@ -9,7 +9,7 @@ where nature does. Sources: Featherstone, Rigid Body Dynamics Algorithms (2008);
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]
+import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
 
 from examples.yumi import arm
 from examples.yumi.hidden import NOTHING, Hidden

@@ -9,7 +9,7 @@ LENGTH, GRAVITY = 0.4, 9.81
 TRUTH = {
     "ZZ1": 0.30, "MX1": 0.90, "MY1": 0.05, "M1": 4.0, "ZZ2": 0.08, "MX2": 0.40, "MY2": -0.03, "M2": 2.0,
     "FV1": 1.5, "FC1": 2.0, "OFF1": 0.2, "FV2": 0.6, "FC2": 0.8, "OFF2": -0.1,
-}  # fmt: skip
+}  # fmt: skip  # a table
 
 
 def description():

@@ -58,7 +58,7 @@ def test_every_setting_of_the_command_line_is_documented_with_its_variable():
         assert f"VERITORQUE_{name.upper()}" in shown, name
 
 
-@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.5", "robot.example"])  # noqa: S104
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.5", "robot.example"])  # noqa: S104  (to be refused)
 def test_an_address_that_others_can_reach_needs_a_decision(listened, tmp_path, host):
     refused = run("serve", "--host", host, "--data-dir", str(tmp_path))
     assert refused.exit_code == 2

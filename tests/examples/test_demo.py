@@ -28,7 +28,7 @@ RESULT = {
     "solver": {"status": "optimal", "iterations": 11, "objective": 2.5, "objective_ols": 2.4},
     "fit": [{"joint": 1, "rms_torque": 4.0, "nrmse_of_range_percent": 1.25, "nrmse_of_rms_percent": 3.5}],
     "validation": [],
-}  # fmt: skip
+}  # fmt: skip  # a table
 TRUTH = {"ZZ1": 0.03, "IA1": 0.025, "M2": 5.0, "FC1": 2.175}
 
 
@@ -127,7 +127,7 @@ class Answers(BaseHTTPRequestHandler):
         self.end_headers()
         self.wfile.write(body)
 
-    do_GET = do_POST = answer  # noqa: N815
+    do_GET = do_POST = answer  # noqa: N815  (the server's own names)
 
     def log_message(self, *_):
         pass

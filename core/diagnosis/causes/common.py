@@ -26,7 +26,6 @@ class OwnJointCause:
     confusions: ClassVar[tuple[Confusion, ...]] = ()
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
-    near_reversals: ClassVar[bool] = False
     event: ClassVar[bool] = False
     like_position_noise: ClassVar[bool] = False
     excludes: ClassVar[tuple[str, ...]] = ()

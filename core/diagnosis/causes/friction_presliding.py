@@ -40,7 +40,6 @@ class FrictionPresliding(OwnJointCause):
     )
     experiment = "many slow reversals, each followed by a move of some degrees"
     coordinate = "travel"
-    near_reversals = True
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""

@@ -76,10 +76,10 @@ def atlas(
     residual: JointSeries,
     believed: Prediction,
     noise: Sequence[JointNoise],
-    *,
-    near_reversals: bool = False,
 ) -> Atlas:
     """Show a residual over time, angle, speed, load, travel, temperature, the other joints and frequency.
+
+    Rows next to reversals are left out: there a measured velocity's sign is not the direction of friction.
 
     Parameters
     ----------
@@ -87,10 +87,7 @@ def atlas(
         Measured minus predicted torque at the look's rows, N m or N.
     noise
         Noise model per joint, as learned from the rows that were fitted; used over time and temperature.
-    near_reversals
-        Whether rows next to reversals count: there the sign of velocity is uncertain, and presliding shows.
     """
-    mask = look.usable if near_reversals else look.clear
     begins = np.flatnonzero(look.starts)
     found = []
     for name in coordinate_names(look):
@@ -98,7 +95,7 @@ def atlas(
             along = coordinate(look, believed, name, joint)
             if along is None:
                 continue
-            label = _bins(along.values, mask[:, joint - 1])
+            label = _bins(along.values, look.clear[:, joint - 1])
             if label.max(initial=-1) >= 1:
                 binned = _Binned(along.values, residual[:, joint - 1], label, begins)
                 own = noise[joint - 1] if name in VISITED_ONCE else _noise_beside(binned)

@@ -82,8 +82,6 @@ def predictable_share(
     residual: JointSeries,
     believed: Prediction,
     noise: Sequence[JointNoise],
-    *,
-    near_reversals: bool = False,
 ) -> tuple[Predictable, ...]:
     """Learn every joint's residual from the motion of all joints, and judge it on blocks not learned from.
 
@@ -93,16 +91,14 @@ def predictable_share(
         Measured minus predicted torque at the look's rows, N m or N.
     noise
         Noise model per joint; its memory is the gap between what is learned from and what is judged.
-    near_reversals
-        Whether rows next to reversals count; there every motion leaves structure, since the sign of a
-        measured velocity is not the direction of friction.
 
     Raises
     ------
     ExcitationError
         If every joint has too few rows to hold any out.
     """
-    mask = look.usable if near_reversals else look.clear
+    # Next to reversals every motion leaves structure: a measured velocity's sign is not friction's direction.
+    mask = look.clear
     rows = refuse_too_little(mask)
     block, shared = row_blocks(look), _shared(look)
     found = []

@@ -33,7 +33,7 @@ class Contact(AllJointsTerm):
     kind: ClassVar[str] = "external_contact"
 
     @property
-    def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]
+    def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]  # one wrench per span
         """Name the peaks of every contact's wrench."""
         return tuple(
             (f"{name}_{number}_", unit, None)

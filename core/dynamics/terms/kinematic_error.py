@@ -32,7 +32,7 @@ class KinematicError(AllJointsTerm):
         return f"{self.kind}_{self.entry}_{self.joint}"
 
     @property
-    def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]
+    def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]  # the unit is the entry's
         """Name the error with the unit of its entry."""
         return (("error", ENTRY_UNITS[self.entry], None),)
 

@@ -53,7 +53,7 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     contract, clock, spread, resolution = Contract(layout), Clock(samples), _Spread(), Resolution(samples)
     finders: list[Finder] = [
         clock, Repeats(), Spikes(joints), Saturation(joints), resolution, Rest(samples), Bandwidth(joints),
-    ]  # fmt: skip
+    ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
         accepted = contract.accepts(stretch) and accepted

@@ -51,9 +51,9 @@ def freedom(arm: Scene, *columns) -> int:
     return bench_of(arm, ()).tried((candidate(cause),)).freedom(0)
 
 
-SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731
-COSINE = lambda state: np.cos(TRUE * state.position[:, 1])  # noqa: E731
-VISCOUS = lambda state: state.velocity[:, 1]  # noqa: E731
+SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
+COSINE = lambda state: np.cos(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
+VISCOUS = lambda state: state.velocity[:, 1]  # noqa: E731  (a formula)
 
 
 def test_columns_of_their_own_are_directions_of_their_own(arm):

@@ -18,9 +18,9 @@ QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
 
 CLEAN = None
-UNEVEN: Effect = lambda state: 0.15 * np.abs(state.velocity) * [0.0, 1.0, 0.0]  # noqa: E731
-SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731
-BOTH: Effect = lambda state: UNEVEN(state) + SPRUNG(state)  # noqa: E731
+UNEVEN: Effect = lambda state: 0.15 * np.abs(state.velocity) * [0.0, 1.0, 0.0]  # noqa: E731  (a formula)
+SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+BOTH: Effect = lambda state: UNEVEN(state) + SPRUNG(state)  # noqa: E731  (a formula)
 
 
 def names(selection: Selection) -> list[tuple[str, tuple[int, ...]]]:
@@ -113,7 +113,7 @@ def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explai
 def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_than_it_has(
     like_noise, share, named
 ):
-    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731
+    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
     cause = made_up("noisy", columns, like_position_noise=like_noise)
     scene = measured_arm(wave_effect({QUICK: 0.04}))
     look = replace(scene.look, position_share=np.array([0.9, share, 0.9]))

@@ -13,7 +13,7 @@ from tests.core.log.writers import swing
 
 def healthy(seconds=20.0, rate_hz=250.0, joints=2, seed=0):
     columns = swing(seconds, rate_hz, joints, seed)
-    gather = lambda prefix: np.column_stack([columns[f"{prefix}_{j + 1}"] for j in range(joints)])  # noqa: E731
+    gather = lambda prefix: np.column_stack([columns[f"{prefix}_{j + 1}"] for j in range(joints)])  # noqa: E731  (a formula)
     return columns["time"], gather("q"), gather("tau")
 
 

@@ -141,7 +141,7 @@ def test_a_turntable_shows_its_inertia_alone():
     assert _words(base) == {"ZZR1": "ZZ1 + IA1"}
     assert [base.model.parameters[one].name for one in base.without_effect] == [
         "XX1", "XY1", "XZ1", "YY1", "YZ1", "MX1", "MY1", "MZ1", "M1",
-    ]  # fmt: skip
+    ]  # fmt: skip  # a table
 
 
 def test_a_lift_tells_its_mass_from_its_rotor_and_a_sledge_does_not():

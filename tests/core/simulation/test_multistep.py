@@ -8,19 +8,6 @@ from core.simulation.multistep import MultiStepOptions, compare, predict_motion
 from core.simulation.windows import windows
 from tests.core.simulation.logs import RATE_HZ, logged
 from tests.core.simulation.worlds import mechanism
-from tests.tools import random_bodies, random_robot
-
-
-@pytest.fixture(scope="module")
-def arm():
-    rng = np.random.default_rng(41)
-    robot = random_robot(rng, 3, prismatic=0.0)
-    return robot, random_bodies(rng, 3)
-
-
-@pytest.fixture(scope="module")
-def motion(arm):
-    return logged(*arm)
 
 
 def test_the_true_model_strays_a_hundredth_of_what_no_model_does(arm, motion):

@@ -6,21 +6,8 @@ import pytest
 from core.errors import OptionError
 from core.signals.state import MotionState
 from core.simulation.replay import Gains, ReplayOptions, default_gains, fitted_gains, replay
-from tests.core.simulation.logs import logged
 from tests.core.simulation.worlds import block, mechanism
-from tests.tools import random_bodies, random_motion, random_robot
-
-
-@pytest.fixture(scope="module")
-def arm():
-    rng = np.random.default_rng(41)
-    robot = random_robot(rng, 3, prismatic=0.0)
-    return robot, random_bodies(rng, 3)
-
-
-@pytest.fixture(scope="module")
-def motion(arm):
-    return logged(*arm)
+from tests.tools import random_motion
 
 
 @pytest.mark.parametrize("feed_forward", ["measured", "model"])

@@ -67,7 +67,7 @@ DOCUMENTS = {
             )
         ]
     ),
-}  # fmt: skip
+}  # fmt: skip  # a table
 
 
 @pytest.fixture(params=DOCUMENTS, ids=str)
