@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import count
 from typing import Any
 
 from tests.hidden.score import Score, score
@@ -24,6 +25,10 @@ KINDS = (
     "single",
 )
 """What ten cases in a row are."""
+EACH_CAUSE = {1.0: 20, 3.0: 5, 0.3: 5}
+"""How often the whole examination hides every cause, by strength."""
+COMBINATIONS, CLEAN, STRANGE = 60, 300, 60
+"""How many combinations, clean logs and effects that are in no list it has."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,22 @@ def orders(
         singles += what == "single"
         listed.append(Order(what, own, name, size, effects, noise))
     return listed
+
+
+def battery(seed: int) -> list[Order]:
+    """Lay out the whole examination: every cause 20 times, and enough of all else for its rates to be known."""
+    own = count(100_000 * seed)
+    listed = [
+        Order("single", next(own), cause, strength)
+        for strength, times in EACH_CAUSE.items()
+        for _ in range(times)
+        for cause in EFFECTS
+    ]
+    listed += [Order("combination", next(own), None, 1.0, 2 + place % 2) for place in range(COMBINATIONS)]
+    listed += [
+        Order("clean", next(own), noise=noise) for _ in range(CLEAN // len(NOISES)) for noise in NOISES
+    ]
+    return listed + [Order("foreign", next(own)) for _ in range(STRANGE)]
 
 
 def drawn(order: Order) -> Case:

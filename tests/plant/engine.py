@@ -45,12 +45,17 @@ class Plant:
         self._set_drives()
         self.data.qpos[: arm.joints] = position
         self.data.qpos[self.motor] = position
+        self._hang()
         self.velocity = np.zeros(self.model.nv)
         self.acceleration = np.zeros(self.model.nv)
         self.level = arm.coulomb.copy()
-        self.transmitted = dict.fromkeys(self.split, 0.0)
         self.state = State(self.step, position.copy(), self.level, jacobian=self._jacobian)
         self.tip = self.model.body(arm.robot.links[-1].name).id
+        self.sums = np.count_nonzero(arm.motors[:, 2])
+        # MuJoCo's arrays stay where they are; asking it for them takes longer than most of what is done to them.
+        data = self.data
+        self.angle, self.rate, self.pushed = data.qpos, data.qvel, data.qfrc_applied
+        self.resisted, self.damped = data.qfrc_constraint, data.qfrc_passive
 
     def _set_drives(self) -> None:
         model, arm = self.model, self.arm
@@ -66,9 +71,9 @@ class Plant:
 
     def advance(self, command: np.ndarray, gain: np.ndarray, damping: np.ndarray) -> np.ndarray:
         """Take one step under `command` minus gains times state, N m; give the drive's torque."""
-        data, state = self.data, self.state
-        data.qvel[:] = self.velocity + 0.5 * self.step * self.acceleration
-        state.position, state.velocity = data.qpos[self.motor], data.qvel[self.motor]
+        state, motor = self.state, self.motor
+        np.add(self.velocity, 0.5 * self.step * self.acceleration, out=self.rate)
+        state.position, state.velocity = self.angle[motor], self.rate[motor]
         torque = command - gain * state.position - damping * state.velocity
         applied = torque
         for effect in self.drives:
@@ -78,24 +83,37 @@ class Plant:
         push = applied - self.arm.offset
         for effect in self.torques:
             effect.torque(state, push)
-        data.qfrc_applied[self.motor] = push
+        self.pushed[motor] = push
         for joint, effect in self.split.items():
             self._transmit(joint, effect)
         if self.loads:
             self._take_up()
-        mujoco.mj_forward(self.model, data)
+        mujoco.mj_forward(self.model, self.data)
         self.before = self.velocity
-        self.acceleration = data.qacc.copy()
+        self.acceleration = self.data.qacc.copy()
         self.velocity = self.before + self.step * self.acceleration
-        data.qpos += self.step * self.velocity
+        self.angle += self.step * self.velocity
         state.time += self.step
         return torque
 
+    def _hang(self) -> None:
+        """Let links that hang on a transmission begin where it carries their weight."""
+        data = self.data
+        mujoco.mj_forward(self.model, data)
+        self.transmitted = {joint: float(data.qfrc_bias[joint]) for joint in self.split}
+        for joint, effect in self.split.items():
+            data.qpos[joint] -= effect.twist(self.transmitted[joint])
+
     def _set_level(self) -> None:
-        data, motor, state = self.data, self.motor, self.state
-        state.load = data.qfrc_applied[motor] + data.qfrc_constraint[motor] + data.qfrc_passive[motor]
-        for joint in self.split:
-            state.load[joint] += self.transmitted[joint]
+        """Give what the gears transmit, which does not turn their rotors, and the friction it makes."""
+        motor, state = self.motor, self.state
+        moving = self.pushed[motor] + self.resisted[motor] + self.damped[motor]
+        state.load = moving - self.arm.rotor_inertia * self.acceleration[motor]
+        for coupling, (inertia, _, _) in zip(self.arm.robot.couplings, self.arm.motors, strict=True):
+            joints, weights = np.array(coupling.joints) - 1, np.array(coupling.weights)
+            state.load[joints] -= inertia * (weights @ self.acceleration[motor[joints]]) * weights
+        for joint, transmitted in self.transmitted.items():
+            state.load[joint] = transmitted
         self.level[:] = self.arm.coulomb
         for effect in self.frictions:
             effect.friction(state, self.level)
@@ -103,11 +121,11 @@ class Plant:
         self.model.dof_frictionloss[motor] = self.level
 
     def _transmit(self, joint: int, effect: Effect) -> None:
-        data, motor = self.data, self.motor[joint]
-        twist = data.qpos[motor] - data.qpos[joint]
-        torque = effect.transmit(twist, data.qvel[motor] - data.qvel[joint])
-        data.qfrc_applied[joint] = torque
-        data.qfrc_applied[motor] -= torque
+        motor = self.motor[joint]
+        twist = self.angle[motor] - self.angle[joint]
+        torque = effect.transmit(twist, self.rate[motor] - self.rate[joint])
+        self.pushed[joint] = torque
+        self.pushed[motor] -= torque
         self.transmitted[joint] = torque
 
     def _take_up(self) -> None:
@@ -133,23 +151,26 @@ class Plant:
 
         Those of the step just taken, at its beginning.
         """
-        data, level, count = self.data, self.level, np.count_nonzero(self.arm.motors[:, 2])
-        coupled = data.efc_force[-count:] if count else np.zeros(len(self.arm.motors))
-        friction = -data.qfrc_constraint[self.motor]
+        count = self.sums
+        coupled = self.data.efc_force[-count:] if count else np.zeros(len(self.arm.motors))
+        friction = -self.resisted[self.motor]
         for coupling, force in zip(self.arm.robot.couplings, coupled, strict=True):
             friction[np.array(coupling.joints) - 1] += force * np.array(coupling.weights)
         if self.frictions:
             self._own_direction(friction)
         else:
-            friction /= level
+            friction /= self.level
         sums = -coupled / self.arm.motors[:, 2] if count else coupled
         return self.state.position, self.before, self.velocity, self.acceleration, friction, sums
 
     def _own_direction(self, friction: np.ndarray) -> None:
         """Divide friction by its level; an effect that takes the level away tells the direction itself."""
-        for joint, level in enumerate(self.level):
-            told = self.state.memory.get(f"direction {joint}", np.sign(self.state.velocity[joint]))
-            friction[joint] = friction[joint] / level if level > 0.0 else told
+        none = self.level <= 0.0
+        if none.any():
+            for joint in np.flatnonzero(none):
+                own = np.sign(self.state.velocity[joint])
+                friction[joint] = self.state.memory.get(f"direction {joint}", own)
+        np.divide(friction, self.level, out=friction, where=~none)
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,8 +29,8 @@ class State:
     """Show the plant to its effects at one step; arrays count joints from 0.
 
     Positions and velocities are the motors', in rad and rad/s. `level` is the friction level in N m and
-    `load` the torque in N m that moved the robot at the step before, rotor inertia included: what remains of
-    the drive's torque after friction and offset.
+    `load` the torque in N m that the gears transmitted to the links at the step before: what remains of the
+    drive's torque after friction, offset and the rotors' inertia.
     `jacobian` gives, 3 x joints, how a point on the last link moves with them.
     """
 
@@ -139,6 +139,10 @@ class Effect:
 
     def transmit(self, twist: float, rate: float) -> float:
         """Give the torque in N m from motor to link, from motor minus link angle (rad) and its rate."""
+        raise NotImplementedError
+
+    def twist(self, torque: float) -> float:
+        """Give motor minus link angle (rad) at which that torque in N m is transmitted at rest."""
         raise NotImplementedError
 
     def carried(self) -> tuple[float, tuple[float, float, float]]:

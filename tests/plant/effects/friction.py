@@ -92,7 +92,7 @@ class Asymmetric(Effect):
 
 @dataclass(frozen=True)
 class LoadDependent(Effect):
-    """Add load_coefficient |load| to the level: a share of what moves the robot, rotor inertia included."""
+    """Add load_coefficient |load| to the level: a share of what the gear transmits to the link."""
 
     load_coefficient: float
     cause = "friction_load_dependent"

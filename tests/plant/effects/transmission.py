@@ -38,6 +38,10 @@ class JointElasticity(Effect):
         """Pull spring and damper."""
         return self.stiffness * twist + self.damping * rate
 
+    def twist(self, torque: float) -> float:
+        """Wind the spring up."""
+        return torque / self.stiffness
+
 
 @dataclass(frozen=True)
 class Backlash(Effect):
@@ -68,6 +72,10 @@ class Backlash(Effect):
             return 0.0
         side = 1.0 if twist > 0.0 else -1.0
         return side * max(self.contact * into + self.damping * side * rate, 0.0)
+
+    def twist(self, torque: float) -> float:
+        """Lean on the side of the load, in the middle where there is none."""
+        return float(np.sign(torque) * self.half_width + torque / self.contact)
 
 
 @dataclass(frozen=True)
