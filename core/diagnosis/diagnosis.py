@@ -132,7 +132,8 @@ class Stranger:
     statement
         What it follows.
     statistic, log10_p
-        Rise of twice the log-likelihood, and the chance of it by luck, all patterns and joints counted in.
+        Rise of twice the log-likelihood (for levels the squared number of deviations), and the chance of it
+        by luck, all patterns and joints counted in.
     """
 
     joint: int

@@ -18,6 +18,7 @@ from core.diagnosis.curve import curve
 from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.levels import level_keeper
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.raw import RawCause, RawFinding
 from core.diagnosis.reference import Reference
@@ -88,7 +89,8 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         for place, one in enumerate(standings)
     ]
     found += raw
-    stranger, most = _stranger(bench, selection), max((one.statistic for one in standings), default=0.0)
+    stranger = _stranger(bench, selection, after)
+    most = max((one.statistic for one in standings), default=0.0)
     tell("learn what is left", 0.8)
     noise = tuple(one.noise for one in chosen.fit.joints)
     predictable = predictable_share(look, after, bench.believed, noise)
@@ -238,7 +240,13 @@ def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiab
     )
 
 
-def _stranger(bench: Bench, selection: Selection) -> Stranger | None:
+def _stranger(bench: Bench, selection: Selection, left: JointSeries) -> Stranger | None:
+    """Give the clearest of what the residual follows though no listed cause would."""
+    found = [one for one in (_pattern(bench, selection), level_keeper(bench.look, left)) if one is not None]
+    return max(found, key=lambda one: one.statistic, default=None)
+
+
+def _pattern(bench: Bench, selection: Selection) -> Stranger | None:
     found = best_stranger(bench, selection.chosen, strangers(bench))
     if found is None:
         return None

@@ -25,9 +25,9 @@ KINDS = (
     "single",
 )
 """What ten cases in a row are."""
-EACH_CAUSE = {1.0: 20, 3.0: 5, 0.3: 5}
+EACH_CAUSE = {1.0: 20, 3.0: 3, 0.3: 3}
 """How often the whole examination hides every cause, by strength."""
-COMBINATIONS, CLEAN, STRANGE = 60, 300, 60
+COMBINATIONS, CLEAN, STRANGE = 40, 300, 60
 """How many combinations, clean logs and effects that are in no list it has."""
 
 
@@ -72,7 +72,7 @@ def orders(
 
 
 def battery(seed: int) -> list[Order]:
-    """Lay out the whole examination: every cause 20 times, and enough of all else for its rates to be known."""
+    """Lay out the whole examination: every cause 20 times, and enough of all else to know its rates."""
     own = count(100_000 * seed)
     listed = [
         Order("single", next(own), cause, strength)

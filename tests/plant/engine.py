@@ -52,7 +52,7 @@ class Plant:
         self.state = State(self.step, position.copy(), self.level, jacobian=self._jacobian)
         self.tip = self.model.body(arm.robot.links[-1].name).id
         self.sums = np.count_nonzero(arm.motors[:, 2])
-        # MuJoCo's arrays stay where they are; asking it for them takes longer than most of what is done to them.
+        # MuJoCo's arrays stay where they are; asking for them takes longer than most of what is done to them.
         data = self.data
         self.angle, self.rate, self.pushed = data.qpos, data.qvel, data.qfrc_applied
         self.resisted, self.damped = data.qfrc_constraint, data.qfrc_passive

@@ -2,12 +2,13 @@
 
 The standard model is ten inertial parameters per link, rotor inertia, friction, offset and declared couplings
 of the robot *as believed*, with pinocchio's regressor along the motion as noise-free sensors see it. Coulomb
-friction enters with the direction that it really had, so that sticking itself is no effect. Torque and
-columns are compared below 20 Hz, in the frequency domain: what lies above is lost to whoever has to
-differentiate encoders. Strength is the RMS of what the model leaves of the noise-free torque, over the RMS of
-the noise, on the joint where that is largest; the oracle's noncentrality is ||(I - P) S^-1/2 e||^2 with S the
-true spectrum of the noise. Where the angles themselves are spoilt (jitter, repeats, a coarse step), e is the
-error that differentiating them makes.
+friction enters with the direction that it really had; while it holds a joint, where it balances whatever
+comes, its torque may be anything, since nobody who sees the log knows it. Torque and columns are compared
+below 20 Hz, in the frequency domain: what lies above is lost to whoever has to differentiate encoders.
+Strength is the RMS of what the model leaves of the noise-free torque, over the RMS of the noise, on the joint
+where that is largest; the oracle's noncentrality is ||(I - P) S^-1/2 e||^2 with S the true spectrum of the
+noise. Where the angles themselves are spoilt (jitter, repeats, a coarse step), e is the error that
+differentiating them makes.
 """
 
 from dataclasses import dataclass, replace
@@ -27,6 +28,10 @@ from tests.plant.sensors import counted, spectrum
 BAND_HZ = 20.0
 """What a log's user can make use of: derivatives of quantised positions are noise above."""
 LEVEL, POWER = 1e-3, 0.9
+AT_LEVEL = 0.999
+"""Share of its level from which on Coulomb friction slides."""
+SPANNED = 1e-6
+"""Singular value, over the largest, below which a direction is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,12 +65,13 @@ def residue(
     rows = np.concatenate([regressor(robot, signals) @ distinguishable(robot), torque[:, :, None]], axis=2)
     frequency = np.fft.rfftfreq(len(torque), 1.0 / rate_hz)
     frequency = frequency[frequency <= BAND_HZ]
-    waves = np.fft.rfft(rows / noise_rms[:, None], axis=0)[: len(frequency)] * np.sqrt(2.0 / len(torque))
-    waves[0] /= np.sqrt(2.0)
-    left = _left(waves)
+    waves = _waves(rows / noise_rms[:, None], len(frequency))
+    held = [_waves(shapes, len(frequency)) for shapes in _held(robot, signals, rate_hz)]
+    left = _left(waves, held)
     strength = np.sqrt(np.sum(left**2, axis=(0, 1)) / len(torque))
-    whitened = _left(waves / np.sqrt(spectrum(kind, frequency, rate_hz))[:, None, None])
-    return Residue(strength, whitened.ravel())
+    deviation = np.sqrt(spectrum(kind, frequency, rate_hz))
+    white = [shapes / deviation[:, None] for shapes in held]
+    return Residue(strength, _left(waves / deviation[:, None, None], white).ravel())
 
 
 def nameable(noncentrality: float) -> bool:
@@ -142,12 +148,47 @@ def distinguishable(robot: RobotModel) -> np.ndarray:
     return np.asarray(directions[singular > 1e-9 * singular[0]].T)
 
 
-def _left(waves: np.ndarray) -> np.ndarray:
+def _held(robot: RobotModel, signals: Signals, rate_hz: float) -> list[np.ndarray]:
+    """Give, per joint, samples x shapes: all that friction may do below 20 Hz while it holds the joint.
+
+    Polynomials over every stretch of time in which Coulomb friction is not at its level.
+    """
+    held = np.abs(signals.direction) < AT_LEVEL
+    for place, coupling in enumerate(robot.couplings):
+        motor = np.abs(signals.motor_direction[:, place]) < AT_LEVEL
+        held[:, np.array(coupling.joints) - 1] |= motor[:, None]
+    out = []
+    for marks in held.T:
+        edges = np.flatnonzero(np.diff(np.pad(marks.astype(int), 1)))
+        shapes = [np.zeros((len(marks), 0))]
+        for begin, end in edges.reshape(-1, 2):
+            count = min(end - begin, 2 + int(np.ceil(2.0 * BAND_HZ * (end - begin) / rate_hz)))
+            one = np.zeros((len(marks), count))
+            one[begin:end] = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1)
+            shapes.append(one)
+        out.append(np.hstack(shapes))
+    return out
+
+
+def _waves(series: np.ndarray, count: int) -> np.ndarray:
+    """Give the first Fourier coefficients of real series, whose squares add up to the series' own."""
+    waves = np.fft.rfft(series, axis=0)[:count] * np.sqrt(2.0 / len(series))
+    waves[0] /= np.sqrt(2.0)
+    return np.asarray(waves)
+
+
+def _left(waves: np.ndarray, held: list[np.ndarray]) -> np.ndarray:
     """Project the last column on the complement of the others; give parts x frequencies x joints.
 
-    By the normal equations of scaled columns, whose condition is that of a well excited arm.
+    Each joint's rows lose what their own `held` shapes span first. Then by the normal equations of scaled
+    columns, whose condition is that of a well excited arm.
     """
     parts = np.stack([waves.real, waves.imag])
+    for joint, shapes in enumerate(held):
+        span = np.linalg.svd(np.concatenate([shapes.real, shapes.imag]), full_matrices=False)
+        basis = span.U[:, span.S > SPANNED * span.S.max(initial=0.0)]
+        own = parts[:, :, joint].reshape(-1, parts.shape[-1])
+        parts[:, :, joint] = (own - basis @ (basis.T @ own)).reshape(parts[:, :, joint].shape)
     rows = parts.reshape(-1, parts.shape[-1])
     length = np.maximum(np.linalg.norm(rows, axis=0), np.finfo(float).tiny)
     columns, last = rows[:, :-1] / length[:-1], rows[:, -1] / length[-1]
