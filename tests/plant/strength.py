@@ -185,8 +185,8 @@ def _left(waves: np.ndarray, held: list[np.ndarray]) -> np.ndarray:
     """
     parts = np.stack([waves.real, waves.imag])
     for joint, shapes in enumerate(held):
-        span = np.linalg.svd(np.concatenate([shapes.real, shapes.imag]), full_matrices=False)
-        basis = span.U[:, span.S > SPANNED * span.S.max(initial=0.0)]
+        spanned, sizes, _ = np.linalg.svd(np.concatenate([shapes.real, shapes.imag]), full_matrices=False)
+        basis = spanned[:, sizes > SPANNED * sizes.max(initial=0.0)]
         own = parts[:, :, joint].reshape(-1, parts.shape[-1])
         parts[:, :, joint] = (own - basis @ (basis.T @ own)).reshape(parts[:, :, joint].shape)
     rows = parts.reshape(-1, parts.shape[-1])
