@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden bench lock openapi causes
+.PHONY: help setup demo serve test check style types imports drift containers hidden battery bench lock openapi causes
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -70,6 +70,9 @@ containers: $(READY)
 hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis (SEED=n CASES=m STRENGTH=.. CAUSE=.. KIND=..)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --cases $(or $(CASES),60) \
 		$(if $(STRENGTH),--strength $(STRENGTH)) $(if $(CAUSE),--cause $(CAUSE)) $(if $(KIND),--kind $(KIND))
+
+battery: $(READY) ## the whole examination of the diagnosis: every cause 20 times, 300 clean logs (SEED=n; hours)
+	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --battery
 
 bench: $(READY) ## measure speed and accuracy
 	$(RUN) -m benchmarks $(ARGS)

@@ -130,6 +130,16 @@ class Bench:
         found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
         return found if found.possible else self.tried(members)
 
+    def beneath(self, trial: Hypothesis) -> Hypothesis:
+        """Fit a hypothesis without its last member, at the noise that it has with it.
+
+        Scalars are settled on top of this: noise that has learned the effect hardly cares what they are.
+        """
+        members, kept = trial.members[:-1], len(trial.fit.values) - trial.widths[-1]
+        columns = self.columns(members)
+        found = refit(extended(self.base, columns), trial.fit, kept, rounds=0)
+        return self._hypothesis(members, columns, found)
+
     def _hypothesis(
         self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit
     ) -> Hypothesis:
@@ -241,8 +251,10 @@ class Bench:
         for _ in range(7):
             if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
                 break
-            step *= 2.0
-            low, middle, high = self._beside(under, candidate, name, step)
+            wider = self._beside(under, candidate, name, 2.0 * step)
+            if min(one.clear_share for one in wider) <= 0.0:
+                break
+            step, (low, middle, high) = 2.0 * step, wider
         slope = (high.values - low.values) / (2.0 * step)
         drop = _drop(low, middle, high)
         if drop <= 0.0:

@@ -85,6 +85,8 @@ class Cause(Protocol):
         little about it.
     like_position_noise
         Whether noise of the positions, on its way to a torque, passes for a little of it.
+    inexact
+        Share of a size that its columns, which are of first order, are inexact by: none is known better.
     """
 
     id: ClassVar[str]
@@ -93,6 +95,7 @@ class Cause(Protocol):
     coordinate: ClassVar[str]
     event: ClassVar[bool]
     like_position_noise: ClassVar[bool]
+    inexact: ClassVar[float]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:

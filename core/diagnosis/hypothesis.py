@@ -12,8 +12,6 @@ from core.diagnosis.equations import OPEN_SHARE, Fit
 
 Place = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: what columns are kept under."""
-COLUMN_ERROR = 0.05
-"""Share of a size that a first-order column is inexact by: no size is known better."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +96,7 @@ class Hypothesis:
     def solved(self, index: int) -> Solved:
         """Give what was found for a member; deviations count what scalars and columns are not exact by."""
         member, values = self.members[index], self.fit.values[self.columns_of(index)]
-        covariance = self.covariance(index) + np.diag((COLUMN_ERROR * values) ** 2)
+        covariance = self.covariance(index) + np.diag((member.cause.inexact * values) ** 2)
         for name, slope in member.slopes.items():
             if np.isfinite(member.deviations[name]):
                 covariance += np.outer(slope, slope) * member.deviations[name] ** 2

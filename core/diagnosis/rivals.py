@@ -69,7 +69,7 @@ def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standin
         weak = [
             index
             for index, one in enumerate(found)
-            if (one.statistic < most and _stopgap(bench, selection.chosen, one))
+            if _stopgap(bench, selection.chosen, one, alone=one.statistic >= most)
             or _beaten(bench, one, suspects)
         ]
         if not weak:
@@ -79,15 +79,21 @@ def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standin
         selection = replace(selection, chosen=found[least].without, steps=(*selection.steps, step))
 
 
-def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing) -> bool:
-    """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows."""
-    if own.margin < -INDIFFERENCE:
+def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) -> bool:
+    """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows.
+
+    Of the clearest, and of one that stands alone, it is only asked whether it makes that error larger.
+    """
+    if own.margin < -INDIFFERENCE and not alone:
         return True
     look, joints = bench.look, tuple(sorted(bench.columns([own.member])[0]))
     mask, block = look.usable & look.held_out[:, None], look.log * (1 + look.block.max()) + look.block
     seen = gain(bench.residual(own.without), bench.residual(chosen), mask, block, joints)
-    unsure = seen is not None and seen.interval_95[0] <= 0.0 and seen.total_percent < LEAST_GAIN
-    return unsure and not own.member.cause.event and bench.belief is None
+    if seen is None or own.member.cause.event or bench.belief is not None:
+        return False
+    if alone:
+        return seen.interval_95[1] < 0.0
+    return seen.interval_95[0] <= 0.0 and seen.total_percent < LEAST_GAIN
 
 
 def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> bool:

@@ -78,11 +78,11 @@ def select(bench: Bench, progress: Callable[[float], None] | None = None) -> Sel
 def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     """Believe what a hypothesis found, and settle its last member's scalars anew under that belief."""
     bench.believe(better.fit)
-    before = bench.tried(better.members[:-1])
-    same = [one for one in bench.candidates if one.key == better.members[-1].key]
-    found = bench.scanned(before, [*same, better.members[-1]])[0]
-    again = with_candidate(bench, before, found)
-    return bench.tried(again.members, again)
+    again = bench.tried(better.members, better)
+    member, before = again.members[-1], bench.beneath(again)
+    same = [one for one in bench.candidates if one.key == member.key]
+    found = bench.scanned(before, [*same, member])[0]
+    return bench.tried((*before.members, bench.refined(before, found.candidate)), again)
 
 
 def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NOTHING) -> Hypothesis | None:

@@ -1,7 +1,7 @@
 """Draw hidden effects afresh, ask for their diagnosis on two processes, and print how it went.
 
 Run ``make hidden SEED=3 CASES=60``, with STRENGTH, CAUSE or KIND (single, combination, clean, foreign) to
-look at one thing only.
+look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours.
 """
 
 import argparse
@@ -10,7 +10,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
-from tests.hidden.plan import KINDS, Order, orders, run
+from tests.hidden.plan import KINDS, Order, battery, orders, run
 from tests.hidden.score import Score
 from tests.hidden.tables import tables
 from tests.plant.effects.registry import EFFECTS
@@ -20,7 +20,7 @@ def main() -> int:
     """Run, and print every miss as it comes and the tables at the end."""
     asked = _arguments()
     begun = time.monotonic()
-    listed = orders(asked.seed, asked.cases, strength=asked.strength, cause=asked.cause, kind=asked.kind)
+    listed = _listed(asked)
     scored = []
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         for order, score in pool.map(run, listed):
@@ -36,10 +36,17 @@ def main() -> int:
     return 0
 
 
+def _listed(asked: argparse.Namespace) -> list[Order]:
+    if asked.battery:
+        return battery(asked.seed)
+    return orders(asked.seed, asked.cases, strength=asked.strength, cause=asked.cause, kind=asked.kind)
+
+
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seed", type=int, default=1, help="decides every case")
     parser.add_argument("--cases", type=int, default=60, help="how many are drawn")
+    parser.add_argument("--battery", action="store_true", help="draw the whole examination")
     parser.add_argument("--strength", type=float, help="RMS of the effect over the noise's")
     parser.add_argument("--cause", choices=sorted(EFFECTS), help="hide nothing but this")
     parser.add_argument("--kind", choices=sorted(set(KINDS)), help="draw nothing but this")

@@ -1,7 +1,8 @@
 """Lay out a run: which cases are drawn from a seed, and how one of them is put before the diagnosis."""
 
+import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 from typing import Any
 
@@ -117,4 +118,10 @@ def run(order: Order) -> tuple[Order, Score | None]:
         case = drawn(order)
     except Impossible:
         return order, None
-    return order, score(answered(case), case.truth, kind=order.kind, noise=case.noise, seed=order.seed)
+    begun = time.process_time()
+    try:
+        answer = answered(case)
+    except Exception as error:  # noqa: BLE001 - a failure is an answer, too, and the worst one
+        answer = {"verdict": f"failed: {error}", "findings": []}
+    found = score(answer, case.truth, kind=order.kind, noise=case.noise, seed=order.seed)
+    return order, replace(found, seconds=time.process_time() - begun)

@@ -48,7 +48,8 @@ class Score:
 
     `extra` are the findings that nothing hidden accounts for; `confidences` pairs every finding's confidence
     with whether it was right. For a foreign effect `unexplained` says that it was called so or that only
-    rivals were named, and `confidently_wrong` that a single name was given with confidence.
+    rivals were named, and `confidently_wrong` that a single name was given with confidence. `seconds` is the
+    CPU time that the answer took.
     """
 
     kind: str
@@ -59,6 +60,7 @@ class Score:
     confidences: tuple[tuple[float, bool], ...]
     unexplained: bool
     confidently_wrong: bool
+    seconds: float = float("nan")
 
 
 def score(diagnosis: Mapping[str, Any], truth: Sequence[Truth], *, kind: str, noise: str, seed: int) -> Score:
@@ -111,9 +113,10 @@ def _names(finding: Finding, truth: Truth) -> bool:
 
 def _sizes(truth: Truth, finding: Finding) -> tuple[bool, ...]:
     found = {one["name"]: one for one in finding["parameters"] if one["joint"] in (None, *truth.joints)}
+    known = {hidden.name: hidden.value for hidden in truth.parameters}
     inside = []
     for hidden in truth.parameters:
-        one = found.get(hidden.name)
+        one = found.get(_same_span(hidden.name, known, found))
         if one is None or not one.get("standard_deviation"):
             continue
         off = float(one["value"]) - hidden.value
@@ -121,6 +124,21 @@ def _sizes(truth: Truth, finding: Finding) -> tuple[bool, ...]:
             off = (off + np.pi) % (2.0 * np.pi) - np.pi
         inside.append(bool(abs(off) <= DEVIATIONS * float(one["standard_deviation"])))
     return tuple(inside)
+
+
+def _same_span(name: str, known: Mapping[str, float], found: Mapping[str, Finding]) -> str:
+    """Name the end of the span found that overlaps a hidden one most: who finds two of three numbers anew."""
+    end, _, number = name.partition("_")
+    if not number.isdigit():
+        return name
+
+    def overlap(other: str) -> float:
+        low, high = (float(found[f"{side}_{other}"]["value"]) for side in ("start", "end"))
+        return min(high, known[f"end_{number}"]) - max(low, known[f"start_{number}"])
+
+    spans = [one.partition("_")[2] for one in found if one.startswith("start_")]
+    best = max(spans, key=overlap, default=number)
+    return f"{end}_{best}" if spans and overlap(best) > 0.0 else ""
 
 
 @dataclass(frozen=True)

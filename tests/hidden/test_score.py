@@ -97,6 +97,16 @@ def test_a_phase_is_judged_on_the_circle():
     assert scored(diagnosis(found), truth).answers[0].sizes == (True,)
 
 
+def test_a_span_of_time_is_compared_with_the_one_that_it_overlaps():
+    ends = (("start_1", 2.0), ("end_1", 2.5), ("start_2", 9.0), ("end_2", 9.6))
+    hidden = tuple(Hidden(name, 1, "s", value) for name, value in ends)
+    truth = replace(STRIBECK, cause="external_contact", joints=(1, 2), parameters=hidden, local=False)
+    found = finding(
+        "external_contact", [2], parameters=[("start_1", None, 9.02, 0.05), ("end_1", None, 9.9, 0.05)]
+    )
+    assert scored(diagnosis(found), truth).answers[0].sizes == (True, False)
+
+
 def test_a_size_without_a_deviation_is_not_judged():
     found = finding("time_delay", [], parameters=[("delay", None, 0.004, None)])
     assert scored(diagnosis(found), DELAY).answers[0].sizes == ()

@@ -36,6 +36,7 @@ class Backlash(OwnJointCause):
     )
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
+    inexact = 0.15
     # The link bounces and slides as it lands; what that leaves looks like a spring or like lost time.
     excludes = ("joint_elasticity", "time_delay", "torque_filter_lag")
 

@@ -12,7 +12,7 @@ from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.cable import Cable
 
-SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.88)
+SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
 """Shares of the samples during which the cable is slack."""
 
 

@@ -30,6 +30,7 @@ class OwnJointCause:
     like_position_noise: ClassVar[bool] = False
     excludes: ClassVar[tuple[str, ...]] = ()
     settled: ClassVar[tuple[str, ...]] = ()
+    inexact: ClassVar[float] = 0.05
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List every joint."""

@@ -12,6 +12,8 @@ from core.dynamics.terms.nonlinear_viscous import NonlinearViscous
 
 EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
 """A power of zero is Coulomb friction, of one viscous friction: the model has both."""
+APART = 0.1
+"""A power this near to either takes away what the model's own friction adds, and may be of any size."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,11 @@ class FrictionViscousNonlinear(OwnJointCause):
         """Give the column."""
         del look, believed
         return NonlinearViscous(site[0], scalars["exponent"])
+
+    def possible(self, solved: Solved) -> bool:
+        """Want a power that is neither Coulomb nor viscous friction."""
+        power = solved.scalars["exponent"]
+        return super().possible(solved) and power >= APART and abs(power - 1.0) >= APART
 
     def statement(self, solved: Solved) -> str:
         """Say how friction grows with which power."""

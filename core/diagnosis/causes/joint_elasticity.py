@@ -37,6 +37,7 @@ class JointElasticity(OwnJointCause):
     )
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
+    inexact = 0.15
     like_position_noise = True
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
@@ -62,7 +63,9 @@ class JointElasticity(OwnJointCause):
         compliance, deviation = float(solved.values[0]), float(solved.covariance[0, 0] ** 0.5)
         angular = 2.0 * np.pi * solved.scalars["resonance_hz"]
         damping = 2.0 * solved.scalars["damping_ratio"] / (angular * compliance)
-        doubt = solved.deviations.get("damping_ratio", 0.0) / solved.scalars["damping_ratio"]
+        doubts = [deviation / compliance]
+        doubts += [solved.deviations.get(name, 0.0) / value for name, value in solved.scalars.items()]
+        doubt = float(np.linalg.norm(doubts))
         return (
             Quantity("stiffness", solved.site[0], "N m/rad", 1.0 / compliance, deviation / compliance**2),
             Quantity("damping", solved.site[0], "N m s/rad", damping, damping * doubt),

@@ -55,6 +55,10 @@ class TorqueRipple(OwnJointCause):
         del look, believed
         return Ripple(site[0], scalars["harmonic"], scalars["centre"])
 
+    def possible(self, solved: Solved) -> bool:
+        """Want more waves per turn than gravity has."""
+        return super().possible(solved) and solved.scalars["harmonic"] >= LOWEST
+
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Give the wave: the drive has to give amplitude cos(harmonic q + phase) more."""
         return wave_quantities(solved, "N m")
