@@ -20,7 +20,7 @@ from core.estimate.estimate import estimate
 from core.estimate.feasibility import active_constraints, feasibility
 from core.estimate.measured import Measured, smoothed, weighted_system
 from core.estimate.system import System
-from core.extension.extend import cures, extended_base, remembers, sizes
+from core.extension.extend import cures, extended_base, sizes, taken_along
 from core.extension.fold import folded
 from core.extension.gain import gains
 from core.log.model import JointLog
@@ -165,12 +165,11 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
 def _motion(
     before: tuple[DynamicModel, Parameters], after: Identification, found: Diagnosis, data: Measured
 ) -> tuple[Comparison | None, str]:
-    """Simulate the held-out blocks with both models, where neither needs the past."""
-    if any(remembers(one, found) for one in found.findings):
-        return None, "a finding's torque depends on the motion before the instant, which is not simulated"
+    """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
     try:
         old, new = (mechanism_of(*one) for one in (before, folded(after.base.model, after.estimate.standard)))
-        return compare(old, new, data.motions, chosen=data.held_out or None), ""
+        compared = compare(old, new, data.motions, chosen=data.held_out or None)
+        return compared, taken_along(found)
     except VeritorqueError as error:
         return None, str(error)
 

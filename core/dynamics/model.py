@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import JointSeries, Parameters
+from core.arrays import JointSeries, Parameters, Weights
 from core.dynamics.newton_euler import inverse_dynamics
 from core.dynamics.term import Entry, Term
 from core.dynamics.terms.coulomb import Coulomb
@@ -60,12 +60,15 @@ class DynamicModel:
     def torque(self, parameters: Parameters, state: MotionState) -> JointSeries:
         """Predict joint torque (N m or N) from standard parameters, by the terms' own plain series."""
         torque = np.zeros_like(state.position, dtype=float)
-        start = 0
-        for term in self.terms:
-            stop = start + len(term.parameters(self.robot))
-            torque += term_torque(term, self.robot, parameters[start:stop], state)
-            start = stop
+        for term, values in self.split(parameters):
+            torque += term_torque(term, self.robot, values, state)
         return torque
+
+    def split(self, parameters: Parameters) -> tuple[tuple[Term, Weights], ...]:
+        """Give every term its own of the standard parameters."""
+        counts = [len(term.parameters(self.robot)) for term in self.terms]
+        shares = np.split(np.asarray(parameters, dtype=float), np.cumsum(counts)[:-1])
+        return tuple(zip(self.terms, shares, strict=True)) if counts else ()
 
     def with_term(self, term: Term) -> "DynamicModel":
         """Extend the model; a term of the same name is replaced."""

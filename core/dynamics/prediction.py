@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import JointSeries, LinkTable, Parameters
+from core.arrays import JointSeries, LinkTable, Parameters, Weights
 from core.dynamics.model import DynamicModel, term_torque
 from core.dynamics.newton_euler import inverse_dynamics
 from core.dynamics.term import Term
@@ -139,18 +139,16 @@ class Prediction:
         )
         return _kept((ahead - behind) / (2.0 * sum(step)))
 
-    def _sum(self, parts: Iterable[tuple[Term, Parameters]], state: MotionState) -> JointSeries:
+    def _sum(self, parts: Iterable[tuple[Term, Weights]], state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)
         for term, values in parts:
             torque += term_torque(term, self.model.robot, values, state)
         return torque
 
     @cached_property
-    def _parts(self) -> tuple[tuple[Term, Parameters], ...]:
+    def _parts(self) -> tuple[tuple[Term, Weights], ...]:
         """Give every term its share of the parameters."""
-        counts = [len(term.parameters(self.model.robot)) for term in self.model.terms]
-        shares = np.split(np.asarray(self.standard), np.cumsum(counts)[:-1])
-        return tuple(zip(self.model.terms, shares, strict=True))
+        return self.model.split(self.standard)
 
 
 def _kept(series: JointSeries) -> JointSeries:

@@ -4,7 +4,7 @@ A term is linear in its parameters. It says which (joint, parameter) pairs can d
 time series for each of them; everything that is structurally zero is never computed, filtered or stored.
 """
 
-from typing import Protocol, runtime_checkable
+from typing import ClassVar, Protocol, runtime_checkable
 
 from core.arrays import Series
 from core.robot.model import RobotModel
@@ -17,7 +17,18 @@ Entry = tuple[int, int]
 
 @runtime_checkable
 class Term(Protocol):
-    """Offer the columns of one torque effect."""
+    """Offer the columns of one torque effect.
+
+    Attributes
+    ----------
+    remembers
+        Whether the torque depends on the motion before the instant, and not on the instant alone.
+    channel
+        Whether the torque is only logged and moves nothing: a fault of the torque channel.
+    """
+
+    remembers: ClassVar[bool]
+    channel: ClassVar[bool]
 
     @property
     def name(self) -> str:

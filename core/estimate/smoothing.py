@@ -6,6 +6,7 @@ visit.
 """
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -32,6 +33,8 @@ class _Candidate:
 
     term: Coulomb | GearCoupling
     number: int
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

@@ -4,6 +4,7 @@ The base parameters of the standard model keep their names and groupings; every 
 for itself, because its evidence is what the standard columns do not span.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -16,11 +17,14 @@ from core.reduction.base import BaseModel
 
 def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
     """Give the terms of the findings that have one and whose gain on unseen rows is beyond doubt."""
-    return tuple(
-        one.member.cause.term(diagnosis.look, diagnosis.believed, one.member.site, one.member.scalars)
-        for one in diagnosis.findings
-        if one.member is not None and (one.gain is None or one.gain.interval_95[0] > 0.0)
-    )
+    return tuple(term for _, term in _joining(diagnosis))
+
+
+def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
+    for one in diagnosis.findings:
+        if one.member is not None and (one.gain is None or one.gain.interval_95[0] > 0.0):
+            member = one.member
+            yield one, member.cause.term(diagnosis.look, diagnosis.believed, member.site, member.scalars)
 
 
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:
@@ -44,10 +48,20 @@ def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
     return replace(base, model=model, kept=(*base.kept, *range(old, new)), grouping=grouping)
 
 
-def remembers(finding: Finding, diagnosis: Diagnosis) -> bool:
-    """Tell whether a finding's torque depends on the motion before the instant, not on the instant alone."""
-    if finding.member is None:
-        return False
-    member = finding.member
-    term = member.cause.term(diagnosis.look, diagnosis.believed, member.site, member.scalars)
-    return bool(getattr(term, "remembers", False))
+def taken_along(diagnosis: Diagnosis) -> str:
+    """Say which findings are inputs to a simulation of the extended model, and how; nothing where none is."""
+    joined = list(_joining(diagnosis))
+    past = [_called(one) for one, term in joined if term.remembers and not term.channel]
+    channel = [_called(one) for one, term in joined if term.channel]
+    parts = [f"the torque of {' and '.join(past)} is the one along the measured motion"] if past else []
+    if channel:
+        parts.append(
+            f"{' and '.join(channel)} is taken out of the measured torque before it drives the robot"
+        )
+    return "; ".join(parts)
+
+
+def _called(finding: Finding) -> str:
+    if len(finding.joints) != 1:
+        return finding.cause
+    return f"{finding.cause} at joint {finding.joints[0]}"

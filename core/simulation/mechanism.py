@@ -1,29 +1,33 @@
 """Sort a model's torque terms by how they have to be integrated.
 
 What multiplies acceleration joins the mass matrix, viscous friction is taken implicitly, Coulomb friction is
-a set with a level, and every other term is evaluated as it stands at the state of the moment.
+a set with a level, and every other term is evaluated as it stands at the state of the moment. Two kinds are
+no function of that state: what depends on the motion before, and what only the torque channel shows.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from core.arrays import JointSeries, Parameters
+from core.arrays import JointSeries, Parameters, Weights
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
 from core.dynamics.terms.coulomb import Coulomb
 from core.dynamics.terms.coupling import GearCoupling
+from core.dynamics.terms.missing_coupling import MissingCoupling
+from core.dynamics.terms.missing_rotor import MissingRotor
 from core.dynamics.terms.offset import Offset
 from core.dynamics.terms.rigid_body import RigidBody
 from core.dynamics.terms.rotor_inertia import RotorInertia
 from core.dynamics.terms.viscous import Viscous
 from core.errors import OptionError
-from core.robot.model import RobotModel
+from core.robot.model import Coupling, RobotModel
 from core.signals.state import MotionState
 from core.simulation import forward
+from core.simulation.bodies import Phases, is_body, phases_of
 from core.simulation.inverse import Bodies, bodies_of, columns
+from core.simulation.share import Share, share_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +45,12 @@ class Mechanism:
         Constant torque per joint, N m.
     weights, levels
         One row per friction that can hold: the speed it acts on is `weights @ velocity`, its level in N m.
-    others, other_parameters
-        All other terms, and their parameters.
+    others
+        All other terms of the state.
+    remembered
+        Terms whose torque depends on the motion before the instant.
+    channel
+        Terms that are logged as torque and move nothing.
     """
 
     model: DynamicModel
@@ -52,8 +60,9 @@ class Mechanism:
     offset: np.ndarray
     weights: np.ndarray
     levels: np.ndarray
-    others: DynamicModel
-    other_parameters: Parameters
+    others: Share
+    remembered: Share
+    channel: Share
 
     @property
     def robot(self) -> RobotModel:
@@ -66,16 +75,17 @@ class Mechanism:
         return len(self.offset)
 
     @cached_property
+    def phases(self) -> Phases:
+        """Give the robot's bodies over time, as the kernels need them."""
+        return phases_of(self.model, self.parameters)
+
+    @property
     def bodies(self) -> Bodies:
-        """Give the robot as the kernels need it; masses of whole subtrees come last."""
-        table = np.zeros((len(self.robot.links), 10))
-        for term, values in _parts(self.model, self.parameters):
-            if isinstance(term, RigidBody):
-                table += values.reshape(-1, 10)
-        return bodies_of(self.robot, table)
+        """Give the robot's bodies before any other joins them."""
+        return self.phases.bodies[0]
 
     def mass_matrices(self, position: JointSeries) -> np.ndarray:
-        """Give the mass matrix (kg m2), rotors included, for every row of positions."""
+        """Give the mass matrix (kg m2), rotors included, for every row of positions; of `bodies`."""
         matrices = np.empty((len(position), self.joints, self.joints))
         forward.mass_matrices(self.bodies, columns(position), matrices)
         return np.asarray(matrices + self.inertia)
@@ -84,13 +94,14 @@ class Mechanism:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""
         moved = np.empty((self.joints, len(state.position)))
         tables = (columns(one) for one in (state.position, state.velocity, state.acceleration))
-        forward.torques(self.bodies, *tables, moved)
-        kept = [
-            (term, part) for term, part in _parts(self.model, self.parameters) if term.name != "rigid_body"
-        ]
-        rest = replace(self.model, terms=tuple(term for term, _ in kept))
-        values = np.concatenate([np.zeros(0), *(part for _, part in kept)])
-        return np.asarray(moved.T + rest.torque(values, state))
+        parts = self.model.split(self.parameters)
+        links = sum(
+            (values.reshape(-1, 10) for term, values in parts if isinstance(term, RigidBody)),
+            np.zeros((len(self.robot.links), 10)),
+        )
+        forward.torques(bodies_of(self.robot, links), *tables, moved)
+        rest = [part for part in parts if not isinstance(part[0], RigidBody)]
+        return np.asarray(moved.T + share_of(self.robot, rest).torque(state))
 
 
 def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
@@ -119,8 +130,9 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
     weights = np.vstack([np.eye(joints), *(weights[None] for weights, _ in coupled)])
     levels = np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]])
     _check_levels(levels)
+    of_state = [part for part in others if not (part[0].remembers or part[0].channel)]
     # Any term may jump where its joint stands: only a model without such terms can leave joints out.
-    kept = (levels > 0.0) | (np.arange(len(levels)) < joints) & bool(others)
+    kept = (levels > 0.0) | (np.arange(len(levels)) < joints) & bool(of_state)
     return Mechanism(
         model=model,
         parameters=parameters,
@@ -129,42 +141,44 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         offset=drives[Offset],
         weights=weights[kept],
         levels=levels[kept],
-        others=DynamicModel(model.robot, tuple(term for term, _ in others)),
-        other_parameters=np.concatenate([np.zeros(0), *(values for _, values in others)]),
+        others=share_of(model.robot, of_state),
+        remembered=share_of(
+            model.robot, [part for part in others if part[0].remembers and not part[0].channel]
+        ),
+        channel=share_of(model.robot, [part for part in others if part[0].channel]),
     )
-
-
-def _parts(model: DynamicModel, parameters: Parameters) -> Iterator[tuple[Term, Parameters]]:
-    start = 0
-    for term in model.terms:
-        stop = start + len(term.parameters(model.robot))
-        yield term, np.asarray(parameters[start:stop], dtype=float)
-        start = stop
 
 
 def _sorted(
     model: DynamicModel, parameters: Parameters
-) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], list[tuple[Term, Parameters]]]:
-    """Sort terms: numbers per joint by kind, couplings as weights and three numbers, all others."""
+) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], list[tuple[Term, Weights]]]:
+    """Sort all terms but bodies: numbers per joint, couplings as weights and three numbers, others."""
+    robot = model.robot
     drives: dict[type, np.ndarray] = {
-        kind: np.zeros(len(model.robot.joints)) for kind in (RotorInertia, Viscous, Coulomb, Offset)
+        kind: np.zeros(len(robot.joints)) for kind in (RotorInertia, Viscous, Coulomb, Offset)
     }
     coupled: list[tuple[np.ndarray, np.ndarray]] = []
-    others: list[tuple[Term, Parameters]] = []
-    for term, values in _parts(model, parameters):
+    others: list[tuple[Term, Weights]] = []
+    for term, values in model.split(parameters):
         if type(term) in drives:
-            drives[type(term)][[joint for joint, _ in term.entries(model.robot)]] += values
+            drives[type(term)][[joint for joint, _ in term.entries(robot)]] += values
+        elif isinstance(term, MissingRotor):
+            drives[RotorInertia][term.joint - 1] += values[0]
         elif isinstance(term, GearCoupling):
-            coupled += _couplings(model.robot, values)
-        elif not isinstance(term, RigidBody):
+            coupled += _couplings(robot.couplings, values, len(robot.joints))
+        elif isinstance(term, MissingCoupling):
+            coupled += _couplings((term.coupling,), values, len(robot.joints))
+        elif not is_body(term):
             others.append((term, values))
     return drives, coupled, others
 
 
-def _couplings(robot: RobotModel, values: Parameters) -> list[tuple[np.ndarray, np.ndarray]]:
+def _couplings(
+    couplings: tuple[Coupling, ...], values: Weights, joints: int
+) -> list[tuple[np.ndarray, np.ndarray]]:
     found = []
-    for coupling, three in zip(robot.couplings, values.reshape(-1, 3), strict=True):
-        weights = np.zeros(len(robot.joints))
+    for coupling, three in zip(couplings, values.reshape(-1, 3), strict=True):
+        weights = np.zeros(joints)
         weights[[joint - 1 for joint in coupling.joints]] = coupling.weights
         found.append((weights, three))
     return found

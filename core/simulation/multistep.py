@@ -2,11 +2,13 @@
 
 Torque residuals say how wrong a model is at an instant; what a user of a simulation sees is motion that
 drifts away. From measured states, every so often, the model is simulated over a short window and compared at
-several horizons; a robot without any model, which keeps its velocity, stands beside it as the scale.
+several horizons; a robot without any model, which keeps its velocity, stands beside it as the scale. What the
+model says of the torque channel, and of torques that remember the motion, is taken out of what drives.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +16,7 @@ from core.arrays import JointVector, Matrix
 from core.errors import OptionError
 from core.regressor.observe import BlockKey
 from core.signals.condition import Motion
+from core.simulation.along import driving
 from core.simulation.drive import Drive
 from core.simulation.integrate import LONGEST_STEP
 from core.simulation.mechanism import Mechanism
@@ -115,7 +118,8 @@ def predict_motion(
     found: list[tuple[np.ndarray, ...]] = []
     keys: list[BlockKey] = []
     begins: list[np.ndarray] = []
-    for group in windows(motions, asked.horizons[-1], asked.every, chosen):
+    drive = partial(driving, mechanism)
+    for group in windows(motions, asked.horizons[-1], asked.every, chosen, drive=drive):
         keys += group.keys
         begins.append(group.begins)
         for start in range(0, len(group.keys), _AT_ONCE):

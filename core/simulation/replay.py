@@ -2,7 +2,8 @@
 
 The drive plays a feed-forward torque, and proportional and derivative gains pull the joints to the reference:
 by default the measured torque and the measured motion, so that what the controller adds is what the model
-lacks. Every block of the log is played from its own measured start, all blocks at once.
+lacks. Every block of the log is played from its own measured start, all blocks at once. The torque that is
+reported is what a channel with the model's faults would show.
 """
 
 from collections.abc import Callable
@@ -18,6 +19,7 @@ from core.errors import OptionError
 from core.regressor.observe import BlockKey
 from core.signals.condition import Motion
 from core.signals.state import MotionState
+from core.simulation.along import logged_only, remembered
 from core.simulation.drive import Drive, Feedback
 from core.simulation.integrate import LONGEST_STEP
 from core.simulation.mechanism import Mechanism
@@ -171,7 +173,10 @@ def _played(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: Rep
     longest = max(len(one.time) for one in group)
     position = _padded([one.state.position for one in group], longest)
     velocity = _padded([one.state.velocity for one in group], longest)
-    torque = _padded([_feed_forward(mechanism, one, asked.feed_forward) for one in group], longest)
+    past = [remembered(mechanism, one) for one in group]
+    shown = [logged_only(mechanism, one) for one in group]
+    played = [_feed_forward(mechanism, one, asked.feed_forward) for one in group]
+    torque = _padded([one - each for one, each in zip(played, past, strict=True)], longest)
     drive = Drive(group[0].step, torque, Feedback(gains.stiffness, gains.damping, position, velocity))
     warm = [one.state.temperature for one in group]
     start = MotionState(
@@ -190,16 +195,18 @@ def _played(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: Rep
             measured_torque=one.torque,
             position=moved.position[: len(one.time), :, lane],
             velocity=moved.velocity[: len(one.time), :, lane],
-            torque=moved.torque[: len(one.time), :, lane],
+            torque=moved.torque[: len(one.time), :, lane] + past[lane] + shown[lane],
         )
         for lane, one in enumerate(group)
     ]
 
 
 def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> JointSeries:
-    if kind == "measured":
-        return stretch.torque
-    return mechanism.torque(stretch.state) if kind == "model" else np.zeros_like(stretch.torque)
+    """Give what the drives are told, N m or N: no fault of the torque channel is in it."""
+    if kind == "none":
+        return np.zeros_like(stretch.torque)
+    told = stretch.torque if kind == "measured" else mechanism.torque(stretch.around)[stretch.inside]
+    return np.asarray(told - logged_only(mechanism, stretch))
 
 
 def _padded(series: list[JointSeries], longest: int) -> np.ndarray:

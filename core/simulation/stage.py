@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from core.arrays import JointSeries
+from core.arrays import JointSeries, Samples
 from core.signals.state import MotionState
 from core.simulation import forward
 from core.simulation.inverse import columns
@@ -17,8 +17,6 @@ from core.simulation.mechanism import Mechanism
 
 CREEP = 1e-9
 """Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""
-
-_NOTHING = np.zeros((0, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,25 +116,23 @@ def rates(
     _, count = torque.shape
     applied = torque - mechanism.offset[:, None]
     level = np.repeat(mechanism.levels[:, None], count, axis=1)
-    if mechanism.others.terms:
+    if mechanism.others.names:
         smooth, jump = _other_torques(mechanism, states)
         applied -= smooth
         level = _with_jumps(mechanism, level, jump)
-    answer, held = np.empty_like(applied), np.zeros_like(level)
-    forward.accelerations(
-        mechanism.bodies,
-        mechanism.inertia,
+    answer, held = _moved_bodies(
+        mechanism,
         mechanism.damping if damping is None else damping,
-        mechanism.weights,
-        states.position,
-        states.velocity,
-        applied,
-        _NOTHING if known is None else known,
-        np.zeros(count) if implicit is None else implicit,
-        states.direction,
-        level,
-        answer,
-        held,
+        states.time,
+        (
+            states.position,
+            states.velocity,
+            applied,
+            np.zeros((0, count)) if known is None else known,
+            np.zeros(count) if implicit is None else implicit,
+            states.direction,
+            level,
+        ),
     )
     if not len(level):
         return Rates(answer, states.direction, np.zeros(level.shape, dtype=bool))
@@ -151,10 +147,35 @@ def accelerations(mechanism: Mechanism, state: MotionState, torque: JointSeries)
     """Give the acceleration (per s2) that a torque (N m or N) causes at every state.
 
     A joint that stands still stays so where friction can hold it. The state's own acceleration is only shown
-    to terms that depend on it.
+    to terms that depend on it. What depends on the motion before the instant, or is a fault of the torque
+    channel, has to be taken out of the torque first (`core.simulation.along`).
     """
     found = rates(mechanism, States.starting(mechanism, state), columns(torque))
     return np.asarray(found.acceleration.T)
+
+
+def _moved_bodies(
+    mechanism: Mechanism, damping: np.ndarray, time: Samples, tables: tuple[np.ndarray, ...]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Give accelerations and what holds, each state with the bodies of its time; tables as the kernel's."""
+    phase = mechanism.phases.at(time)
+    applied, level = tables[2], tables[-1]
+    answer, held = np.empty_like(applied), np.zeros_like(level)
+    for number in np.unique(phase):
+        lanes = np.flatnonzero(phase == number)
+        part = tuple(np.take(table, lanes, axis=-1) for table in tables)
+        rate, kept = np.empty_like(part[2]), np.zeros_like(part[-1])
+        forward.accelerations(
+            mechanism.phases.bodies[number],
+            mechanism.inertia,
+            damping,
+            mechanism.weights,
+            *part,
+            rate,
+            kept,
+        )
+        answer[:, lanes], held[:, lanes] = rate, kept
+    return answer, held
 
 
 def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np.ndarray]:
@@ -176,7 +197,7 @@ def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np
 def _evaluated(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
     temperature = None if states.temperature is None else states.temperature.T
     state = MotionState(states.position.T, velocity.T, states.acceleration.T, states.time, temperature)
-    return np.asarray(mechanism.others.torque(mechanism.other_parameters, state).T)
+    return np.asarray(mechanism.others.torque(state).T)
 
 
 def _with_jumps(mechanism: Mechanism, level: np.ndarray, jump: np.ndarray) -> np.ndarray:

@@ -4,7 +4,7 @@ A window never crosses a gap, the border of a block, or what the filters spoil a
 joints stay in, because a simulation has to get standstill right too.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,6 +29,8 @@ class Stretch:
         Time between samples, s.
     every
         Samples between two kept instants; the first sample is one.
+    around, inside
+        The motion together with what the filters reached on either side, and where in it the stretch lies.
     """
 
     key: BlockKey
@@ -37,6 +39,8 @@ class Stretch:
     time: Samples
     state: MotionState
     torque: JointSeries
+    around: MotionState
+    inside: slice
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +68,10 @@ class Windows:
     torque: np.ndarray
 
 
+DrivenBy = Callable[[Stretch], JointSeries]
+"""Give the torque (N m or N) that is to drive a stretch, sample by sample."""
+
+
 def stretches(motions: tuple[Motion, ...], chosen: frozenset[BlockKey] | None = None) -> Iterator[Stretch]:
     """Go through the motions block by block (all blocks by default)."""
     for log, motion in enumerate(motions):
@@ -76,10 +84,25 @@ def stretches(motions: tuple[Motion, ...], chosen: frozenset[BlockKey] | None = 
         yield from _joined(log, run, chosen)
 
 
+def measured_torque(stretch: Stretch) -> JointSeries:
+    """Give the torque that was measured."""
+    return stretch.torque
+
+
 def windows(
-    motions: tuple[Motion, ...], seconds: float, every: float, chosen: frozenset[BlockKey] | None = None
+    motions: tuple[Motion, ...],
+    seconds: float,
+    every: float,
+    chosen: frozenset[BlockKey] | None = None,
+    *,
+    drive: DrivenBy = measured_torque,
 ) -> Iterator[Windows]:
     """Cut windows of a length, one every so many seconds; those of one clock come together.
+
+    Parameters
+    ----------
+    drive
+        Which torque of a stretch the windows are to hold.
 
     Raises
     ------
@@ -90,7 +113,7 @@ def windows(
     longest, found = 0.0, False
     for stretch in stretches(motions, chosen):
         longest = max(longest, stretch.step * (len(stretch.time) - 1))
-        cut = _cut(stretch, seconds, every)
+        cut = _cut(stretch, seconds, every, drive)
         if cut is None:
             continue
         found = True
@@ -119,30 +142,54 @@ def _joined(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> It
     usable = np.concatenate([tile.usable.all(axis=1) for tile in run])
     if not usable.any():
         return
-    slices = [slice(tile.first, tile.first + every * len(tile.time)) for tile in run]
+    around, torque = _together(run)
     # the first usable instant to the last one; in between, only ends of a log could be unusable
-    first, last = (int(one) for one in np.flatnonzero(usable)[[0, -1]])
-    kept = slice(first * every, last * every + 1)
-    parts = [_inner(tile, one) for tile, one in zip(run, slices, strict=True)]
-    position, velocity, acceleration, torque = (
-        np.concatenate([part[place] for part in parts])[kept] for place in range(4)
+    first, last = (run[0].first + every * int(one) for one in np.flatnonzero(usable)[[0, -1]])
+    inside = slice(first, last + 1)
+    state = _part(around, inside)
+    time = state.time
+    if time is not None and len(time) > 1:
+        step = float(time[-1] - time[0]) / (len(time) - 1)
+        yield Stretch((log, run[0].block), step, every, time, state, torque[inside], around, inside)
+
+
+def _together(run: list[Tile]) -> tuple[MotionState, JointSeries]:
+    """Join tiles: of each its own samples, and what lies before the first and after the last one."""
+    parts = []
+    for number, tile in enumerate(run):
+        end = tile.first + tile.parallel.decimation * len(tile.time)
+        parts.append(slice(tile.first if number else 0, end if number < len(run) - 1 else None))
+    states = [_part(tile.state, part) for tile, part in zip(run, parts, strict=True)]
+    torque = np.concatenate([tile.torque[part] for tile, part in zip(run, parts, strict=True)])
+    return _after(states), torque
+
+
+def _part(state: MotionState, rows: slice | np.ndarray) -> MotionState:
+    """Take some rows of a motion."""
+    warm = state.temperature
+    return MotionState(
+        state.position[rows],
+        state.velocity[rows],
+        state.acceleration[rows],
+        None if state.time is None else state.time[rows],
+        None if warm is None else warm[rows],
     )
-    temperature = np.concatenate([part[4] for part in parts])[kept]
-    step = float(run[0].time[1] - run[0].time[0]) / every if len(run[0].time) > 1 else 0.0
-    if step > 0.0 and len(position) > 1:
-        time = run[0].time[0] + step * (first * every + np.arange(len(position)))
-        warm = temperature if temperature.shape[1] else None
-        state = MotionState(position, velocity, acceleration, time, warm)
-        yield Stretch((log, run[0].block), step, every, time, state, torque)
 
 
-def _inner(tile: Tile, part: slice) -> tuple[np.ndarray, ...]:
-    state = tile.state
-    warm = np.empty((len(state.position), 0)) if state.temperature is None else state.temperature
-    return tuple(one[part] for one in (state.position, state.velocity, state.acceleration, tile.torque, warm))
+def _after(states: list[MotionState]) -> MotionState:
+    """Put rows of motions one after the other."""
+    times = [state.time for state in states if state.time is not None]
+    warm = [state.temperature for state in states if state.temperature is not None]
+    return MotionState(
+        np.vstack([state.position for state in states]),
+        np.vstack([state.velocity for state in states]),
+        np.vstack([state.acceleration for state in states]),
+        np.concatenate(times),
+        np.vstack(warm) if len(warm) == len(states) else None,
+    )
 
 
-def _cut(stretch: Stretch, seconds: float, every: float) -> Windows | None:
+def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Windows | None:
     length = round(seconds / stretch.step)
     stride = stretch.every * max(1, round(every / (stretch.every * stretch.step)))
     begins = np.arange(0, len(stretch.time) - length, stride)
@@ -151,33 +198,17 @@ def _cut(stretch: Stretch, seconds: float, every: float) -> Windows | None:
     rows = begins[None, :] + np.arange(length + 1)[:, None]
     position, velocity, torque = (
         np.ascontiguousarray(one[rows].transpose(0, 2, 1))
-        for one in (stretch.state.position, stretch.state.velocity, stretch.torque)
-    )
-    measured = stretch.state
-    warm = None if measured.temperature is None else measured.temperature[begins]
-    start = MotionState(
-        measured.position[begins],
-        measured.velocity[begins],
-        measured.acceleration[begins],
-        stretch.time[begins],
-        warm,
+        for one in (stretch.state.position, stretch.state.velocity, drive(stretch))
     )
     keys = (stretch.key,) * len(begins)
+    start = _part(stretch.state, begins)
     return Windows(stretch.step, stretch.time[begins], keys, start, position, velocity, torque)
 
 
 def _beside(pile: list[Windows]) -> Windows:
     """Put windows of one clock side by side."""
-    states = [one.start for one in pile]
-    warm = [state.temperature for state in states if state.temperature is not None]
     begins = np.concatenate([one.begins for one in pile])
-    start = MotionState(
-        np.vstack([state.position for state in states]),
-        np.vstack([state.velocity for state in states]),
-        np.vstack([state.acceleration for state in states]),
-        begins,
-        np.vstack(warm) if len(warm) == len(states) else None,
-    )
+    start = _after([one.start for one in pile])
     position, velocity, torque = (
         np.concatenate([getattr(one, name) for one in pile], axis=2)
         for name in ("position", "velocity", "torque")

@@ -6,6 +6,7 @@ data that is not held out. Source: the seed paper, eq. (4).
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -26,6 +27,8 @@ class Coulomb:
 
     widths: tuple[float, ...] = ()
     name: str = "coulomb"
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List FC of every joint that has it."""

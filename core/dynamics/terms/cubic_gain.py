@@ -22,6 +22,7 @@ class CubicGain(OneJointTerm):
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("cubic_coefficient", "1/(N m)^2", None),)
     kind: ClassVar[str] = "torque_gain_nonlinear"
+    channel: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give the predicted torque cubed."""

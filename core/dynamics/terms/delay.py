@@ -27,6 +27,7 @@ class Delay(AllJointsTerm):
     symbols: ClassVar[tuple[Symbol, ...]] = (("delay", "s", None),)
     kind: ClassVar[str] = "time_delay"
     remembers: ClassVar[bool] = True
+    channel: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (late minus plain predicted torque) / delay; for no delay, minus the rate."""

@@ -24,6 +24,7 @@ class Drift(OneJointTerm):
     time_constant: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("total_drift", "N m", None),)
     kind: ClassVar[str] = "torque_offset_drift"
+    channel: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give the share of the drift that is over."""

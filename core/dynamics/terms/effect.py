@@ -26,7 +26,7 @@ class OneJointTerm:
     symbols: ClassVar[tuple[Symbol, ...]] = ()
     kind: ClassVar[str] = ""
     remembers: ClassVar[bool] = False
-    """Whether the torque depends on the motion before the instant, and not on the instant alone."""
+    channel: ClassVar[bool] = False
 
     @property
     def name(self) -> str:
@@ -67,7 +67,7 @@ class AllJointsTerm:
     symbols: ClassVar[tuple[Symbol, ...]] = ()
     kind: ClassVar[str] = ""
     remembers: ClassVar[bool] = False
-    """Whether the torque depends on the motion before the instant, and not on the instant alone."""
+    channel: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

@@ -28,6 +28,7 @@ class FilterLag(AllJointsTerm):
     symbols: ClassVar[tuple[Symbol, ...]] = (("time_constant", "s", 0.0),)
     kind: ClassVar[str] = "torque_filter_lag"
     remembers: ClassVar[bool] = True
+    channel: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (low-passed minus plain predicted torque) / time constant."""

@@ -5,6 +5,7 @@ Gautier, IEEE Trans. Control Syst. Technol. 22(1), 2014.
 """
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from core.arrays import Series
 from core.dynamics.term import Entry
@@ -19,6 +20,8 @@ class MissingCoupling:
     """Model one coupled motor, whatever couplings the robot declares."""
 
     coupling: Coupling
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

@@ -4,6 +4,7 @@ Source: the seed paper, eq. (4).
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from core.arrays import Series
 from core.dynamics.term import Entry
@@ -18,6 +19,8 @@ class Offset:
     """Model the torque offset OFF."""
 
     name: str = "offset"
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List OFF of every joint that has it."""

@@ -6,6 +6,7 @@ chapter computes the same series compiled and a law holds the two equal. Source:
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,6 +23,8 @@ class RigidBody:
     """Model links as rigid bodies."""
 
     name: str = "rigid_body"
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List ten parameters per link in Khalil's order."""

@@ -5,6 +5,7 @@ Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from core.arrays import Series
 from core.dynamics.term import Entry
@@ -19,6 +20,8 @@ class RotorInertia:
     """Model the reflected rotor inertia IA."""
 
     name: str = "rotor_inertia"
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List IA of every joint that has it."""

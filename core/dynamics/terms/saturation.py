@@ -26,6 +26,8 @@ class Saturation(OneJointTerm):
     limit: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("bulge", "N m/s2", 0.0), ("skew", "N m/s3", None))
     kind: ClassVar[str] = "torque_saturation"
+    remembers: ClassVar[bool] = True
+    channel: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give parabola and skew over every interval in which the predicted torque is beyond the limit."""

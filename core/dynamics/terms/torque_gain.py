@@ -21,6 +21,7 @@ class TorqueGain(OneJointTerm):
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
     kind: ClassVar[str] = "torque_gain"
+    channel: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give the joint's predicted torque."""
@@ -35,6 +36,7 @@ class CommonGain(AllJointsTerm):
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
     kind: ClassVar[str] = "torque_gain"
+    channel: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the predicted torque."""

@@ -1,6 +1,7 @@
 """Give the friction that grows with speed: FV times joint velocity. Source: the seed paper, eq. (4)."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from core.arrays import Series
 from core.dynamics.term import Entry
@@ -15,6 +16,8 @@ class Viscous:
     """Model viscous friction FV."""
 
     name: str = "viscous"
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List FV of every joint that has it."""

@@ -5,29 +5,22 @@ that no cause has.
 """
 
 import ast
-from dataclasses import replace
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import AGAINST_REFERENCE
-from core.diagnosis.unlisted import Unlisted
 from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from core.dynamics.term import Term
 from core.dynamics.terms.coulomb import Coulomb, direction
-from core.dynamics.terms.trace import PATTERNS, Trace
+from core.dynamics.terms.trace import PATTERNS
 from core.errors import OptionError
 from core.regressor.columns import all_columns
 from core.robot.model import Coupling, RobotModel
 from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import eventful_scene
+from tests.core.dynamics.every_term import FILES, FOLDER, SEARCHED, cures, file_of, searched, traces
 from tests.tools import random_robot
 
-FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
-SHARED_PARTS = {"__init__", "effect", "own_joint", "rounding"}
-FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
 TERMS = sorted(STANDARD_TERMS)
 
 
@@ -44,37 +37,9 @@ def state() -> MotionState:
     return MotionState(*(rng.normal(size=(40, 4)) for _ in range(3)))
 
 
-def file_of(term: Term) -> str:
-    return type(term).__module__.rsplit(".", 1)[-1]
-
-
-@cache
-def cures() -> tuple[Term, ...]:
-    """Give the term of every cause at one site, and once more with the joints' temperatures logged."""
-    scene = eventful_scene()
-    warm = replace(scene.look.state, temperature=np.full_like(scene.look.state.position, 30.0))
-    looks = (scene.look, replace(scene.look, state=warm))
-    return tuple(
-        cause.term(look, scene.believed, site, cause.grid(look, scene.believed, site)[0])
-        for look in looks
-        for cause in AGAINST_REFERENCE
-        for site in [cause.sites(look, scene.believed)[-1]]
-    )
-
-
-@cache
-def traces() -> tuple[Term, ...]:
-    """Give every pattern that has no cause, each with the first numbers that a search would try."""
-    scene, suspect = eventful_scene(), Unlisted()
-    site = suspect.sites(scene.look, scene.believed)[-1]
-    grid = suspect.grid(scene.look, scene.believed, site)
-    terms = [suspect.term(scene.look, scene.believed, site, one) for one in reversed(grid)]
-    return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
-
-
 def test_every_file_of_terms_is_a_standard_term_or_the_cure_of_a_cause_or_the_patterns_without_one():
-    searched = {file_of(term) for term in (*cures(), *traces())}
-    assert set(FILES) == set(STANDARD_TERMS) | searched
+    found = {file_of(term) for term in (*cures(), *traces())}
+    assert set(FILES) == set(STANDARD_TERMS) | found
     assert all(term().name == name for name, term in STANDARD_TERMS.items())
 
 
@@ -82,11 +47,11 @@ def test_a_search_tries_every_pattern_that_has_no_cause():
     assert {term.pattern for term in traces()} == set(PATTERNS)
 
 
-@pytest.mark.parametrize("name", sorted(set(FILES) - set(STANDARD_TERMS)))
+@pytest.mark.parametrize("name", SEARCHED)
 def test_a_searched_term_keeps_the_contract_of_all_terms(name):
     scene = eventful_scene()
     robot, state = scene.look.robot, scene.look.stretches[0].state
-    terms = [one for one in (*cures(), *traces()) if file_of(one) == name]
+    terms = searched(name)
     assert terms
     for term in terms:
         assert isinstance(term, Term)

@@ -1,6 +1,7 @@
 """Terms without a compiled form take part in the simulation, their jumps at standstill as friction."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -19,6 +20,8 @@ class Law:
 
     law: object
     name: str = "law"
+    remembers: ClassVar[bool] = False
+    channel: ClassVar[bool] = False
 
     def parameters(self, robot):
         return (Parameter("LAW", 1, 1, "N", None),)

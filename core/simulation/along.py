@@ -1,0 +1,34 @@
+"""Take along the measured motion what a simulated robot's own state does not tell.
+
+A torque that depends on the motion before the instant (play, compliance, friction that builds up) is an input
+to the simulation: its value along the measured motion, which is exact to first order in how far the simulated
+motion strays. A fault of the torque channel moves nothing: it is taken out of what drives the robot, and put
+back where a simulated channel is to be read.
+"""
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.simulation.mechanism import Mechanism
+from core.simulation.share import Share
+from core.simulation.windows import Stretch
+
+
+def remembered(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
+    """Give the torque (N m or N) that depends on the motion before, along the measured motion."""
+    return _along(mechanism.remembered, stretch)
+
+
+def logged_only(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
+    """Give what the torque channel shows besides the torque of the drives (N m or N)."""
+    return _along(mechanism.channel, stretch)
+
+
+def driving(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
+    """Give the torque that moves what is simulated: the measured one, less both of these."""
+    return stretch.torque - remembered(mechanism, stretch) - logged_only(mechanism, stretch)
+
+
+def _along(share: Share, stretch: Stretch) -> JointSeries:
+    """Compute with what lies around the stretch, so that filters and differences have settled inside it."""
+    return np.asarray(share.torque(stretch.around)[stretch.inside])
