@@ -145,12 +145,16 @@ def _joined(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> It
     around, torque = _together(run)
     # the first usable instant to the last one; in between, only ends of a log could be unusable
     first, last = (run[0].first + every * int(one) for one in np.flatnonzero(usable)[[0, -1]])
-    inside = slice(first, last + 1)
+    torque = torque[first : last + 1]
+    # what the filters spoil at a log's ends is no motion
+    begin = 0 if usable[0] else first
+    around = _part(around, slice(begin, None if usable[-1] else last + 1))
+    inside = slice(first - begin, last + 1 - begin)
     state = _part(around, inside)
     time = state.time
     if time is not None and len(time) > 1:
         step = float(time[-1] - time[0]) / (len(time) - 1)
-        yield Stretch((log, run[0].block), step, every, time, state, torque[inside], around, inside)
+        yield Stretch((log, run[0].block), step, every, time, state, torque, around, inside)
 
 
 def _together(run: list[Tile]) -> tuple[MotionState, JointSeries]:

@@ -7,10 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from core.diagnosis.catalogue import AGAINST_REFERENCE
+from core.diagnosis.cause import Cause
 from core.diagnosis.unlisted import Unlisted
 from core.dynamics.model import STANDARD_TERMS
+from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.trace import Trace
+from core.robot.model import RobotModel
+from core.simulation.inverse import inverse_dynamics
 from tests.core.diagnosis.scenes import eventful_scene
 
 FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
@@ -24,29 +28,44 @@ def file_of(term: Term) -> str:
 
 
 @cache
-def cures() -> tuple[Term, ...]:
-    """Give the term of every cause at one site, and once more with the joints' temperatures logged."""
+def cures_by_cause(robot: RobotModel | None = None) -> tuple[tuple[Cause, Term], ...]:
+    """Give every cause with its term at one site, without and, where they matter, with temperatures.
+
+    What is scanned stands at the beginning of its grid and in the middle. The bodies are those of the scene's
+    arm, on another robot where one is given.
+    """
     scene = eventful_scene()
+    own = scene.believed
+    model = own.model if robot is None else replace(own.model, robot=robot)
+    believed = Prediction(model, own.standard, inverse_dynamics)
     warm = replace(scene.look.state, temperature=np.full_like(scene.look.state.position, 30.0))
     looks = (scene.look, replace(scene.look, state=warm))
     return tuple(
-        cause.term(look, scene.believed, site, cause.grid(look, scene.believed, site)[0])
+        (cause, cause.term(look, believed, site, scalars))
         for look in looks
         for cause in AGAINST_REFERENCE
-        for site in [cause.sites(look, scene.believed)[-1]]
+        if look is scene.look or cause.id == "friction_temperature"
+        for site in [cause.sites(look, own)[-1]]
+        for grid in [cause.grid(look, own, site)]
+        for scalars in ([grid[0], grid[len(grid) // 2]] if len(grid) > 1 else grid)
     )
+
+
+def cures(robot: RobotModel | None = None) -> tuple[Term, ...]:
+    """Give the terms of all causes."""
+    return tuple(term for _, term in cures_by_cause(robot))
 
 
 @cache
 def traces() -> tuple[Term, ...]:
-    """Give every pattern that has no cause, each with the first numbers that a search would try."""
+    """Give every pattern that has no cause, each with the last numbers that a search would try."""
     scene, suspect = eventful_scene(), Unlisted()
     site = suspect.sites(scene.look, scene.believed)[-1]
     grid = suspect.grid(scene.look, scene.believed, site)
-    terms = [suspect.term(scene.look, scene.believed, site, one) for one in reversed(grid)]
+    terms = [suspect.term(scene.look, scene.believed, site, one) for one in grid]
     return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
 
 
-def searched(file: str) -> tuple[Term, ...]:
-    """Give the terms of a file that a search makes, by what they share with no other."""
-    return tuple(one for one in (*cures(), *traces()) if file_of(one) == file)
+def searched(file: str, robot: RobotModel | None = None) -> tuple[Term, ...]:
+    """Give the terms of a file that a search makes."""
+    return tuple(one for one in (*cures(robot), *traces()) if file_of(one) == file)

@@ -1,17 +1,25 @@
 """Terms without a compiled form take part in the simulation, their jumps at standstill as friction."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
-from core.dynamics.model import DynamicModel
+from core.dynamics.model import DynamicModel, standard_model
+from core.dynamics.terms.missing_coupling import MissingCoupling
+from core.dynamics.terms.missing_rotor import MissingRotor
+from core.dynamics.terms.payload import Payload
+from core.robot.model import Coupling
 from core.robot.parameters import Parameter
 from core.signals.state import MotionState
 from core.simulation.mechanism import mechanism_of
 from core.simulation.stage import accelerations
-from tests.core.simulation.worlds import block, play
+from tests.core.simulation.worlds import block, mechanism, play
+from tests.tools import random_bodies, random_robot
+
+PLAIN = 28
+"""Parameters of two links with their drives."""
 
 
 @dataclass(frozen=True)
@@ -87,3 +95,46 @@ def test_terms_see_the_time_of_the_moment():
     body = _with(lambda state: -np.where(state.time < 0.5, 0.0, 1.0))
     moved = play(body, 0.0, 0.0, 1.0, 1000)
     np.testing.assert_allclose(moved.velocity[-1, 0, 0], 0.25, rtol=3e-3)
+
+
+def _and(term, *values):
+    plain = block()
+    model = DynamicModel(plain.robot, (*plain.model.terms, term))
+    return mechanism_of(model, np.append(plain.parameters, values))
+
+
+def test_a_rotor_that_the_description_lacks_may_be_heavier_than_all_it_moves():
+    moved = play(_and(MissingRotor(1), 20.0), 0.0, 0.0, 1.0, 1000, lambda time: np.array([22.0]))
+    np.testing.assert_allclose(moved.velocity[-1, 0, 0], 1.0, rtol=1e-9)
+
+
+def test_a_body_that_is_taken_up_may_be_heavier_than_what_takes_it():
+    body = _and(Payload(1, 1, 0.5), *np.zeros(9), 20.0)
+    moved = play(body, 0.0, 0.0, 1.0, 1000, lambda time: np.array([22.0]))
+    np.testing.assert_allclose(moved.velocity[-1, 0, 0], 0.5 * 22.0 / 2.0 + 0.5 * 22.0 / 22.0, rtol=2e-3)
+
+
+def test_states_of_different_times_carry_what_is_there_at_their_time():
+    body, still = _and(Payload(1, 1, 0.5), *np.zeros(9), 20.0), np.zeros((3, 1))
+    state = MotionState(still, still, still, np.array([0.4, 0.6, 0.499]))
+    found = accelerations(body, state, np.full((3, 1), 22.0))
+    np.testing.assert_allclose(found[:, 0], [11.0, 1.0, 11.0], rtol=1e-12)
+
+
+def test_a_coupling_that_the_description_lacks_moves_and_holds_as_if_it_were_declared():
+    rng = np.random.default_rng(34)
+    plain, bodies = random_robot(rng, 2, gravity=False, prismatic=0.0), random_bodies(rng, 2)
+    wrist = Coupling("wrist", 2, (1, 2), (1.0, 1.0))
+    declared, missing = (
+        mechanism_of(model, np.append(mechanism(model.robot, bodies).parameters[:PLAIN], [5.0, 0.3, 2.0]))
+        for model in (
+            standard_model(replace(plain, couplings=(wrist,))),
+            standard_model(plain).with_term(MissingCoupling(wrist)),
+        )
+    )
+    velocity = np.array([[0.0, 0.0], [0.4, -0.4], [0.3, 0.1]])
+    state = MotionState(rng.normal(size=(3, 2)), velocity, np.zeros((3, 2)))
+    torque = rng.normal(size=(3, 2))
+    found, wanted = accelerations(missing, state, torque), accelerations(declared, state, torque)
+    np.testing.assert_allclose(found, wanted, rtol=1e-12)
+    assert abs(found[0].sum()) < 1e-10
