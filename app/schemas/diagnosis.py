@@ -182,11 +182,13 @@ class Motion(Open):
 
 
 class Simulation(Open):
-    """The model before and after the cure, made to move; empty, with a `note`, where that was not done."""
+    """The model before and after the cure, made to move; empty where that was not done."""
 
     before: Motion
     after: Motion
-    note: str = ""
+    note: Annotated[
+        str, Field(description="which findings are inputs to the simulation; or why there is none")
+    ] = ""
     held_out: bool = True
     improvement_percent: Matrix = Field(default=[])
     improvement_total_percent: PerJoint = Field(default=[])

@@ -25,7 +25,7 @@ class Diagnosed:
     motion
         Simulated motion of both models on held-out blocks; None where the models cannot be simulated.
     motion_note
-        Why not, where they cannot.
+        Which findings are inputs to the simulation; or why there is none.
     compared
         The reference on these logs; None where everything was identified anew.
     """

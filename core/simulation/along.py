@@ -26,7 +26,7 @@ def logged_only(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
 
 def driving(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
     """Give the torque that moves what is simulated: the measured one, less both of these."""
-    return stretch.torque - remembered(mechanism, stretch) - logged_only(mechanism, stretch)
+    return np.asarray(stretch.torque - remembered(mechanism, stretch) - logged_only(mechanism, stretch))
 
 
 def _along(share: Share, stretch: Stretch) -> JointSeries:

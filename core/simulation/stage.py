@@ -158,22 +158,17 @@ def _moved_bodies(
     mechanism: Mechanism, damping: np.ndarray, time: Samples, tables: tuple[np.ndarray, ...]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Give accelerations and what holds, each state with the bodies of its time; tables as the kernel's."""
-    phase = mechanism.phases.at(time)
-    applied, level = tables[2], tables[-1]
-    answer, held = np.empty_like(applied), np.zeros_like(level)
+    drives = (mechanism.inertia, damping, mechanism.weights)
+    bodies, phase = mechanism.phases.bodies, mechanism.phases.at(time)
+    answer, held = np.empty_like(tables[2]), np.zeros_like(tables[-1])
+    if len(bodies) == 1:
+        forward.accelerations(bodies[0], *drives, *tables, answer, held)
+        return answer, held
     for number in np.unique(phase):
         lanes = np.flatnonzero(phase == number)
-        part = tuple(np.take(table, lanes, axis=-1) for table in tables)
+        part = [np.take(table, lanes, axis=-1) for table in tables]
         rate, kept = np.empty_like(part[2]), np.zeros_like(part[-1])
-        forward.accelerations(
-            mechanism.phases.bodies[number],
-            mechanism.inertia,
-            damping,
-            mechanism.weights,
-            *part,
-            rate,
-            kept,
-        )
+        forward.accelerations(bodies[number], *drives, *part, rate, kept)
         answer[:, lanes], held[:, lanes] = rate, kept
     return answer, held
 

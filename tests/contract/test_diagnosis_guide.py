@@ -12,6 +12,7 @@ from core.diagnosis.diagnosis import Verdict
 from core.diagnosis.rivals import INDIFFERENCE
 from core.diagnosis.selection import LEVEL, MOST
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
+from tests.core.dynamics.every_term import cures_by_cause
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
@@ -29,6 +30,17 @@ IN_AN_IDENTIFICATION = {"JointFit"}
 def row(name: str) -> str:
     (found,) = re.findall(rf"^\| `{name}` \|.*$", GUIDE, re.MULTILINE)
     return found
+
+
+def test_the_guide_says_of_every_cause_that_is_an_input_to_the_simulation_which_kind_it_is():
+    channel, past = re.findall(
+        r"^- (?:What only the torque channel|A torque that depends).*?\.$", GUIDE, re.MULTILINE | re.DOTALL
+    )
+    terms = [(cause.id, term) for cause, term in cures_by_cause()]
+    assert set(re.findall(r"`(\w+)`", channel)) == {name for name, term in terms if term.channel}
+    assert set(re.findall(r"`(\w+)`", past)) == {
+        name for name, term in terms if term.remembers and not term.channel
+    }
 
 
 def test_every_verdict_is_explained():

@@ -114,10 +114,11 @@ def _motion_table(document: Document) -> Html | None:
         ]
         for joint in range(number_of_joints)
     ]
+    told = simulation.get("note")
     note = (
         f"From {old['windows']} measured states in unseen data, both models were driven by the measured "
         "torque; the error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm "
-        "where a joint slides)."
+        f"where a joint slides).{f' In the extended model {told}.' if told else ''}"
     )
     return table("Error of the simulated motion", (*headings, "improvement", "95 %"), rows, note=note)
 

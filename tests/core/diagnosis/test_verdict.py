@@ -7,7 +7,7 @@ import pytest
 
 from core.diagnosis.diagnosis import Diagnosis
 from core.diagnosis.verdict import Question, diagnose
-from core.extension.extend import cures, extended_base, remembers
+from core.extension.extend import cures, extended_base, taken_along
 from core.log.reader import read_log
 from core.reduction.base import base_model
 from core.regressor.columns import ColumnPlan
@@ -83,7 +83,7 @@ def test_only_the_joint_of_the_finding_changes_much():
 def test_the_cure_joins_the_model_under_its_own_name():
     found = diagnosed(hidden)
     (term,) = cures(found)
-    assert not remembers(found.findings[0], found)
+    assert taken_along(found) == ""
     base = base_model(measured_arm().believed.model)
     whole = extended_base(base, (term,))
     assert len(whole.kept) == len(base.kept) + 1

@@ -1,20 +1,30 @@
 """Make logs whose torque pinocchio has computed, with known noise."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from core.log.model import ArraySource, JointLog, LogRows
 from core.robot.model import RobotModel
 from core.signals.condition import Motion, condition
+from core.signals.state import MotionState
 from tests.tools import Motion as Samples
 from tests.tools import pinocchio_torque
 
 RATE_HZ = 500.0
 
 
-def logged(robot: RobotModel, bodies: np.ndarray, *, seconds: float = 8.0, noise: float = 0.0) -> Motion:
+def logged(
+    robot: RobotModel,
+    bodies: np.ndarray,
+    *,
+    seconds: float = 8.0,
+    noise: float = 0.0,
+    more: Callable[[MotionState], np.ndarray] | None = None,
+) -> Motion:
     """Move every joint by sines of about 1 Hz; friction 1 N m sign(v) is added to pinocchio's torque.
 
-    `noise` is that of the torque, N m.
+    `noise` is that of the torque, N m; `more` is torque that a motion takes besides.
     """
     rng = np.random.default_rng(4)
     time = np.arange(0.0, seconds, 1.0 / RATE_HZ)
@@ -28,6 +38,8 @@ def logged(robot: RobotModel, bodies: np.ndarray, *, seconds: float = 8.0, noise
     )
     torque = pinocchio_torque(robot, bodies, motion) + np.sign(motion.velocity)
     torque += noise * rng.normal(size=torque.shape)
+    if more is not None:
+        torque += more(MotionState(motion.position, motion.velocity, motion.acceleration, time))
     rows = LogRows(time, motion.position, torque)
     log = JointLog("made", ArraySource(rows), joints, RATE_HZ, seconds, ((0, len(time)),))
     return condition(log, robot, blocks=8)

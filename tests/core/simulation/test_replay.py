@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.delay import Delay
+from core.dynamics.terms.presliding import Presliding
+from core.dynamics.terms.torque_gain import CommonGain
 from core.errors import OptionError
 from core.signals.state import MotionState
+from core.simulation.inverse import inverse_dynamics
+from core.simulation.mechanism import mechanism_of
 from core.simulation.replay import Gains, ReplayOptions, default_gains, fitted_gains, replay
+from core.simulation.share import share_of
+from tests.core.simulation.logs import logged
 from tests.core.simulation.worlds import block, mechanism
 from tests.tools import random_motion
 
@@ -57,3 +65,33 @@ def test_gains_are_fitted_from_a_reference_and_refused_without_one(arm):
 def test_blocks_that_do_not_exist_cannot_be_played(arm, motion):
     with pytest.raises(OptionError, match="no block"):
         replay(mechanism(*arm), (motion,), chosen=frozenset({(0, 99)}))
+
+
+def _knowing(arm, term, value):
+    """Give the mechanism that has a term, and the log of its motion."""
+    plain = mechanism(*arm, FC=1.0)
+    believed = Prediction(plain.model, plain.parameters, inverse_dynamics)
+    model = plain.model.with_term(term(believed))
+    known = mechanism_of(model, np.append(plain.parameters, value))
+    alone = share_of(model.robot, [(model.terms[-1], np.array([value]))])
+    return known, logged(*arm, more=alone.torque)
+
+
+TERMS = {
+    "late channel": (lambda believed: Delay(0, believed, 0.02), 0.02),
+    "wrong gain": (lambda believed: CommonGain(0, believed), 0.3),
+    "friction that builds up": (lambda _: Presliding(1, 0.05), 1.0),
+}
+
+
+@pytest.mark.parametrize("what", TERMS)
+@pytest.mark.parametrize("feed_forward", ["measured", "model", "none"])
+def test_faults_of_the_channel_and_what_remembers_are_played_as_they_were_logged(arm, what, feed_forward):
+    knowing, motion = _knowing(arm, *TERMS[what])
+    plain = mechanism(*arm, FC=1.0)
+    options = ReplayOptions(feed_forward, bandwidth_hz=20.0)
+    found, ignorant = replay(knowing, (motion,), options), replay(plain, (motion,), options)
+    honest = replay(plain, (logged(*arm),), options)
+    np.testing.assert_allclose(found.position_rms, honest.position_rms, rtol=0.1, atol=2e-5)
+    np.testing.assert_allclose(found.torque_rms, honest.torque_rms, rtol=0.3)
+    assert found.torque_rms[0] < 0.8 * ignorant.torque_rms[0]

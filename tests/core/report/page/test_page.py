@@ -229,6 +229,12 @@ def test_motion_that_was_not_compared_is_said_with_its_reason():
     assert "The motion of both models was not compared: a finding remembers the motion." in text
 
 
+def test_what_the_motion_was_not_free_to_decide_is_said_below_its_table():
+    simulation = diagnosed()["diagnosis"]["simulation"] | {"note": "time_delay is taken out"}
+    text = Page(compose_page(diagnosed(simulation=simulation))).text
+    assert "where a joint slides). In the extended model time_delay is taken out." in text
+
+
 def test_a_gain_is_marked_as_real_only_where_its_interval_leaves_zero_out():
     page = compose_page(diagnosed())
     assert page.count('<span class="better">50 %</span>') == 2  # joint 1 in torque and in motion
