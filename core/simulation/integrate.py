@@ -39,10 +39,18 @@ class Stride:
 
 @dataclass(frozen=True, eq=False)
 class Integrator:
-    """Integrate a driven mechanism, with steps no longer than `longest_step` (s)."""
+    """Integrate a driven mechanism, with steps no longer than `longest_step` (s).
+
+    Attributes
+    ----------
+    drag
+        Damping per joint, N m s/rad, that is taken implicitly and given back as it stands: where terms
+        without a compiled form damp so strongly, the scheme stays stable, and its order whatever they do.
+    """
 
     mechanism: Mechanism
     drive: Drive
+    drag: np.ndarray
     longest_step: float = LONGEST_STEP
 
     def advance(self, states: States, number: int) -> States:
@@ -63,9 +71,14 @@ class Integrator:
 
     @cached_property
     def damping(self) -> np.ndarray:
-        """Give the mechanism's damping with the controller's, N m s/rad."""
+        """Give the mechanism's damping with the controller's and the drag, N m s/rad."""
         back = self.drive.feedback
-        return self.mechanism.damping + (0.0 if back is None else np.diag(back.damping))
+        return self.mechanism.damping + np.diag(self.drag + (0.0 if back is None else back.damping))
+
+    def _driven(self, stride: Stride, share: np.ndarray, states: States) -> np.ndarray:
+        """Give the drives' torque after a share of a step, and the drag back."""
+        torque = self.drive.at(stride.number, share, stride.lanes, states)
+        return np.asarray(torque + self.drag[:, None] * states.velocity)
 
     def _part(self, states: States, stride: Stride) -> States:
         """Take one step, in as many pieces as there are reversals in it."""
@@ -99,13 +112,13 @@ class Integrator:
         """Take one step without looking at reversals; also gives the acceleration it began with."""
         time = self.drive.step * stride.to_go
         damping, implicit = self.damping, GAMMA * time
-        torque = self.drive.at(stride.number, stride.passed, stride.lanes, states)
+        torque = self._driven(stride, stride.passed, states)
         first = rates(self.mechanism, states, torque, implicit=implicit, damping=damping)
         ahead = replace(states.later(time), acceleration=first.acceleration, direction=first.direction)
         kernel.predict(
             states.position, states.velocity, first.acceleration, time, ahead.position, ahead.velocity
         )
-        torque = self.drive.at(stride.number, stride.passed + stride.to_go, stride.lanes, ahead)
+        torque = self._driven(stride, stride.passed + stride.to_go, ahead)
         known = 2.0 * first.acceleration
         second = rates(self.mechanism, ahead, torque, known=known, implicit=implicit, damping=damping)
         after = replace(states.later(time), acceleration=second.acceleration, direction=second.direction)

@@ -8,7 +8,7 @@ import numpy as np
 from core.simulation.drive import Drive
 from core.simulation.integrate import LONGEST_STEP, Integrator
 from core.simulation.mechanism import Mechanism
-from core.simulation.stage import States
+from core.simulation.stage import States, drag_of
 
 Progress = Callable[[float], None]
 
@@ -40,7 +40,7 @@ def rollout(
     SolverError
         If the motion diverges or the robot cannot be accelerated.
     """
-    integrator = Integrator(mechanism, drive, longest_step)
+    integrator = Integrator(mechanism, drive, drag_of(mechanism, start), longest_step)
     torque = drive.torque if drive.feedback is None else np.empty_like(drive.torque)
     found = Trajectory(np.empty_like(torque), np.empty_like(torque), torque)
     states = start

@@ -17,6 +17,8 @@ from core.simulation.mechanism import Mechanism
 
 CREEP = 1e-9
 """Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""
+SLIGHTLY = 1e-3
+"""Step in speed (rad/s or m/s) over which the damping of a term is told."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,6 +189,18 @@ def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np
         _evaluated(mechanism, states, np.where(resting, sign * CREEP, velocity)) for sign in (1.0, -1.0)
     )
     return 0.5 * (ahead + behind), np.where(resting, 0.5 * (ahead - behind), 0.0)
+
+
+def drag_of(mechanism: Mechanism, states: States) -> np.ndarray:
+    """Give how strongly the other terms damp each joint at most, N m s/rad, as they start.
+
+    Slopes are taken between two speeds above the present one, where no friction jumps.
+    """
+    if not mechanism.others.names:
+        return np.zeros(mechanism.joints)
+    step = SLIGHTLY * np.where(states.velocity < 0.0, -1.0, 1.0)
+    one, two = (_evaluated(mechanism, states, states.velocity + count * step) for count in (1.0, 2.0))
+    return np.asarray(np.maximum((two - one) / step, 0.0).max(axis=1, initial=0.0))
 
 
 def _evaluated(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
