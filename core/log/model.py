@@ -84,11 +84,7 @@ class ArraySource:
 
     def rows(self, start: int, stop: int) -> LogRows:
         """Slice the arrays; no copy is made."""
-        cut = slice(start, stop)
-        data = self.data
-        optional = (data.torque, data.velocity, data.current, data.temperature)
-        torque, velocity, current, temperature = (None if one is None else one[cut] for one in optional)
-        return LogRows(data.time[cut], data.position[cut], torque, velocity, current, temperature)
+        return rows_at(self.data, slice(start, stop))
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,6 +126,13 @@ class JointLog:
     def samples(self) -> int:
         """Count the rows."""
         return self.source.samples
+
+
+def rows_at(rows: LogRows, place: slice | np.ndarray) -> LogRows:
+    """Take some rows of all channels, by a slice, by number or by marks."""
+    optional = (rows.torque, rows.velocity, rows.current, rows.temperature)
+    torque, velocity, current, temperature = (None if one is None else one[place] for one in optional)
+    return LogRows(rows.time[place], rows.position[place], torque, velocity, current, temperature)
 
 
 def whole_rows(log: JointLog) -> LogRows:

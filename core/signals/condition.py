@@ -87,10 +87,17 @@ def condition(
             evidence={"longest_samples": max(stop - start for start, stop in log.segments), "log": log.name},
             remedy="record at least one second without gaps",
         )
-    return Motion(log, recipe, _effort_scale(log, robot), blocks, segments)
+    return Motion(log, recipe, effort_scale(log, robot), blocks, segments)
 
 
-def _effort_scale(log: JointLog, robot: RobotModel) -> JointVector:
+def effort_scale(log: JointLog, robot: RobotModel) -> JointVector:
+    """Give, per joint, the torque per unit of the logged effort: 1 where torque itself is logged.
+
+    Raises
+    ------
+    LogError
+        If the log holds currents, and the robot does not say what torque a current gives.
+    """
     if "torque" in log.channels:
         return np.ones(len(robot.joints))
     undeclared = [

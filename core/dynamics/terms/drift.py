@@ -31,6 +31,15 @@ class Drift(OneJointTerm):
         del robot
         if state.time is None:
             return [np.zeros(len(state.position))]
-        passed = state.time - self.start
-        whole = np.expm1(-self.duration / self.time_constant)
-        return [np.asarray(np.expm1(-passed / self.time_constant) / whole)]
+        return [course(state.time - self.start, self.duration, self.time_constant)]
+
+
+def course(passed: Samples, duration: float, time_constant: float) -> Samples:
+    """Give the share of a drift that is over when some of its duration has passed (all in s).
+
+    Examples
+    --------
+    >>> course(np.array([0.0, 5.0, 10.0]), 10.0, 1e6).round(5)
+    array([0. , 0.5, 1. ])
+    """
+    return np.asarray(np.expm1(-passed / time_constant) / np.expm1(-duration / time_constant))
