@@ -14,11 +14,14 @@ from core.arrays import SquareMatrix, Vector
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
+from core.robot.model import RobotModel
 
 Cure = Literal["term", "signal", "robot"]
 Scalars = Mapping[str, float]
 Site = tuple[int, ...]
 """Joints that a cause acts on, counted from 1; empty for the whole robot."""
+Numbers = Mapping[str, float]
+"""What a repair is done with, by name, in SI."""
 
 
 @dataclass(frozen=True)
@@ -148,4 +151,12 @@ class Cause(Protocol):
 
     def statement(self, solved: Solved) -> str:
         """Say in one sentence, with the numbers filled in, what is wrong and what it does."""
+        ...
+
+    def numbers(self, look: Look, solved: Solved) -> Numbers:
+        """Give the numbers that a repair is done with."""
+        ...
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say in one sentence, with the numbers filled in, what mends it: what goes from what to what."""
         ...

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from core.diagnosis.catalogue import BY_ID, ONLY_CHANGES
 from core.diagnosis.cause import Cause, Confusion
+from core.diagnosis.mending import mends
 from core.diagnosis.raw import RawCause
 
 OPENING = """\
@@ -24,7 +25,9 @@ would. Besides `causes_found`, a verdict may be `nothing_found` (the residual is
 generic learner still predicts part of the residual on blocks that it has not seen, and no cause of this list
 explains that part.
 
-What a finding cures is one of three things, which are the three ways a simulation can be wrong.
+What a finding cures is one of three things, which are the three ways a simulation can be wrong. Its repair is
+what a user can take: of the `robot`'s description, of the `log`, of the `model` alone (a further term), or of
+`nothing`, where what was lost cannot be brought back ([repairs](diagnosis.md#repairs)).
 
 | cure | what is wrong | what is done |
 |---|---|---|
@@ -36,11 +39,11 @@ CURES: Mapping[str, tuple[str, str]] = {
     ),
     "signal": (
         "a signal lies",
-        "where it bends the torque, what it does joins the model as a term; mend the channel at its source",
+        "where it bends the torque, what it does joins the model as a term; the repair mends the log",
     ),
     "robot": (
         "the robot is not the one described",
-        "what the difference does joins the model as a term; correct the description",
+        "what the difference does joins the model as a term; the repair is the corrected description",
     ),
 }
 ONLY_AGAINST = """\
@@ -50,8 +53,8 @@ Only against a [reference](diagnosis.md#what-has-changed): where everything is i
 OVERVIEW = """
 ## All of them
 
-| cause | what it is | cure |
-|---|---|---|
+| cause | what it is | cure | repair |
+|---|---|---|---|
 """
 
 
@@ -60,7 +63,7 @@ def guide() -> str:
     cures = "".join(f"| {cure} | {wrong} | {done} |\n" for cure, (wrong, done) in CURES.items())
     only = {one.id: ", only against a reference" for one in ONLY_CHANGES}
     rows = "".join(
-        f"| [{name}](#{name}) | {one.title}{only.get(name, '')} | {one.cure} |\n"
+        f"| [{name}](#{name}) | {one.title}{only.get(name, '')} | {one.cure} | {_repair(one)} |\n"
         for name, one in BY_ID.items()
     )
     return OPENING + cures + OVERVIEW + rows + "".join(_section(one) for one in BY_ID.values())
@@ -77,6 +80,10 @@ def _section(cause: Cause | RawCause) -> str:
         f"Shown by: {cause.experiment}.\n\n"
         "Confused with:\n\n" + "".join(_confusion(one) for one in cause.confusions)
     )
+
+
+def _repair(cause: Cause | RawCause) -> str:
+    return "nothing" if isinstance(cause, RawCause) else mends(cause)
 
 
 def _confusion(one: Confusion) -> str:

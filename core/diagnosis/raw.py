@@ -57,11 +57,18 @@ class RawFinding:
 
 @runtime_checkable
 class RawCause(Protocol):
-    """Suspect a fault of the samples; the attributes are those of `Cause`."""
+    """Suspect a fault of the samples; the attributes are those of `Cause`.
+
+    Attributes
+    ----------
+    beyond_repair
+        Why no log can be mended of it, in a sentence.
+    """
 
     id: ClassVar[str]
     title: ClassVar[str]
     experiment: ClassVar[str]
+    beyond_repair: ClassVar[str]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:

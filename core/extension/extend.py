@@ -22,9 +22,14 @@ def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
 
 def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
     for one in diagnosis.findings:
-        if one.member is not None and (one.gain is None or one.gain.interval_95[0] > 0.0):
+        if one.member is not None and gains_surely(one):
             member = one.member
             yield one, member.cause.term(diagnosis.look, diagnosis.believed, member.site, member.scalars)
+
+
+def gains_surely(finding: Finding) -> bool:
+    """Tell whether what a finding gains on unseen rows is beyond doubt."""
+    return finding.gain is None or finding.gain.interval_95[0] > 0.0
 
 
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:

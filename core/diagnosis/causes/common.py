@@ -6,9 +6,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Cure, Quantity, Scalars, Site, Solved
+from core.diagnosis.cause import Confusion, Cure, Numbers, Quantity, Scalars, Site, Solved
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
+from core.robot.model import RobotModel
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""
@@ -63,6 +64,16 @@ class OwnJointCause:
         scanned = {name: (value, solved.deviations.get(name, 0.0)) for name, value in solved.scalars.items()}
         both = linear | scanned
         return tuple(Quantity(name, joint, unit, *both[name]) for name, unit in self.units)
+
+    def numbers(self, look: Look, solved: Solved) -> Numbers:
+        """Give the reported numbers."""
+        del look
+        return {one.name: one.value for one in self.quantities(solved)}
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say that its term is all the repair there is."""
+        del robot, joints, numbers
+        return "The model has its torque as a further term; the description and the log stay as they are"
 
 
 def spread(low: float, high: float, count: int) -> list[float]:

@@ -48,6 +48,7 @@ class DroppedSamples:
         ),
     )
     experiment: ClassVar[str] = "any motion, recorded with the controller's own sample counter"
+    beyond_repair: ClassVar[str] = "What was not recorded is lost; the rows that repeat are left out"
 
     def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
         """Count rows that repeat while the robot moves."""

@@ -1,22 +1,27 @@
 """Suspect that a joint's encoder disc sits off its axis: an angle error once per turn."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+import numpy as np
+
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.causes.sites import revolute_joints
 from core.diagnosis.causes.waves import amplitude_and_angle
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsLog
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm
+from core.log.model import LogRows
+from core.robot.model import RobotModel
 
 LARGEST = 0.3
 
 
 @dataclass(frozen=True)
-class EncoderEccentricity(OwnJointCause):
+class EncoderEccentricity(OwnJointCause, MendsLog):
     """Suspect an encoder error that repeats with every turn."""
 
     id = "encoder_eccentricity"
@@ -68,3 +73,24 @@ class EncoderEccentricity(OwnJointCause):
             f"Joint {solved.site[0]}'s encoder errs once per turn, by {shown(found['amplitude'])} times "
             f"sin(q + {found['phase'].value:.2g})"
         )
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say what every reading is less by."""
+        del robot
+        wave = f"{rounded(numbers['amplitude'], 4)} rad times sin(q + {rounded(numbers['phase'], 4)})"
+        return f"From every angle q of joint {joints[0]} {wave} is subtracted"
+
+    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+        """Take the error out of the angle, and out of the speed where it is logged.
+
+        The column has the error at the angle that was read, and so has its repair.
+        """
+        own, amplitude = joints[0] - 1, numbers["amplitude"]
+        turn = rows.position[:, own] + numbers["phase"]
+        position = rows.position.copy()
+        position[:, own] -= amplitude * np.sin(turn)
+        if rows.velocity is None:
+            return replace(rows, position=position)
+        velocity = rows.velocity.copy()
+        velocity[:, own] *= 1.0 - amplitude * np.cos(turn)
+        return replace(rows, position=position, velocity=velocity)

@@ -1,22 +1,28 @@
 """Suspect that a joint's zero is not where the robot's description has it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.causes.sites import revolute_joints
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsRobot
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
+from core.dynamics.terms.kinematic_error import link_of
+from core.robot.model import Link, RobotModel
 
 LARGEST = 0.5
 
 
 @dataclass(frozen=True)
-class EncoderOffset(OwnJointCause):
-    """Suspect a constant zero error of one encoder."""
+class EncoderOffset(OwnJointCause, MendsRobot):
+    """Suspect a constant zero error of one encoder.
+
+    The description is mended, not the log: a zero that is off is off in every log of the robot.
+    """
 
     id = "encoder_offset"
     # What a first-order column leaves of a large angle looks like a small error of a length.
@@ -57,3 +63,24 @@ class EncoderOffset(OwnJointCause):
         """Say by how much the reading is off."""
         found = named(self.quantities(solved))["offset"]
         return f"Joint {solved.site[0]}'s encoder reads the angle of the description plus {shown(found)}"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say where the description puts the joint's zero now."""
+        link = link_of(robot, joints[0])
+        entry, before = ("offset", link.offset) if link.row is None else ("theta_offset", link.row.theta)
+        after = rounded(before - link.ratio * numbers["offset"], 4)
+        return f"Joint {joints[0]}'s {entry} goes from {rounded(before, 4)} to {after} rad"
+
+    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+        """Turn the zero of every link that the joint moves back by what the encoder reads too much."""
+        (joint,) = joints
+        links = (_turned(one, -numbers["offset"]) if one.joint == joint else one for one in robot.links)
+        return replace(robot, links=tuple(links))
+
+
+def _turned(link: Link, angle: float) -> Link:
+    if link.row is None:
+        return replace(link, offset=link.offset + link.ratio * angle)
+    row = replace(link.row, theta=link.row.theta + link.ratio * angle)
+    rotation, translation = row.placement()
+    return replace(link, rotation=rotation, translation=translation, row=row)

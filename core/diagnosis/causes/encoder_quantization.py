@@ -38,6 +38,7 @@ class EncoderQuantization:
         ),
     )
     experiment: ClassVar[str] = "slow motion, which passes many samples within one step"
+    beyond_repair: ClassVar[str] = "Where the joint was between two counts of its encoder is not in the log"
 
     def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
         """Round each joint's smooth motion to its own steps and see what that does."""

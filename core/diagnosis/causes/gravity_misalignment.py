@@ -1,22 +1,25 @@
 """Suspect that the base is tilted: gravity does not point where the robot's description has it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, shown
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, rounded, shown
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsRobot
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
-from core.dynamics.terms.tilt import Tilt
+from core.dynamics.terms.tilt import Tilt, tilt_axes
+from core.robot.model import RobotModel
 
 LARGEST = 0.5
 
 
 @dataclass(frozen=True)
-class GravityMisalignment(OwnJointCause):
+class GravityMisalignment(OwnJointCause, MendsRobot):
     """Suspect a tilted base."""
 
     id = "gravity_misalignment"
@@ -59,3 +62,16 @@ class GravityMisalignment(OwnJointCause):
             f"by {shown(one)} about the base's {one.name[-1]} axis" for one in self.quantities(solved)
         )
         return f"Gravity is turned against the description {turns}, as if the base were tilted the other way"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say where gravity points now."""
+        after = self.mended_robot(robot, joints, numbers)
+        old, new = (", ".join(rounded(one, 4) for one in arm.gravity) for arm in (robot, after))
+        return f"Gravity in the base frame goes from ({old}) to ({new}) m/s2"
+
+    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+        """Turn gravity; about an axis whose tilt does not show it stays as it is."""
+        del joints
+        about_x, about_y = tilt_axes(np.asarray(robot.gravity, dtype=float))
+        turn = numbers.get("tilt_x", 0.0) * about_x + numbers.get("tilt_y", 0.0) * about_y
+        return replace(robot, gravity=Rotation.from_rotvec(turn).apply(robot.gravity))

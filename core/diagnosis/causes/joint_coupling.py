@@ -1,17 +1,19 @@
 """Suspect that a motor turns with two joints although the robot's description does not say so."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import count
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, shown
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsRobot
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.robot.model import Coupling
+from core.robot.model import Coupling, RobotModel
 
 FURTHEST = 2
 """Gears couple a joint with the next or the one after it."""
@@ -21,7 +23,7 @@ DOUBT = 2.0
 
 
 @dataclass(frozen=True)
-class JointCoupling(OwnJointCause):
+class JointCoupling(OwnJointCause, MendsRobot):
     """Suspect an undeclared gear coupling."""
 
     id = "joint_coupling"
@@ -89,6 +91,27 @@ class JointCoupling(OwnJointCause):
             f"declared: inertia {_known(found['Iam'])}, viscous friction {_known(found['Fvm'])}, "
             f"Coulomb friction {_known(found['Fcm'])}"
         )
+
+    def numbers(self, look: Look, solved: Solved) -> Numbers:
+        """Give the reported numbers, and the weight of the first joint in the motor's turn."""
+        return {**super().numbers(look, solved), "weight": solved.scalars["weight"]}
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say which coupling is declared."""
+        first, second = joints
+        sign = "plus" if numbers["weight"] >= 0.0 else "minus"
+        return (
+            f"The description's couplings go from {len(robot.couplings)} to {len(robot.couplings) + 1}: a "
+            f"motor that turns with joint {second} {sign} joint {first}"
+        )
+
+    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+        """Declare the coupling, under the number of the joint that its motor drives or the next free one."""
+        first, second = joints
+        taken = {one.number for one in robot.couplings}
+        number = next(one for one in count(second) if one not in taken)
+        found = Coupling(f"joints {first} and {second}", number, (first, second), (numbers["weight"], 1.0))
+        return replace(robot, couplings=(*robot.couplings, found))
 
 
 def _known(quantity: Quantity) -> str:

@@ -3,13 +3,15 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsRobot
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
-from core.dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of
+from core.dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, with_entry
 from core.dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
+from core.robot.model import RobotModel
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 LARGEST = 0.3
@@ -17,7 +19,7 @@ LARGEST = 0.3
 
 
 @dataclass(frozen=True)
-class KinematicError(OwnJointCause):
+class KinematicError(OwnJointCause, MendsRobot):
     """Suspect one entry (alpha, d or r) of a link's modified DH row, by its place in `ENTRIES`."""
 
     id = "kinematic_error"
@@ -79,6 +81,25 @@ class KinematicError(OwnJointCause):
         found = named(self.quantities(solved))["error"]
         entry = _entry(solved.scalars)
         return f"Joint {solved.site[0]}'s {entry} in the kinematic table has to grow by {shown(found)}"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say what the entry becomes."""
+        entry = _reported(numbers)
+        row = link_of(robot, joints[0]).row
+        before = 0.0 if row is None else float(getattr(row, entry))
+        after = rounded(before + numbers["error"], 4)
+        return (
+            f"Joint {joints[0]}'s {entry} in the kinematic table goes from {rounded(before, 4)} to "
+            f"{after} {ENTRY_UNITS[entry]}"
+        )
+
+    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+        """Let the entry grow by the error."""
+        return with_entry(robot, joints[0], _reported(numbers), numbers["error"])
+
+
+def _reported(numbers: Numbers) -> EntryName:
+    return next(entry for entry in ENTRIES if entry in numbers)
 
 
 def _entry(scalars: Scalars) -> EntryName:

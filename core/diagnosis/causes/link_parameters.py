@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.bodies import is_body
 from core.diagnosis.causes.common import OwnJointCause, shown
 from core.diagnosis.causes.sites import links_by_joint
@@ -13,6 +13,7 @@ from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.link_change import LinkChange
+from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 
 TOLD = 3
@@ -62,6 +63,14 @@ class LinkParameters(OwnJointCause):
         told = [one for one in clear if _clearness(one) > 2.0] or clear[:1]
         changes = ", ".join(f"{one.name.removeprefix('delta_')} by {shown(one)}" for one in told)
         return f"The link of joint {solved.site[0]} is not the reference's: {changes}"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say that a description holds no inertial parameters but those believed beforehand."""
+        del robot, numbers
+        return (
+            f"The description stays as it is: identified anew, the link of joint {joints[0]} has its own "
+            "parameters"
+        )
 
 
 def _clearness(one: Quantity) -> float:

@@ -5,14 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.bodies import MASS, body_of, is_body
-from core.diagnosis.causes.common import NOTHING, OwnJointCause, named, shown
+from core.diagnosis.causes.common import NOTHING, OwnJointCause, named, rounded, shown
 from core.diagnosis.causes.sites import end_links, links_by_joint
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.payload import Payload
+from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS
 
 INSTANTS = 12
@@ -114,6 +115,16 @@ class PayloadChange(OwnJointCause):
         return f"The link of joint {solved.site[0]} {word} {shown(mass)} since {self._since(found)}" + (
             f", centred at {centre} m in its frame" if told else ""
         )
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say that a body is not of the description: it comes as a term, or is identified with its link."""
+        del robot
+        if "time" in numbers:
+            return (
+                "The description stays as it is: the model has the body as a term from "
+                f"{rounded(numbers['time'], 4)} s on"
+            )
+        return f"The description stays as it is: identified anew, the link of joint {joints[0]} has the body"
 
     def _links(self, look: Look) -> dict[int, int]:
         return links_by_joint(look.robot) if self.throughout else end_links(look.robot)

@@ -1,18 +1,20 @@
 """Suspect that a joint has a rotor inertia which the robot's description leaves out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsRobot
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.missing_rotor import MissingRotor
+from core.robot.model import RobotModel
 
 
 @dataclass(frozen=True)
-class RotorInertiaMissing(OwnJointCause):
+class RotorInertiaMissing(OwnJointCause, MendsRobot):
     """Suspect a rotor that nobody declared."""
 
     id = "rotor_inertia_missing"
@@ -49,3 +51,20 @@ class RotorInertiaMissing(OwnJointCause):
         """Say how much inertia is missing."""
         found = named(self.quantities(solved))
         return f"Joint {solved.site[0]}'s rotor is missing from the model: {shown(found['IA'])} at the joint"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say that the rotor is declared, and what an identification will find about."""
+        del robot
+        return (
+            f"Joint {joints[0]}'s rotor_inertia goes from false to true; an identification finds about "
+            f"{rounded(numbers['IA'], 4)} kg m2"
+        )
+
+    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+        """Declare the rotor."""
+        del numbers
+        declared = (
+            replace(one, rotor_inertia=True) if number in joints else one
+            for number, one in enumerate(robot.joints, start=1)
+        )
+        return replace(robot, joints=tuple(declared))

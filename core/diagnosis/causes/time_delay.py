@@ -4,20 +4,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsLog, with_torque
 from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.delay import Delay
+from core.log.model import LogRows
+from core.robot.model import RobotModel
 
 LONGEST_DELAY = 0.05
 
 
 @dataclass(frozen=True)
-class TimeDelay(OwnJointCause):
+class TimeDelay(OwnJointCause, MendsLog):
     """Suspect a delay of the torque channel."""
 
     id = "time_delay"
@@ -65,3 +69,18 @@ class TimeDelay(OwnJointCause):
         late = "behind" if found.value > 0.0 else "ahead of"
         size, doubt = rounded(1e3 * abs(found.value), 3), rounded(1e3 * found.standard_deviation)
         return f"The torque channel runs {size} ± {doubt} ms {late} the positions on all joints"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say by how many milliseconds the torque moves."""
+        del robot, joints
+        way = "earlier" if numbers["delay"] > 0.0 else "later"
+        return f"All torques move {rounded(1e3 * abs(numbers['delay']), 4)} ms {way} in the log, interpolated"
+
+    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+        """Move the torque; beyond the ends it stays as it is there."""
+        then = np.clip(rows.time + numbers["delay"], rows.time[0], rows.time[-1])
+        return with_torque(rows, joints, lambda torque: np.asarray(CubicSpline(rows.time, torque)(then)))
+
+    def reach(self, numbers: Numbers) -> float:
+        """Give the delay: so much of the torque at an end is not in the log."""
+        return abs(numbers["delay"])

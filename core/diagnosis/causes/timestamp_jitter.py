@@ -50,6 +50,7 @@ class TimestampJitter:
         ),
     )
     experiment: ClassVar[str] = "quick motion of at least two joints at once"
+    beyond_repair: ClassVar[str] = "At which instants the samples were really taken is not in the log"
 
     def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
         """Compare the joints' remainders with their velocities."""

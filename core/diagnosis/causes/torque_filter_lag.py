@@ -4,22 +4,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.signal import oaconvolve
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.arrays import InstantSeries, JointSeries, Samples
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsLog, with_torque
 from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.filter_lag import FilterLag
+from core.log.model import LogRows
+from core.robot.model import RobotModel
+from core.signals.zero_phase import kernel
 
 SHORTEST, LONGEST = 2e-4, 0.1
 """Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""
 START = 0.005
+ORDER = 2
+PERIODS = 3.0
+"""Of the band's edge, beyond which less than a millionth of its filter's mass lies."""
 
 
 @dataclass(frozen=True)
-class TorqueFilterLag(OwnJointCause):
+class TorqueFilterLag(OwnJointCause, MendsLog):
     """Suspect a filter in the torque channel."""
 
     id = "torque_filter_lag"
@@ -68,3 +78,35 @@ class TorqueFilterLag(OwnJointCause):
             f"The torque channel is low-pass filtered on all joints: time constant {1e3 * found.value:.3g} ± "
             f"{rounded(1e3 * found.standard_deviation)} ms, the positions are not"
         )
+
+    def numbers(self, look: Look, solved: Solved) -> Numbers:
+        """Give the reported number, and the band in which it was found."""
+        return {**super().numbers(look, solved), "band_hz": look.band_hz}
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say what is added."""
+        del robot, joints
+        size, band = rounded(1e3 * numbers["time_constant"], 4), rounded(numbers["band_hz"], 3)
+        return f"Every torque grows by {size} ms times its rate of change, taken up to {band} Hz"
+
+    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+        """Undo the filter: tau + T tau' is what went into it; above the band a rate is mostly noise."""
+        samples = round(float(np.ptp(rows.time)) / float(np.median(np.diff(rows.time)))) + 1
+        even, step = np.linspace(rows.time[0], rows.time[-1], samples, retstep=True)
+        low_pass = kernel(numbers["band_hz"], 1.0 / float(step), ORDER)
+
+        def undone(torque: JointSeries) -> JointSeries:
+            smooth = CubicSpline(even, _passed(CubicSpline(rows.time, torque)(even), low_pass))
+            return np.asarray(torque + numbers["time_constant"] * smooth(rows.time, 1))
+
+        return with_torque(rows, joints, undone)
+
+    def reach(self, numbers: Numbers) -> float:
+        """Give the time over which the band's filter sees."""
+        return PERIODS / numbers["band_hz"]
+
+
+def _passed(series: InstantSeries, low_pass: Samples) -> InstantSeries:
+    half = len(low_pass) // 2
+    padded = np.pad(series, ((half, half), (0, 0)), mode="edge")
+    return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))

@@ -3,19 +3,22 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsLog, with_torque
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.torque_gain import CommonGain
 from core.dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
+from core.log.model import LogRows
+from core.robot.model import RobotModel
 
 LARGEST = 0.9
 
 
 @dataclass(frozen=True)
-class TorqueGain(OwnJointCause):
+class TorqueGain(OwnJointCause, MendsLog):
     """Suspect a wrong torque constant.
 
     Attributes
@@ -72,3 +75,13 @@ class TorqueGain(OwnJointCause):
         if not solved.site:
             return f"All torque channels read {size} against the reference"
         return f"Joint {solved.site[0]}'s torque channel reads {size} against the other joints"
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say what the channel is divided by."""
+        del robot
+        which = f"joint {joints[0]}" if len(joints) == 1 else "every joint"
+        return f"The torque of {which} is divided by {rounded(1.0 + numbers['relative_error'], 4)}"
+
+    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+        """Divide the channel by what it shows of the torque."""
+        return with_torque(rows, joints, lambda torque: torque / (1.0 + numbers["relative_error"]))

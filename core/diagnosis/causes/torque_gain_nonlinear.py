@@ -2,16 +2,22 @@
 
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+import numpy as np
+
+from core.arrays import JointSeries
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsLog, with_torque
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.cubic_gain import CubicGain
+from core.log.model import LogRows
+from core.robot.model import RobotModel
 
 
 @dataclass(frozen=True)
-class TorqueGainNonlinear(OwnJointCause):
+class TorqueGainNonlinear(OwnJointCause, MendsLog):
     """Suspect a torque constant that varies with current."""
 
     id = "torque_gain_nonlinear"
@@ -46,3 +52,36 @@ class TorqueGainNonlinear(OwnJointCause):
             f"Joint {solved.site[0]}'s torque channel reads large torques {high}: torque plus "
             f"{shown(found['cubic_coefficient'])} times its cube"
         )
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say how the curve is straightened."""
+        del robot
+        return (
+            f"Every torque y of joint {joints[0]} becomes the x for which x plus "
+            f"{rounded(numbers['cubic_coefficient'], 4)} 1/(N m)^2 times its cube is y"
+        )
+
+    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+        """Straighten the curve."""
+        bend = numbers["cubic_coefficient"]
+        return with_torque(rows, joints, lambda torque: straightened(torque, bend))
+
+
+def straightened(torque: JointSeries, bend: float) -> JointSeries:
+    """Give the x near zero for which x + bend x^3 is the torque, or comes nearest to it.
+
+    Notes
+    -----
+    A cubic without a square has its root by a third of an angle (Vieta), hyperbolic where it only rises.
+
+    Examples
+    --------
+    >>> straightened(np.array([[2.0 + 0.1 * 2.0**3]]), 0.1).round(12)
+    array([[2.]])
+    """
+    size = float(np.sqrt(3.0 * abs(bend)))
+    if size == 0.0:
+        return torque
+    if bend > 0.0:
+        return np.asarray(2.0 / size * np.sinh(np.arcsinh(1.5 * size * torque) / 3.0))
+    return np.asarray(2.0 / size * np.sin(np.arcsin(np.clip(1.5 * size * torque, -1.0, 1.0)) / 3.0))

@@ -5,19 +5,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.look import Look
+from core.diagnosis.mending import MendsLog, with_torque
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
-from core.dynamics.terms.drift import Drift
+from core.dynamics.terms.drift import Drift, course
+from core.log.model import LogRows
+from core.robot.model import RobotModel
 
 SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
 """Time constants of the drift, as shares of the time looked at; the last is an even drift."""
 
 
 @dataclass(frozen=True)
-class TorqueOffsetDrift(OwnJointCause):
+class TorqueOffsetDrift(OwnJointCause, MendsLog):
     """Suspect a drifting torque offset."""
 
     id = "torque_offset_drift"
@@ -56,3 +59,24 @@ class TorqueOffsetDrift(OwnJointCause):
             f"The zero of joint {solved.site[0]}'s torque channel drifts by {shown(found['total_drift'])} "
             f"over the log, with a time constant of {found['time_constant'].value:.2g} s"
         )
+
+    def numbers(self, look: Look, solved: Solved) -> Numbers:
+        """Give the reported numbers, and when the drift begins and how long it lasts."""
+        span = {"start": float(look.time.min()), "duration": float(np.ptp(look.time))}
+        return {**super().numbers(look, solved), **span}
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say what is subtracted."""
+        del robot
+        end = numbers["start"] + numbers["duration"]
+        return (
+            f"From the torque of joint {joints[0]} a drift is subtracted that goes from 0 at "
+            f"{rounded(numbers['start'], 4)} s to {rounded(numbers['total_drift'], 4)} N m at "
+            f"{rounded(end, 4)} s, with a time constant of {rounded(numbers['time_constant'], 4)} s"
+        )
+
+    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+        """Subtract the drift."""
+        passed = rows.time - numbers["start"]
+        share = course(passed, numbers["duration"], numbers["time_constant"])
+        return with_torque(rows, joints, lambda torque: torque - numbers["total_drift"] * share[:, None])

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.saturation import Saturation
+from core.robot.model import RobotModel
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
 """Limits, as shares of the largest torque that the motion shows."""
@@ -67,4 +68,13 @@ class TorqueSaturation(OwnJointCause):
         return (
             f"Joint {solved.site[0]}'s applied torque ends at {shown(found['limit'])}, while the log "
             "keeps the larger command"
+        )
+
+    def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
+        """Say why the log stays as it is: a limit one per cent off leaves what looks like contacts."""
+        del robot
+        limit = rounded(numbers["limit"], 4)
+        return (
+            "The model has the excess as a further term; cutting the log's torque of "
+            f"joint {joints[0]} at {limit} N m would be exact only with the exact limit"
         )
