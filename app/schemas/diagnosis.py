@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, JsonValue
 
 from app.schemas.common import Open
+from app.schemas.robots import RobotDescription
 
 Matrix = list[list[float | None]]
 PerJoint = list[float | None]
@@ -171,6 +172,19 @@ class Side(Open):
     solver: dict[str, JsonValue] = Field(default={})
 
 
+class Repair(Open):
+    """What a finding asks to be changed, before the log is identified or diagnosed again."""
+
+    cause: str
+    joints: list[int]
+    mends: Annotated[
+        Literal["robot", "log", "model", "nothing"],
+        Field(description="the description, the log, the model alone (a further term), or nothing"),
+    ]
+    what: Annotated[str, Field(examples=["Joint 3's d in the kinematic table goes from 0.25 to 0.268 m"])]
+    numbers: Annotated[dict[str, float], Field(description="what it is done with, in SI")]
+
+
 class Motion(Open):
     """How far the simulated robot strays from the measured one; rows are horizons, columns joints."""
 
@@ -263,6 +277,11 @@ class Diagnosis(Open):
     gain: list[JointGain]
     before: Side
     after: Side
+    repairs: Annotated[list[Repair], Field(description="one per finding, in their order")] = Field(default=[])
+    repaired_robot: Annotated[
+        RobotDescription | None,
+        Field(description="the description after its repairs, for POST /v1/robots; null where it has none"),
+    ] = None
     simulation: Simulation
     atlas: list[Dependence]
     spectra: list[Spectrum] = Field(default=[])

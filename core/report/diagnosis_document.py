@@ -9,6 +9,7 @@ from typing import cast
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
 from core.extension.gain import JointGain
 from core.extension.motion_gain import motion_intervals
+from core.extension.repair import repairs
 from core.report.compared import Compared
 from core.report.diagnosed import Diagnosed
 from core.report.document import base_parameter_rows, identification_document
@@ -16,6 +17,7 @@ from core.report.finding import finding_row, not_identifiable_row
 from core.report.identification import Identification
 from core.report.numbers import plain
 from core.report.remainder import dependence_rows, spectrum_rows, unexplained
+from core.report.repairs import repaired_description
 from core.simulation.multistep import Comparison, MultiStep
 
 
@@ -28,6 +30,7 @@ def diagnosis_document(found: Diagnosed, *, version: str, options: object) -> di
 
 def _diagnosis(found: Diagnosed) -> dict[str, object]:
     diagnosis = found.diagnosis
+    listed = repairs(diagnosis)
     return {
         "verdict": diagnosis.verdict,
         "findings": [finding_row(one) for one in diagnosis.findings],
@@ -39,6 +42,8 @@ def _diagnosis(found: Diagnosed) -> dict[str, object]:
         "after": {"validation": [], "base_parameters": []}
         if found.after is None
         else _side(found.after) | _extended(found.before, found.after),
+        "repairs": listed,
+        "repaired_robot": repaired_description(diagnosis.look.robot, listed),
         "simulation": _simulation(found.motion, found.motion_note),
         "atlas": dependence_rows(diagnosis.atlas),
         "spectra": spectrum_rows(diagnosis.atlas),

@@ -51,7 +51,7 @@ def _card(place: int, finding: Document, document: Document) -> Html:
     return tag(
         "article",
         tag("h3", f"{place}. {finding['title']}, {joints(finding['joints'])}"),
-        tag("p", unbroken(f"{finding['statement']}."), class_="statement"),
+        tag("p", unbroken(f"{finding['statement']}. {_repair(place, document)}"), class_="statement"),
         _key_figures(finding, band(document)),
         finding_figure(curve, unit_of_effort(document, curve["joint"])) if curve else None,
         _parameters(finding),
@@ -61,6 +61,12 @@ def _card(place: int, finding: Document, document: Document) -> Html:
         tag("p", _NOT_CURED, class_="note") if _is_raw(finding) else _refuted(finding["refuted"]),
         class_="finding",
     )
+
+
+def _repair(place: int, document: Document) -> str:
+    """Say what mends a finding, where the document tells it."""
+    listed = document["diagnosis"].get("repairs", ())[place - 1 : place]
+    return "".join(f"Repair: {one['what']}." for one in listed)
 
 
 def _is_raw(finding: Document) -> bool:

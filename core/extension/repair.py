@@ -1,0 +1,79 @@
+"""Turn findings into repairs that a user can take: of the robot's description, of the log, or neither.
+
+A repair is plain numbers beside a sentence, so that it can be written in a document and done again from
+there. It is of first order where its finding is: after a large one a second diagnosis finds the remainder.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.cause import Numbers, Site, Solved
+from core.diagnosis.diagnosis import Diagnosis, Finding
+from core.diagnosis.hypothesis import Candidate
+from core.diagnosis.mending import Mends, MendsRobot, mends
+from core.diagnosis.raw import RawCause
+from core.extension.extend import gains_surely
+from core.robot.model import RobotModel
+
+NOT_SURE = "Nothing is changed for it: its gain on rows that no fit has seen is not beyond doubt"
+
+
+@dataclass(frozen=True)
+class Repair:
+    """State what is changed because of one finding.
+
+    Attributes
+    ----------
+    cause, joints
+        The finding's.
+    mends
+        What is changed: the description (`robot`), the `log`, the `model` (a further term), or `nothing`.
+    what
+        What goes from what to what, in one sentence.
+    numbers
+        What the repair is done with, by name, in SI.
+    """
+
+    cause: str
+    joints: Site
+    mends: Mends
+    what: str
+    numbers: Numbers
+
+
+def repairs(diagnosis: Diagnosis) -> tuple[Repair, ...]:
+    """Give the repair of every finding, in their order."""
+    robot = diagnosis.look.robot
+    found: list[Repair] = []
+    for finding in diagnosis.findings:
+        found.append(_repair(finding, diagnosis, robot))
+        robot = repaired_robot(robot, found[-1:])
+    return tuple(found)
+
+
+def repaired_robot(robot: RobotModel, repairs: Iterable[Repair]) -> RobotModel:
+    """Correct a robot's description by all repairs that are of it."""
+    for one in repairs:
+        cause: object = BY_ID.get(one.cause)
+        if one.mends == "robot" and isinstance(cause, MendsRobot):
+            robot = cause.mended_robot(robot, one.joints, one.numbers)
+    return robot
+
+
+def _repair(finding: Finding, diagnosis: Diagnosis, robot: RobotModel) -> Repair:
+    if finding.member is None:
+        known = BY_ID[finding.cause]
+        why = known.beyond_repair if isinstance(known, RawCause) else NOT_SURE
+        return Repair(finding.cause, finding.joints, "nothing", why, {})
+    if not gains_surely(finding):
+        return Repair(finding.cause, finding.joints, "nothing", NOT_SURE, {})
+    cause = finding.member.cause
+    numbers = cause.numbers(diagnosis.look, _solved(diagnosis, finding.member))
+    what = cause.repair(robot, finding.joints, numbers)
+    return Repair(finding.cause, finding.joints, mends(cause), what, numbers)
+
+
+def _solved(diagnosis: Diagnosis, member: Candidate) -> Solved:
+    chosen = diagnosis.selection.chosen
+    return chosen.solved(chosen.members.index(member))

@@ -1,0 +1,113 @@
+"""Give a log as it would have been without the faults that were found in its channels.
+
+Rows are mended as they are read, so that a log's length costs no memory here either. Every stretch between
+gaps is mended by itself; rows that stand for dropped samples go on repeating the row before.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from itertools import pairwise
+
+import numpy as np
+
+from core.arrays import JointVector
+from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.mending import MendsLog
+from core.extension.repair import Repair
+from core.log.model import JointLog, LogRows, rows_at
+from core.robot.model import RobotModel
+from core.signals.condition import effort_scale
+from core.signals.resample import dropped
+
+NEIGHBOURS = 40
+"""Rows on either side that a spline is laid through; further ones change nothing."""
+FEWEST = 4
+"""Rows of a stretch that can be mended."""
+
+
+def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) -> JointLog:
+    """Correct a log's channels by all repairs that are of it, one after the other.
+
+    Parameters
+    ----------
+    robot
+        The robot of the log: it turns currents into joint torque where currents were logged.
+
+    Returns
+    -------
+    JointLog
+        Its stretches end earlier where a repair needs rows that lie beyond them.
+
+    Raises
+    ------
+    LogError
+        If the log holds currents, and the robot does not say what torque a current gives.
+    """
+    causes: Mapping[str, object] = BY_ID
+    chosen = [(one, causes.get(one.cause)) for one in repairs if one.mends == "log"]
+    mending = tuple((one, cause) for one, cause in chosen if isinstance(cause, MendsLog))
+    if not mending:
+        return log
+    reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in mending)
+    source = RepairedSource(log, effort_scale(log, robot), mending, reach)
+    inner = tuple((start + reach, stop - reach) for start, stop in log.segments if stop - start > 2 * reach)
+    return replace(log, name=f"{log.name}, repaired", source=source, segments=inner, sha256="")
+
+
+@dataclass(frozen=True, eq=False)
+class RepairedSource:
+    """Give the rows of a log as they were mended.
+
+    Attributes
+    ----------
+    effort_scale
+        Per joint, torque per unit of the logged effort.
+    reach
+        Rows on either side that the repairs need.
+    """
+
+    log: JointLog
+    effort_scale: JointVector
+    mending: tuple[tuple[Repair, MendsLog], ...]
+    reach: int
+
+    @property
+    def samples(self) -> int:
+        """Count the rows."""
+        return self.log.samples
+
+    def rows(self, start: int, stop: int) -> LogRows:
+        """Read and mend the rows from start up to, not including, stop."""
+        low, high = max(0, start - self.reach - NEIGHBOURS), min(self.samples, stop + self.reach + NEIGHBOURS)
+        read = self.log.source.rows(low, high)
+        borders = {border - low for one in self.log.segments for border in one if low < border < high}
+        cuts = sorted({0, high - low} | borders)
+        parts = [self._mended(rows_at(read, slice(*cut))) for cut in pairwise(cuts)]
+        return rows_at(_joined(parts), slice(start - low, stop - low))
+
+    def _mended(self, rows: LogRows) -> LogRows:
+        """Mend a stretch without gaps; what only repeats the row before does so again."""
+        fresh = ~dropped(rows)
+        if np.count_nonzero(fresh) < FEWEST:
+            return rows
+        mended = self._with_torque(rows_at(rows, fresh))
+        for one, cause in self.mending:
+            mended = cause.mended_rows(mended, one.joints, one.numbers)
+        held = rows_at(self._with_channel(mended, rows), np.cumsum(fresh) - 1)
+        return replace(held, time=rows.time)
+
+    def _with_torque(self, rows: LogRows) -> LogRows:
+        if rows.torque is not None or rows.current is None:
+            return rows
+        return replace(rows, torque=rows.current * self.effort_scale)
+
+    def _with_channel(self, mended: LogRows, rows: LogRows) -> LogRows:
+        """Give the effort back to the channel that it was logged in."""
+        if rows.torque is not None or mended.torque is None:
+            return mended
+        return replace(mended, torque=None, current=mended.torque / self.effort_scale)
+
+
+def _joined(parts: list[LogRows]) -> LogRows:
+    channels = {one.name: [getattr(part, one.name) for part in parts] for one in fields(LogRows)}
+    return LogRows(**{name: np.concatenate(one) for name, one in channels.items() if one[0] is not None})
