@@ -16,9 +16,12 @@ import pytest
 from core.diagnosis.catalogue import AGAINST_REFERENCE, BY_ID, CAUSES, RAW_CAUSES
 from core.diagnosis.cause import Cause, Solved
 from core.diagnosis.curve import STAND_IN
+from core.diagnosis.mending import MendsLog, MendsRobot, mends
 from core.diagnosis.raw import RawCause
 from core.diagnosis.residual.coordinates import coordinate, coordinate_names
+from core.log.model import whole_rows
 from core.robot.inertia import from_mass_properties
+from core.robot.likeness import differences
 from tests.core.diagnosis.scenes import (
     UNTOUCHED,
     Scene,
@@ -242,6 +245,48 @@ def test_a_finding_is_one_sentence_that_names_the_joint_and_a_number_with_its_un
     assert any(unit in text for unit in units) or "times" in text
     if found.site:
         assert re.search(rf"[Jj]oints? (\d and )?{max(found.site)}\b", text)
+
+
+def repair_of(cause: Cause, scene: Scene) -> tuple[tuple[int, ...], dict[str, float]]:
+    """Give joints and numbers of a small finding."""
+    found = solved(cause, scene, 1e-3)
+    joints = found.site or tuple(range(1, scene.look.joints + 1))
+    return joints, dict(cause.numbers(scene.look, found))
+
+
+@every_torque_cause
+def test_a_repair_is_one_sentence_from_numbers_that_a_document_can_hold(cause, scene):
+    joints, numbers = repair_of(cause, scene)
+    text = cause.repair(scene.look.robot, joints, numbers)
+    assert text[0].isupper()
+    assert not text.endswith(".")
+    assert len(text) < 240
+    assert not re.search(r"nan|inf\b|\d\.?\d*e\+", text)
+    assert all(np.isfinite(value) for value in numbers.values())
+    assert mends(cause) == "model" or re.search(r"\d", text)
+
+
+@every_torque_cause
+def test_a_repair_changes_what_it_says_and_can_be_done_from_the_numbers_alone(cause, scene):
+    joints, numbers = repair_of(cause, scene)
+    robot, (motion,) = scene.look.robot, scene.look.motions
+    assert mends(cause) in ("robot", "log", "model")
+    if isinstance(cause, MendsRobot):
+        assert differences(robot, cause.mended_robot(robot, joints, numbers))
+    if isinstance(cause, MendsLog):
+        rows = whole_rows(motion.log)
+        mended = cause.mended_rows(rows, joints, numbers)
+        changed = [np.abs(mended.torque - rows.torque).max(), np.abs(mended.position - rows.position).max()]
+        assert np.isfinite(changed).all()
+        assert max(changed) > 0.0
+        np.testing.assert_array_equal(mended.time, rows.time)
+
+
+@every_raw_cause
+def test_a_fault_of_the_samples_says_why_no_log_can_be_mended_of_it(cause: RawCause):
+    assert cause.beyond_repair[0].isupper()
+    assert not cause.beyond_repair.endswith(".")
+    assert len(cause.beyond_repair.split()) > 5
 
 
 @every_raw_cause

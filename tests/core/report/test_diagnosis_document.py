@@ -12,6 +12,7 @@ from core.report.page.page import compose_page
 from core.robot.description import robot_from_description
 from core.study import IdentifyRequest, diagnose
 from tests.app.planar_arm import columns, description
+from tests.core.report.page.test_page import Page
 
 AMPLITUDE, HARMONIC = 0.3, 7.0
 
@@ -80,6 +81,13 @@ def test_the_extended_model_has_the_old_parameters_and_the_new_ones(document):
     new = [row for row in rows if row["new"]]
     assert np.hypot(*(row["value"] for row in new)) == pytest.approx(AMPLITUDE, rel=0.1)
     assert all(row["standard_deviation"] > 0.0 for row in new)
+
+
+def test_every_finding_has_its_repair_and_a_description_that_is_right_is_not_repaired(document):
+    (one,) = document["diagnosis"]["repairs"]
+    assert (one["cause"], one["joints"], one["mends"]) == ("torque_ripple", [2], "model")
+    assert document["diagnosis"]["repaired_robot"] is None
+    assert f"Repair: {one['what']}." in Page(compose_page(json.loads(json.dumps(document)))).text
 
 
 def test_nothing_is_left_above_the_noise_floor(document):

@@ -183,6 +183,13 @@ def test_a_finding_is_told_with_its_size_its_reasons_and_its_rivals():
     assert "run both directions" in text
 
 
+def test_a_finding_is_told_with_its_repair_where_the_document_has_one():
+    one = {"cause": "friction_load_dependent", "joints": [1], "mends": "log", "what": "It is halved"}
+    text = Page(compose_page(diagnosed(repairs=[one]))).text
+    assert "grows by 0.07 N m per N m. Repair: It is halved." in text
+    assert "Repair:" not in Page(compose_page(diagnosed())).text
+
+
 def test_both_directions_of_motion_are_drawn_apart_where_the_document_has_them_apart():
     apart, together = (
         Page(compose_page(diagnosed(findings=[finding(curve=curve(direction=one))])))
