@@ -13,6 +13,7 @@ import numpy as np
 from core.arrays import JointVector
 from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.mending import MendsLog
+from core.errors import LogError
 from core.extension.repair import Repair
 from core.log.model import JointLog, LogRows, rows_at
 from core.robot.model import RobotModel
@@ -26,7 +27,7 @@ FEWEST = 4
 
 
 def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) -> JointLog:
-    """Correct a log's channels by all repairs that are of it, one after the other.
+    """Correct a log's channels by all repairs that are of it, in whatever order they are given.
 
     Parameters
     ----------
@@ -41,16 +42,26 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
     Raises
     ------
     LogError
-        If the log holds currents, and the robot does not say what torque a current gives.
+        If the log holds currents, and the robot does not say what torque a current gives; if no stretch of it
+        is long enough to be mended.
     """
     causes: Mapping[str, object] = BY_ID
-    chosen = [(one, causes.get(one.cause)) for one in repairs if one.mends == "log"]
-    mending = tuple((one, cause) for one, cause in chosen if isinstance(cause, MendsLog))
+    # The catalogue has a channel's scale before its zero and both before their lateness: the last goes first.
+    place = {name: -number for number, name in enumerate(BY_ID)}
+    chosen = sorted((one for one in repairs if one.mends == "log"), key=lambda one: place.get(one.cause, 0))
+    known = [(one, causes.get(one.cause)) for one in chosen]
+    mending = tuple((one, cause) for one, cause in known if isinstance(cause, MendsLog))
     if not mending:
         return log
     reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in mending)
     source = RepairedSource(log, effort_scale(log, robot), mending, reach)
     inner = tuple((start + reach, stop - reach) for start, stop in log.segments if stop - start > 2 * reach)
+    if not inner:
+        raise LogError(
+            "no stretch of the log between its gaps is long enough to be repaired",
+            evidence={"longest_samples": max(stop - start for start, stop in log.segments), "log": log.name},
+            remedy=f"record more than {2 * reach} samples without gaps",
+        )
     return replace(log, name=f"{log.name}, repaired", source=source, segments=inner, sha256="")
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.mending import mends
+from core.errors import LogError
 from core.extension.repair import Repair
 from core.extension.repaired_log import repaired_log
 from core.log.model import ArraySource, JointLog, whole_rows
@@ -137,6 +138,18 @@ def test_rows_are_the_same_in_whatever_pieces_they_are_read(name):
     np.testing.assert_allclose(np.vstack(pieces), whole, atol=1e-5)
 
 
+@pytest.mark.parametrize("turn", [1, -1], ids=["gain first", "delay first"])
+def test_several_faults_of_a_channel_are_undone_in_whatever_order_they_are_listed(turn):
+    late = even_time() - DELAY
+    effort = torque(late)
+    effort[:, JOINT - 1] = (1.0 + GAIN) * effort[:, JOINT - 1] + DRIFT * course(late)
+    names = ("torque_gain", "torque_offset_drift", "time_delay")
+    repairs = [spoilt(name)[1][0] for name in names][::turn]
+    found = mended(log_of(even_time(), motion(even_time())[0], effort), repairs)
+    rows = found.source.rows(*found.segments[0])
+    np.testing.assert_allclose(rows.torque, torque(rows.time), atol=1e-6)
+
+
 def test_an_angle_that_errs_once_per_turn_is_right_to_the_square_of_its_error_and_so_is_its_speed():
     time = even_time()
     position, velocity, effort = motion(time)
@@ -204,6 +217,12 @@ def test_a_bent_channel_ends_at_its_turning_point_where_no_torque_is_so_large():
     one = Repair("torque_gain_nonlinear", (JOINT,), "log", "", {"cubic_coefficient": -BEND})
     largest = np.abs(whole_rows(mended(log, [one])).torque[:, JOINT - 1]).max()
     assert largest == pytest.approx(1.0 / np.sqrt(3.0 * BEND))
+
+
+def test_a_log_that_is_too_short_to_be_repaired_is_refused_with_what_it_would_take():
+    log, _ = spoilt("time_delay")
+    with pytest.raises(LogError, match="more than 5000 samples"):
+        mended(log, [Repair("time_delay", ALL, "log", "", {"delay": 10.0})])
 
 
 def test_a_log_without_a_repair_of_its_own_is_the_same_log():
