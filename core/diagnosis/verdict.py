@@ -27,6 +27,7 @@ from core.diagnosis.residual.learner import Predictable, predictable_share, refu
 from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, log_p, log_p_of, rise, select
 from core.diagnosis.strangers import best_stranger, strangers
+from core.diagnosis.surprise import surprised, turned
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
@@ -76,11 +77,11 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     tell = progress or _say_nothing
     raw, look = _looked(question)
     refuse_too_little(look.clear)
-    tell("search", 0.1)
-    bench = _bench(question, look)
-    searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
-    tell("weigh rivals", 0.6)
-    selection, standings = weighed(bench, searched)
+    bench, selection, standings = _searched(_bench(question, look), tell)
+    if surprised(bench, selection.chosen) and (other_look := turned(look)) is not None:
+        other = _searched(_bench(question, other_look), tell)
+        if other[1].chosen.members and not surprised(other[0], other[1].chosen):
+            look, (bench, selection, standings) = other_look, other
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
     after = bench.residual(chosen)
     before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
@@ -108,6 +109,14 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         residual_before=before,
         residual_after=after,
     )
+
+
+def _searched(bench: Bench, tell: Progress) -> tuple[Bench, Selection, list[Standing]]:
+    """Search for causes, and keep those that stand up to their rivals."""
+    tell("search", 0.1)
+    searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
+    tell("weigh rivals", 0.6)
+    return bench, *weighed(bench, searched)
 
 
 def _bench(question: Question, look: Look) -> Bench:
@@ -263,8 +272,12 @@ def _pattern(bench: Bench, selection: Selection) -> Stranger | None:
 def _verdict(
     found: Sequence[Finding], predictable: Sequence[Predictable], stranger: Stranger | None, most: float
 ) -> Verdict:
-    """Say `unexplained` where what no cause explains is more than what the causes found do."""
-    if stranger is not None and stranger.statistic > most:
+    """Say `unexplained` where what no cause explains is more than what the causes found do.
+
+    What spoilt samples leave follows patterns, too: on joints where a raw check explains a part, it does.
+    """
+    spoilt = {joint for one in found if one.member is None for joint in _spoilt(one)}
+    if stranger is not None and stranger.statistic > most and stranger.joint not in spoilt:
         return "unexplained"
     left = [one for one in predictable if one.interval[0] > UNEXPLAINED_SHARE]
     if not found:
@@ -273,6 +286,10 @@ def _verdict(
     if any(one.share > explained.get(one.joint, 0.0) for one in left):
         return "unexplained"
     return "causes_found"
+
+
+def _spoilt(found: Finding) -> tuple[int, ...]:
+    return found.joints if found.explained_fraction > UNEXPLAINED_SHARE else ()
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

@@ -16,6 +16,8 @@ from core.log.model import JointLog
 
 LEAST_SHARE = 0.45
 """Share of a joint's residual that rounding must account for to be named; good encoders make a third."""
+COARSER, NOTABLE = 5.0, 0.05
+"""A step so many times the usual one of all joints stands out: it is named from this share on."""
 LEAST_OF_TORQUE = 0.006
 """The same of the torque itself: below, it is of no account to anyone."""
 BY_CHANCE = 0.2
@@ -45,9 +47,10 @@ class EncoderQuantization:
         steps = np.max([_steps(motion.log) for motion in look.motions], axis=0)
         found = []
         for joint in np.flatnonzero(steps > 0.0):
+            stands_out = steps[joint] > COARSER * np.median(steps[steps > 0.0])
             gained = disturbance(look, believed, _rounded(int(joint), float(steps[joint])))
             share = share_of_residual(look, believed, gained)
-            if share.max() > LEAST_SHARE and _felt(look, gained):
+            if share.max() > (NOTABLE if stands_out else LEAST_SHARE) and _felt(look, gained):
                 found.append(_finding(int(joint), float(steps[joint]), share))
         return tuple(found)
 

@@ -11,9 +11,9 @@ from typing import ClassVar
 
 import numpy as np
 from scipy.signal import oaconvolve
-from scipy.stats import norm
+from scipy.stats import binom, norm
 
-from core.arrays import JointSeries
+from core.arrays import JointSeries, Vector
 from core.diagnosis.cause import Confusion, Cure, Quantity
 from core.diagnosis.causes.common import rounded
 from core.diagnosis.look import Look
@@ -63,7 +63,7 @@ class TimestampJitter:
         shared = float(crosses[:, 0].sum() / max(crosses[:, 1].sum(), 1e-300))
         own = float(alone[:, 0].sum() / max(alone[:, 1].sum(), 1e-300))
         statistic = float(crosses[:, 0].sum() / np.sqrt(max(float(np.sum(crosses[:, 0] ** 2)), 1e-300)))
-        p_value = float(norm.sf(statistic))
+        p_value = _by_chance(statistic, crosses[:, 0])
         if p_value > LEVEL or shared < AGREEMENT * own:
             return ()
         std = float(np.sqrt(shared))
@@ -73,6 +73,12 @@ class TimestampJitter:
         scatter = np.sqrt(np.sum((crosses[:, 0] - shared * crosses[:, 1]) ** 2)) / crosses[:, 1].sum()
         found = Quantity("std", None, "s", std, 0.5 * float(scatter) / std)
         return (RawFinding((), (found,), _statement(found), statistic, p_value, share),)
+
+
+def _by_chance(statistic: float, products: Vector) -> float:
+    """Give the chance of such a sum of products, or of so many positive ones: a few may outweigh the rest."""
+    positive, count = np.count_nonzero(products > 0.0), np.count_nonzero(products)
+    return float(min(2.0 * min(norm.sf(statistic), binom.sf(positive - 1, count, 0.5)), 1.0))
 
 
 def _statement(found: Quantity) -> str:

@@ -72,6 +72,10 @@ class GravityMisalignment(Effect):
         every = tuple(range(1, arm.joints + 1))
         return cls(every, 0.02 * float(np.cos(angle)), 0.02 * float(np.sin(angle)))
 
+    def plausible(self) -> bool:
+        """Bound the whole tilt, whichever axis it is about."""
+        return bool(np.hypot(self.tilt_x, self.tilt_y) <= self.largest)
+
     def believed(self, robot: RobotModel) -> RobotModel:
         """Turn the true gravity back."""
         turn = rotation_y(self.tilt_y) @ rotation_x(self.tilt_x)

@@ -53,7 +53,7 @@ class Backlash(Effect):
     cause = "backlash"
     units: ClassVar = {"half_width": "rad"}
     sizes = ("half_width",)
-    largest = 0.05
+    largest = 0.01
     splits = True
 
     @classmethod

@@ -1,0 +1,57 @@
+"""See whether held-out rows hold something that the fitted rows never showed: a short event, mostly.
+
+What is held out is spread evenly, so that any lasting effect shows on both sides; what happened once may lie
+on the wrong one. Then other blocks are held out, and the search begins anew. Source: Stone, J. R. Stat. Soc.
+B 36(2), 1974, for exchanging the parts of a log.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core.arrays import Indices, Vector
+from core.diagnosis.bench import Bench
+from core.diagnosis.equations import extended, whitened
+from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.look import Look
+
+OVER_LARGEST, OVER_USUAL = 2.5, 6.0
+"""How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
+LEAST_ROWS = 8
+"""Of a block, to be judged."""
+
+
+def surprised(bench: Bench, found: Hypothesis) -> bool:
+    """Tell whether a block that was held out is missed far worse than any that was fitted."""
+    unseen = extended(bench.unseen, bench.columns(found.members))
+    for part, fitted, seen in zip(unseen, found.fit.joints, bench.base, strict=True):
+        left = whitened(part, fitted.noise).left(found.fit.values)
+        known = fitted.left(found.fit.values)
+        new, old = (_powers(bench.look, *one) for one in ((part.rows, left), (seen.rows, known)))
+        if len(new) and len(old) and new.max() > max(OVER_LARGEST * old.max(), OVER_USUAL * old.mean()):
+            return True
+    return False
+
+
+def turned(look: Look) -> Look | None:
+    """Hold other blocks out: those half-way to the next ones; None where whole logs are held out."""
+    held_out = np.zeros_like(look.held_out)
+    for log in np.unique(look.log):
+        own = look.log == log
+        blocks = np.unique(look.block[own])
+        held = np.unique(look.block[own & look.held_out])
+        if len(held) == len(blocks) or not len(held):
+            return None
+        shift = max(len(blocks) // (2 * len(held)), 1)
+        others = blocks[(np.searchsorted(blocks, held) + shift) % len(blocks)]
+        held_out |= own & np.isin(look.block, others)
+    return replace(look, held_out=held_out)
+
+
+def _powers(look: Look, rows: Indices, left: Vector) -> Vector:
+    """Give the mean square per block that has enough rows."""
+    block = (look.log * (1 + look.block.max()) + look.block)[rows]
+    counts = np.bincount(block)
+    power = np.bincount(block, left**2)
+    enough = counts >= LEAST_ROWS
+    return np.asarray(power[enough] / counts[enough])
