@@ -14,7 +14,7 @@ from core.diagnosis.reference import PRIOR, Reference, reference_from_prior
 from core.diagnosis.verdict import Question
 from core.diagnosis.verdict import diagnose as find_causes
 from core.dynamics.model import DynamicModel, standard_model
-from core.errors import OptionError, VeritorqueError
+from core.errors import OptionError, SolverError, VeritorqueError
 from core.estimate.constraints import default_prior
 from core.estimate.estimate import estimate
 from core.estimate.feasibility import active_constraints, feasibility
@@ -153,7 +153,11 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     whole = extended_base(base, terms)
     wider = Measured(ColumnPlan(whole.model, whole.kept), data.motions, data.held_out)
     fitting = _Fitting(wider, whole, sizes(found), None if reference is None else reference.belief)
-    after = _identified(request, options, fitting, lambda stage, done: tell(stage, 0.8 + 0.15 * done))
+    try:
+        after = _identified(request, options, fitting, lambda stage, done: tell(stage, 0.8 + 0.15 * done))
+    except SolverError as error:  # what was found stands, whether or not the cure can be computed
+        note = f"the extended model could not be identified: {error.cause}"
+        return Diagnosed(before, found, None, (), None, note, as_it_is)
     tell("simulate", 0.95)
     held = data.parts(before.observation)[1]
     old = before.estimate if as_it_is is None else as_it_is

@@ -1,0 +1,26 @@
+"""What a diagnosis found stands, even where the programme of the cured model cannot be solved."""
+
+from core import study
+from core.errors import SolverError
+from core.study import IdentifyRequest
+from tests.plant.cache import kept
+from tests.plant.cases import draw
+
+
+def test_findings_stand_where_the_extended_model_cannot_be_identified(monkeypatch):
+    case = kept(draw, 912, "torque_gain", 3.0, robot="planar-2", noise="white")
+    solved = []
+
+    def once(*arguments):
+        if solved:
+            raise SolverError("the solver stopped: AlmostSolved", evidence={}, remedy="move more")
+        solved.append(study_estimate(*arguments))
+        return solved[0]
+
+    study_estimate = study.estimate
+    monkeypatch.setattr(study, "estimate", once)
+    document = study.diagnose(IdentifyRequest(case.believed, (case.log,), {"bootstrap": {"draws": 0}}))
+    diagnosis = document["diagnosis"]
+    assert [one["cause"] for one in diagnosis["findings"]] == ["torque_gain"]
+    assert diagnosis["after"] == {"validation": [], "base_parameters": []}
+    assert "AlmostSolved" in diagnosis["simulation"]["note"]
