@@ -8,7 +8,7 @@ from tests.plant.cases import draw
 
 
 def test_findings_stand_where_the_extended_model_cannot_be_identified(monkeypatch):
-    case = kept(draw, 912, "torque_gain", 3.0, robot="planar-2", noise="white")
+    case = kept(draw, 912, "torque_ripple", 3.0, robot="planar-2", noise="white")
     solved = []
 
     def once(*arguments):
@@ -21,6 +21,6 @@ def test_findings_stand_where_the_extended_model_cannot_be_identified(monkeypatc
     monkeypatch.setattr(study, "estimate", once)
     document = study.diagnose(IdentifyRequest(case.believed, (case.log,), {"bootstrap": {"draws": 0}}))
     diagnosis = document["diagnosis"]
-    assert [one["cause"] for one in diagnosis["findings"]] == ["torque_gain"]
+    assert [one["cause"] for one in diagnosis["findings"]] == ["torque_ripple"]
     assert diagnosis["after"] == {"validation": [], "base_parameters": []}
     assert "AlmostSolved" in diagnosis["simulation"]["note"]

@@ -53,7 +53,7 @@ class Backlash(Effect):
     cause = "backlash"
     units: ClassVar = {"half_width": "rad"}
     sizes = ("half_width",)
-    largest = 0.01
+    largest = 0.02
     splits = True
 
     @classmethod
