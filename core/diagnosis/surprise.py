@@ -48,8 +48,8 @@ def turned(look: Look) -> Look | None:
     return replace(look, held_out=held_out)
 
 
-def _powers(look: Look, rows: Indices, left: Vector) -> Vector:
-    """Give the mean square per block that has enough rows."""
+def _powers(look: Look, rows: Indices, left: Vector) -> np.ndarray:
+    """Give the mean square of every block that has enough rows."""
     block = (look.log * (1 + look.block.max()) + look.block)[rows]
     counts = np.bincount(block)
     power = np.bincount(block, left**2)
