@@ -76,3 +76,13 @@ def test_a_column_that_the_model_has_already_is_no_direction(arm):
 def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
     """A chance needs a direction; that it explains nothing is seen from its rise."""
     assert freedom(arm, VISCOUS) == 1
+
+
+def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
+    """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
+    bench = bench_of(measured_arm(WAVE), ())
+    bench.believe(nothing_found(bench).fit)
+    member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
+    whole = bench.tried((member,))
+    (found,) = bench.scanned(bench.beneath(whole), [member])
+    np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
