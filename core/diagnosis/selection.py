@@ -34,8 +34,8 @@ UNLUCKY = 2.5
 """unless it is so small that luck, within so many of its deviations, can take it away."""
 EVENT_LEVEL = 1e-6
 """The same for an event, which is looked for where noise is largest."""
-MOST_OF_A_ROW = 16.0
-"""Squared deviations that a row may count for in an event."""
+MOST_OF_A_ROW = 9.0
+"""Squared deviations that a row may count for."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -115,7 +115,7 @@ def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -
     event = trial.members[-1].cause.event
     level = FURTHER_LEVEL if now.members else EVENT_LEVEL if event else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
-    chance = log_p(now, trial, bounded_rise(now, trial) if event else np.inf)
+    chance = log_p(now, trial, bounded_rise(now, trial))
     return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
 
 
@@ -145,13 +145,17 @@ def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf) -> float:
 
 
 def bounded_rise(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise where no row counts for more than so many squared deviations.
+    """Give the rise over the rows that a last member acts on, none counting for more than so many deviations.
 
-    A few spikes of heavy-tailed noise are no event, however large they are.
+    A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
     """
     before = np.pad(now.fit.values, (0, len(trial.fit.values) - len(now.fit.values)))
+    own = trial.columns_of(len(trial.members) - 1)
     squares = [
-        sum(float(np.sum(np.minimum(part.left(values) ** 2, MOST_OF_A_ROW))) for part in trial.fit.joints)
+        sum(
+            float(np.sum(np.minimum(part.left(values) ** 2, MOST_OF_A_ROW)[part.columns[:, own].any(axis=1)]))
+            for part in trial.fit.joints
+        )
         for values in (before, trial.fit.values)
     ]
     return squares[0] - squares[1]

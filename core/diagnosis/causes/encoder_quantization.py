@@ -14,12 +14,14 @@ from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from core.log.defects.stretch import stretches
 from core.log.model import JointLog
 
-LEAST_SHARE = 0.45
-"""Share of a joint's residual that rounding must account for to be named; good encoders make a third."""
-COARSER, NOTABLE = 5.0, 0.05
-"""A step so many times the usual one of all joints stands out: it is named from this share on."""
+LEAST_SHARE = 0.6
+"""Share of a joint's residual that rounding must account for to be named; good encoders make a half."""
 LEAST_OF_TORQUE = 0.006
 """The same of the torque itself: below, it is of no account to anyone."""
+COARSER = 5.0
+"""A step so many times the usual one of all joints stands out,"""
+NOTABLE, NOTABLE_OF_TORQUE = 0.05, 0.02
+"""and is named from these shares of a joint's residual or of its torque on."""
 BY_CHANCE = 0.2
 """Chance of one increment lying within a tenth of a whole number of steps."""
 
@@ -47,27 +49,36 @@ class EncoderQuantization:
         steps = np.max([_steps(motion.log) for motion in look.motions], axis=0)
         found = []
         for joint in np.flatnonzero(steps > 0.0):
-            stands_out = steps[joint] > COARSER * np.median(steps[steps > 0.0])
             gained = disturbance(look, believed, _rounded(int(joint), float(steps[joint])))
-            share = share_of_residual(look, believed, gained)
-            if share.max() > (NOTABLE if stands_out else LEAST_SHARE) and _felt(look, gained):
-                found.append(_finding(int(joint), float(steps[joint]), share))
+            share, of_torque = share_of_residual(look, believed, gained), _of_torque(look, gained)
+            stands_out = steps[joint] > COARSER * np.median(steps[steps > 0.0])
+            if _matters(float(share.max()), float(of_torque.max()), stands_out=bool(stands_out)):
+                found.append(_finding(int(joint), float(steps[joint]), share, of_torque))
         return tuple(found)
 
 
-def _felt(look: Look, gained: JointSeries) -> bool:
-    """Tell whether an error is worth a word beside the torque itself."""
+def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
+    """Tell whether rounding is worth a word, by its largest shares of a residual and of a torque."""
+    if stands_out and of_torque > NOTABLE_OF_TORQUE:
+        return True
+    return of_torque > LEAST_OF_TORQUE and share > (NOTABLE if stands_out else LEAST_SHARE)
+
+
+def _of_torque(look: Look, gained: JointSeries) -> JointVector:
+    """Give the RMS of an error over the torque's, per joint."""
     sizes = [np.sqrt(np.mean(one**2, axis=0)) for one in (gained, look.torque)]
-    return bool(np.max(sizes[0] / np.maximum(sizes[1], 1e-300)) > LEAST_OF_TORQUE)
+    return np.asarray(sizes[0] / np.maximum(sizes[1], 1e-300))
 
 
-def _finding(joint: int, step: float, share: JointVector) -> RawFinding:
+def _finding(joint: int, step: float, share: JointVector, of_torque: JointVector) -> RawFinding:
     return RawFinding(
         site=(joint + 1,),
         quantities=(Quantity("lsb", joint + 1, "rad", step, 0.0),),
         statement=(
             f"Joint {joint + 1}'s encoder has steps of {step:.3g} rad; differentiated, their rounding makes "
-            f"{100.0 * min(1.0, float(share.max())):.3g} % of joint {int(share.argmax()) + 1}'s residual"
+            f"{100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s residual, "
+            f"and an error of {100.0 * float(of_torque.max()):.2g} % of joint "
+            f"{int(of_torque.argmax()) + 1}'s torque"
         ),
         statistic=float(share.max()),
         p_value=BY_CHANCE**FEWEST_INCREMENTS,

@@ -1,0 +1,35 @@
+"""Tell a spike of the torque channel from something that pushes: one lasts a sample, the other many.
+
+A filter makes a swell of a spike, so that only the raw samples tell them apart. Source: Davies & Gather, J.
+Am. Stat. Assoc. 88, 1993, for outliers against a quantile of what surrounds them.
+"""
+
+import numpy as np
+
+from core.diagnosis.look import Look
+from core.dynamics.terms.contact import Span
+from core.signals.derivative import median
+
+ORDER = 5
+"""Of the running median that a push passes and a spike does not."""
+QUANTILE, MOST = 0.95, 20.0
+"""A remainder of so many times this quantile of all is a spike, even where noise has heavy tails."""
+AROUND_S = 2.0
+"""Time on either side of a span that says what is usual."""
+
+
+def spiked(look: Look, span: Span) -> bool:
+    """Tell whether a raw sample within a span of the only log is a spike of some joint's torque."""
+    log = look.motions[0].log
+    first = float(log.source.rows(0, 1).time[0])
+    begin, end = (round((edge - first) * log.rate_hz) for edge in (span[0] - AROUND_S, span[1] + AROUND_S))
+    rows = log.source.rows(max(begin, 0), min(end, log.samples))
+    effort = rows.current if rows.torque is None else rows.torque
+    if effort is None or len(rows.time) <= ORDER:
+        return False
+    reach = ORDER // 2
+    remainder = np.abs(effort[reach:-reach] - median(np.ascontiguousarray(effort), ORDER))
+    time = rows.time[reach:-reach]
+    inside = (time >= span[0]) & (time <= span[1])
+    usual = np.maximum(np.quantile(remainder, QUANTILE, axis=0), 1e-300)
+    return bool(np.any(remainder[inside] > MOST * usual))
