@@ -34,7 +34,7 @@ UNLUCKY = 2.5
 """unless it is so small that luck, within so many of its deviations, can take it away."""
 EVENT_LEVEL = 1e-6
 """The same for an event, which is looked for where noise is largest."""
-MOST_OF_A_ROW = 9.0
+MOST_OF_A_ROW = 16.0
 """Squared deviations that a row may count for."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
