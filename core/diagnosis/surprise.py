@@ -14,25 +14,17 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.equations import extended, whitened
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look
-from core.diagnosis.selection import MOST_OF_A_ROW
 
-OVER_LARGEST, OVER_USUAL = 1.5, 5.0
+OVER_LARGEST, OVER_USUAL = 2.5, 6.0
 """How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
 LEAST_ROWS = 8
 """Of a block, to be judged."""
 
 
 def surprised(bench: Bench, found: Hypothesis) -> bool:
-    """Tell whether a block that was held out is missed far worse than any that was fitted.
-
-    Joints on which something was found are left out: its columns are not exact, and less so where they were
-    not fitted.
-    """
+    """Tell whether a block that was held out is missed far worse than any that was fitted."""
     unseen = extended(bench.unseen, bench.columns(found.members))
-    known_joints = {joint for one in found.members for joint in one.site}
-    for joint, (part, fitted, seen) in enumerate(zip(unseen, found.fit.joints, bench.base, strict=True), 1):
-        if joint in known_joints:
-            continue
+    for part, fitted, seen in zip(unseen, found.fit.joints, bench.base, strict=True):
         left = whitened(part, fitted.noise).left(found.fit.values)
         known = fitted.left(found.fit.values)
         new, old = (_powers(bench.look, *one) for one in ((part.rows, left), (seen.rows, known)))
@@ -57,12 +49,9 @@ def turned(look: Look) -> Look | None:
 
 
 def _powers(look: Look, rows: Indices, left: Vector) -> np.ndarray:
-    """Give the mean square of every block that has enough rows, no row counting for more than it may.
-
-    Else a spike of heavy-tailed noise, which cannot be looked for anyway, would cost a second search.
-    """
+    """Give the mean square of every block that has enough rows."""
     block = (look.log * (1 + look.block.max()) + look.block)[rows]
     counts = np.bincount(block)
-    power = np.bincount(block, np.minimum(left**2, MOST_OF_A_ROW))
+    power = np.bincount(block, left**2)
     enough = counts >= LEAST_ROWS
     return np.asarray(power[enough] / counts[enough])
