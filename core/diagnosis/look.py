@@ -91,6 +91,11 @@ class Look:
         marks[[stretch.rows.start for stretch in self.stretches]] = True
         return marks
 
+    @property
+    def block_of_all(self) -> np.ndarray:
+        """Number the blocks of all logs through, one number per row."""
+        return np.asarray(self.log * (1 + self.block.max()) + self.block)
+
     @cached_property
     def speed(self) -> np.ndarray:
         """Give the RMS speed per joint, rad/s or m/s."""

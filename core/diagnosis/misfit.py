@@ -55,7 +55,7 @@ def _quiet(look: Look, left: Vector, rows: Indices) -> Indices:
     """Keep the rows of the blocks in which a misfit is smaller than in half of them."""
     if not len(rows):
         return rows
-    block = (look.log * (1 + look.block.max()) + look.block)[rows]
+    block = look.block_of_all[rows]
     counts = np.maximum(np.bincount(block), 1)
     power = np.bincount(block, left[rows] ** 2) / counts
     return np.asarray(rows[power[block] <= np.median(power[np.unique(block)])])

@@ -87,7 +87,7 @@ def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) ->
     if own.margin < -INDIFFERENCE and not alone:
         return True
     look, joints = bench.look, tuple(sorted(bench.columns([own.member])[0]))
-    mask, block = look.usable & look.held_out[:, None], look.log * (1 + look.block.max()) + look.block
+    mask, block = look.usable & look.held_out[:, None], look.block_of_all
     seen = gain(bench.residual(own.without), bench.residual(chosen), mask, block, joints)
     if seen is None or own.member.cause.event or bench.belief is not None:
         return False

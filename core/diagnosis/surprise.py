@@ -50,7 +50,7 @@ def turned(look: Look) -> Look | None:
 
 def _powers(look: Look, rows: Indices, left: Vector) -> np.ndarray:
     """Give the mean square of every block that has enough rows."""
-    block = (look.log * (1 + look.block.max()) + look.block)[rows]
+    block = look.block_of_all[rows]
     counts = np.bincount(block)
     power = np.bincount(block, left**2)
     enough = counts >= LEAST_ROWS

@@ -161,8 +161,7 @@ def _finding(
     columns = bench.columns([member])[0]
     joints = tuple(sorted(columns))
     mask = look.usable & look.held_out[:, None]
-    block = look.log * (1 + look.block.max()) + look.block
-    measured = gain(left[0], left[1], mask, block, joints)
+    measured = gain(left[0], left[1], mask, look.block_of_all, joints)
     log_p = log_p_of(bench, chosen, place, own.statistic)
     return Finding(
         cause=cause.id,
