@@ -69,19 +69,32 @@ class Bench:
         self._believing: dict[Place, Columns] = {}
         self._candidates: tuple[Candidate, ...] = ()
 
-    def believe(self, found: Fit) -> None:
-        """Take the base parameters of a fit for what is believed, and forget what was built on others."""
+    def believe(self, found: Hypothesis) -> None:
+        """Take a fit's base parameters for what is believed, and forget what was built on others.
+
+        What may have happened is then looked for in what the hypothesis leaves of the torque.
+        """
         standard = np.zeros(len(self.plan.model.parameters))
-        standard[list(self.plan.columns)] = found.values[: len(self.plan.columns)]
+        standard[list(self.plan.columns)] = found.fit.values[: len(self.plan.columns)]
+        look = self._without_lasting(found)
         self.believed = Prediction(self.plan.model, standard, inverse_dynamics)
         self._believing = {}
         self._candidates = tuple(
             Candidate(cause, site, scalars, cause.trials(grid, scalars))
             for cause in self.causes
             for site in cause.sites(self.look, self.believed)
-            for grid in [tuple(cause.grid(self.look, self.believed, site))]
+            for grid in [tuple(cause.grid(look, self.believed, site))]
             for scalars in grid
         )
+
+    def _without_lasting(self, found: Hypothesis) -> Look:
+        """Take from the torque what a hypothesis's members explain of it, all but events."""
+        torque = self.look.torque.copy()
+        for index, columns in enumerate(self.columns(found.members)):
+            if not found.members[index].cause.event:
+                for joint, one in columns.items():
+                    torque[:, joint] -= one @ found.fit.values[found.columns_of(index)]
+        return replace(self.look, torque=torque)
 
     @property
     def candidates(self) -> tuple[Candidate, ...]:
@@ -205,10 +218,10 @@ class Bench:
                 missed[-1] += share * self.belief.departure(one.fit.values)
         return missed[0] - missed[1]
 
-    def unseen_share(self, trial: Hypothesis) -> float:
-        """Give the square of the last member's torque on held-out rows over that on the fitted ones."""
-        columns = self.columns(trial.members)[-1]
-        values = trial.fit.values[trial.columns_of(len(trial.members) - 1)]
+    def unseen_share(self, trial: Hypothesis, index: int = -1) -> float:
+        """Give the square of a member's torque on held-out rows over that on the fitted ones."""
+        columns = self.columns(trial.members)[index]
+        values = trial.fit.values[trial.columns_of(index % len(trial.members))]
         squares = []
         for part in (self.unseen, self.base):
             total = 0.0

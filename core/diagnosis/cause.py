@@ -116,8 +116,8 @@ class Cause(Protocol):
         ...
 
     @property
-    def excludes(self) -> tuple[str, ...]:
-        """List causes that are not added once it is there: what it explains, or leaves, looks like them."""
+    def leaves(self) -> tuple[str, ...]:
+        """List causes that what it leaves looks like: beside it, they have to be nearly as clear."""
         ...
 
     @property

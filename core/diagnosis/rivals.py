@@ -13,7 +13,7 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.selection import Selection, Step, merit, rise, with_candidate
+from core.diagnosis.selection import Selection, Step, keeps_beside, merit, rise, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0
@@ -23,6 +23,8 @@ STRANGER_SHARE = 0.25
 """Share of a finding's rise by which a pattern without a name has to lead to refute it."""
 EVENT_SHARE = 0.5
 """An event at picked instants fits a little of anything: this share of its rise is not counted."""
+LEAST_SEEN = 4.0
+"""Rise to be expected on unseen rows below which these say nothing of a cause."""
 LEAST_GAIN = 0.5
 """Per cent of the error on unseen rows that a cause beside a clearer one has to gain, or gain for sure."""
 WEIGHED = 6
@@ -86,14 +88,18 @@ def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) ->
     """
     if own.margin < -INDIFFERENCE and not alone:
         return True
-    look, joints = bench.look, tuple(sorted(bench.columns([own.member])[0]))
-    mask, block = look.usable & look.held_out[:, None], look.block_of_all
-    seen = gain(bench.residual(own.without), bench.residual(chosen), mask, block, joints)
-    if seen is None or own.member.cause.event or bench.belief is not None:
+    if own.member.cause.event or bench.belief is not None:
         return False
+    if bench.unseen_share(chosen, chosen.by_key[own.member.key]) * own.statistic < LEAST_SEEN:
+        return False
+    look, left = bench.look, (bench.residual(own.without), bench.residual(chosen))
+    mask = look.usable & look.held_out[:, None]
+    # What shared parameters take up where a cause acts, they spoil on the other joints.
+    places = (tuple(sorted(bench.columns([own.member])[0])), tuple(range(look.joints)))
+    seen = [one for joints in places if (one := gain(*left, mask, look.block_of_all, joints)) is not None]
     if alone:
-        return seen.interval_95[1] < 0.0
-    return seen.interval_95[0] <= 0.0 and seen.total_percent < LEAST_GAIN
+        return any(one.interval_95[1] < 0.0 for one in seen)
+    return bool(seen) and all(one.interval_95[0] <= 0.0 and one.total_percent < LEAST_GAIN for one in seen)
 
 
 def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> bool:
@@ -120,6 +126,8 @@ def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
     ambiguous, refuted, margin = [], [], np.inf
     own_merit, own_rise = merit(without, own), rise(without, own)
     for trial in sorted(trials, key=lambda one: -merit(without, one)):
+        if keeps_beside(bench, own, trial.members[-1], rise(without, trial)):
+            continue
         behind = own_merit - merit(without, trial)
         if trial.possible:
             margin = min(margin, behind)

@@ -5,7 +5,7 @@ others; so after every step each chosen cause has to defend its place against be
 rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
@@ -36,6 +36,8 @@ EVENT_LEVEL = 1e-6
 """The same for an event, which is looked for where noise is largest."""
 MOST_OF_A_ROW = 16.0
 """Squared deviations that a row may count for."""
+BESIDE_SHARE = 0.5
+"""What keeps this share of its rise beside a finding is no rival to it."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -58,13 +60,25 @@ class Selection:
     steps: tuple[Step, ...]
 
 
-def select(bench: Bench, progress: Callable[[float], None] | None = None) -> Selection:
-    """Search for the causes that explain the rows."""
+def select(
+    bench: Bench, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
+) -> Selection:
+    """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
     none = bench.tried(())
-    bench.believe(none.fit)
-    now, steps = none, list[Step]()
-    given_up: set[Key] = set()
-    for number in range(MOST):
+    bench.believe(none)
+    given_up, steps = set[Key](), [Step("taken over", one, 0.0) for one in start]
+    now = none
+    if start:
+        now = _defended(bench, _settled(bench, bench.tried(tuple(start))), steps, given_up)
+    return continued(bench, Selection(none, now, tuple(steps)), given_up, progress)
+
+
+def continued(
+    bench: Bench, so_far: Selection, given_up: set[Key], progress: Callable[[float], None] | None = None
+) -> Selection:
+    """Search for more causes than those found so far, of kinds that were not given up."""
+    now, steps = so_far.chosen, list(so_far.steps)
+    for number in range(len(now.members), MOST):
         if progress is not None:
             progress(number / MOST)
         better = best_addition(bench, now, given_up)
@@ -72,17 +86,29 @@ def select(bench: Bench, progress: Callable[[float], None] | None = None) -> Sel
             break
         steps.append(Step("added", better.members[-1], rise(now, better)))
         now = _defended(bench, _settled(bench, better), steps, given_up)
-    return Selection(none, now, tuple(steps))
+    return Selection(so_far.none, now, tuple(steps))
 
 
 def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found, and settle its last member's scalars anew under that belief."""
-    bench.believe(better.fit)
-    again = bench.tried(better.members, better)
-    member, before = again.members[-1], bench.beneath(again)
+    """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first.
+
+    A cause that joins changes what the others look like: the torque at which another joint's amplifier clips
+    is another one once a scale is known to be wrong.
+    """
+    bench.believe(better)
+    now = bench.tried(better.members, better)
+    for turn in range(len(now.members)):
+        if turn:
+            now = bench.tried((*now.members[1:], now.members[0]), now)
+        now = _last_settled(bench, now)
+    return now if len(now.members) < 2 else bench.tried((*now.members[1:], now.members[0]), now)
+
+
+def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
+    member, before = now.members[-1], bench.beneath(now)
     same = [one for one in bench.candidates if one.key == member.key]
     found = bench.scanned(before, [*same, member])[0]
-    return bench.tried((*before.members, bench.refined(before, found.candidate)), again)
+    return bench.tried((*before.members, bench.refined(before, found.candidate)), now)
 
 
 def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NOTHING) -> Hypothesis | None:
@@ -93,8 +119,7 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     given_up
         Kinds that were chosen once and could not defend their place.
     """
-    excluded = {name for one in now.members for name in one.cause.excludes}
-    taken = {*now.by_key, *given_up, *(one.key for one in bench.candidates if one.cause.id in excluded)}
+    taken = {*now.by_key, *given_up}
     scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
     tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
@@ -107,7 +132,22 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
     # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
     ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -merit(now, trial)))
-    return next((trial for trial in ranked if trial.possible and holds_unseen(bench, now, trial)), None)
+    deserves = (
+        trial
+        for trial in ranked
+        if trial.possible and holds_unseen(bench, now, trial) and not left_over(bench, now, trial)
+    )
+    return next(deserves, None)
+
+
+def left_over(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
+    """Tell whether a last member is what another one leaves, and brings too little to be a cause itself."""
+    for index, member in enumerate(now.members):
+        if trial.members[-1].cause.id in member.cause.leaves:
+            without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
+            if rise(now, trial) < BESIDE_SHARE * rise(without, now):
+                return True
+    return False
 
 
 def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
@@ -127,7 +167,7 @@ def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
     if trial.members[-1].cause.event:
         return True
     expected = bench.unseen_share(trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
-    luck = 2.0 * float(np.sqrt(max(expected, 0.0)))
+    luck = 2.0 * float(np.sqrt(max(expected, 1.0)))
     return bench.unseen_rise(now, trial) >= min(UNSEEN_SHARE * expected, expected - UNLUCKY * luck)
 
 
@@ -145,20 +185,20 @@ def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf) -> float:
 
 
 def bounded_rise(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise over the rows that a last member acts on, none counting for more than so many deviations.
+    """Give the rise where no row counts for more than so many deviations; of an event, over its own rows.
 
     A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
     """
     before = np.pad(now.fit.values, (0, len(trial.fit.values) - len(now.fit.values)))
-    own = trial.columns_of(len(trial.members) - 1)
-    squares = [
-        sum(
-            float(np.sum(np.minimum(part.left(values) ** 2, MOST_OF_A_ROW)[part.columns[:, own].any(axis=1)]))
-            for part in trial.fit.joints
+    own, event = trial.columns_of(len(trial.members) - 1), trial.members[-1].cause.event
+    total = 0.0
+    for part in trial.fit.joints:
+        rows = part.columns[:, own].any(axis=1) if event else slice(None)
+        old, new = (
+            np.minimum(part.left(one)[rows] ** 2, MOST_OF_A_ROW) for one in (before, trial.fit.values)
         )
-        for values in (before, trial.fit.values)
-    ]
-    return squares[0] - squares[1]
+        total += float(np.sum(old - new))
+    return total
 
 
 def rise(now: Hypothesis, trial: Hypothesis) -> float:
@@ -211,7 +251,7 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Ke
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
-        bench.believe(changed.fit)
+        bench.believe(changed)
         now = bench.tried(changed.members, changed)
     return now
 
@@ -226,11 +266,17 @@ def _challenged(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[
         rival = best_addition(bench, without, given_up)
         if rival is None or rival.members[-1].key == member.key:
             continue
+        if keeps_beside(bench, now, rival.members[-1], rise(without, rival)):
+            continue
         if merit(without, rival) > merit(without, _last(now, index)) + 6.0:
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
-            given_up.add(member.key)
             return rival
     return None
+
+
+def keeps_beside(bench: Bench, own: Hypothesis, rival: Candidate, alone: float) -> bool:
+    """Tell whether a candidate keeps its rise beside a hypothesis: then it is no rival."""
+    return bench.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
 
 
 def _last(now: Hypothesis, index: int) -> Hypothesis:

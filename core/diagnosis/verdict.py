@@ -17,7 +17,7 @@ from core.diagnosis.confidence import confidence
 from core.diagnosis.curve import curve
 from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.gain import gain
-from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.levels import level_keeper
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.raw import RawCause, RawFinding
@@ -25,7 +25,7 @@ from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
 from core.diagnosis.rivals import Standing, weighed
-from core.diagnosis.selection import Selection, log_p, log_p_of, rise, select
+from core.diagnosis.selection import Selection, continued, log_p, log_p_of, rise, select
 from core.diagnosis.strangers import best_stranger, strangers
 from core.diagnosis.surprise import surprised, turned
 from core.dynamics.model import DynamicModel
@@ -79,7 +79,7 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     refuse_too_little(look.clear)
     bench, selection, standings = _searched(_bench(question, look), tell)
     if surprised(bench, selection.chosen) and (other_look := turned(look)) is not None:
-        other = _searched(_bench(question, other_look), tell)
+        other = _searched(_bench(question, other_look), tell, selection.chosen.members)
         if other[1].chosen.members and not surprised(other[0], other[1].chosen):
             look, (bench, selection, standings) = other_look, other
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
@@ -111,12 +111,21 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     )
 
 
-def _searched(bench: Bench, tell: Progress) -> tuple[Bench, Selection, list[Standing]]:
-    """Search for causes, and keep those that stand up to their rivals."""
+def _searched(
+    bench: Bench, tell: Progress, start: Sequence[Candidate] = ()
+) -> tuple[Bench, Selection, list[Standing]]:
+    """Search for causes, from those known already if any, and keep those that stand up to their rivals."""
     tell("search", 0.1)
-    searched = select(bench, lambda done: tell("search", 0.1 + 0.5 * done))
+    found = select(bench, lambda done: tell("search", 0.1 + 0.5 * done), start)
     tell("weigh rivals", 0.6)
-    return bench, *weighed(bench, searched)
+    kept, standings = weighed(bench, found)
+    lost = {*found.chosen.by_key} - {*kept.chosen.by_key}
+    if lost:
+        # What stood in for another cause may have kept it out.
+        more = continued(bench, kept, lost)
+        if len(more.chosen.members) > len(kept.chosen.members):
+            return bench, *weighed(bench, more)
+    return bench, kept, standings
 
 
 def _bench(question: Question, look: Look) -> Bench:
@@ -136,9 +145,9 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
             question.model, question.logs, held_out=question.held_out, blocks=question.blocks, width=width
         )
         bench = Bench(look, question.plan, (), look.usable & ~look.held_out[:, None])
-        found = bench.tried(()).fit
+        found = bench.tried(())
         bench.believe(found)
-        looks.append((look, bench.believed, tuple(one.noise for one in found.joints)))
+        looks.append((look, bench.believed, tuple(one.noise for one in found.fit.joints)))
         return looks[-1]
 
     look, _, _ = narrowed(look_again)

@@ -38,7 +38,7 @@ class Backlash(OwnJointCause):
     coordinate = "load"
     inexact = 0.15
     # The link bounces and slides as it lands; what that leaves looks like a spring or like lost time.
-    excludes = ("joint_elasticity", "time_delay", "torque_filter_lag")
+    leaves = ("joint_elasticity", "time_delay", "torque_filter_lag")
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List the joints that turn."""

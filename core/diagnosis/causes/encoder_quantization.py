@@ -19,7 +19,7 @@ LEAST_SHARE = 0.6
 LEAST_OF_TORQUE = 0.006
 """The same of the torque itself: below, it is of no account to anyone."""
 COARSER = 5.0
-"""A step so many times the usual one of all joints stands out,"""
+"""A step so many times the usual one of the other joints stands out,"""
 NOTABLE, NOTABLE_OF_TORQUE = 0.05, 0.02
 """and is named from these shares of a joint's residual or of its torque on."""
 BY_CHANCE = 0.2
@@ -51,10 +51,18 @@ class EncoderQuantization:
         for joint in np.flatnonzero(steps > 0.0):
             gained = disturbance(look, believed, _rounded(int(joint), float(steps[joint])))
             share, of_torque = share_of_residual(look, believed, gained), _of_torque(look, gained)
-            stands_out = steps[joint] > COARSER * np.median(steps[steps > 0.0])
-            if _matters(float(share.max()), float(of_torque.max()), stands_out=bool(stands_out)):
+            if _matters(
+                float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, int(joint))
+            ):
                 found.append(_finding(int(joint), float(steps[joint]), share, of_torque))
         return tuple(found)
+
+
+def _stands_out(steps: JointVector, joint: int) -> bool:
+    """Tell whether a joint's steps are coarser than its robot's other encoders let one expect."""
+    others = np.delete(steps, joint)
+    others = others[others > 0.0]
+    return bool(len(others) and steps[joint] > COARSER * np.median(others))
 
 
 def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:

@@ -25,7 +25,7 @@ class TimeDelay(OwnJointCause, MendsLog):
     """Suspect a delay of the torque channel."""
 
     id = "time_delay"
-    excludes = ("torque_filter_lag",)
+    leaves = ("torque_filter_lag",)
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)

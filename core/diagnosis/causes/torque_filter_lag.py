@@ -33,7 +33,7 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
     """Suspect a filter in the torque channel."""
 
     id = "torque_filter_lag"
-    excludes = ("time_delay",)
+    leaves = ("time_delay",)
     title = "The torque channel is low-pass filtered"
     cure = "signal"
     units = (("time_constant", "s"),)

@@ -98,5 +98,5 @@ def candidate(cause: Cause, scalars: Scalars | None = None) -> Candidate:
 def nothing_found(bench: Bench) -> Hypothesis:
     """Fit the model alone, and believe what it finds."""
     none = bench.tried(())
-    bench.believe(none.fit)
+    bench.believe(none)
     return none

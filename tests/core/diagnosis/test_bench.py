@@ -81,7 +81,7 @@ def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
 def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
     """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
     bench = bench_of(measured_arm(WAVE), ())
-    bench.believe(nothing_found(bench).fit)
+    bench.believe(nothing_found(bench))
     member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
     whole = bench.tried((member,))
     (found,) = bench.scanned(bench.beneath(whole), [member])

@@ -97,12 +97,18 @@ def test_every_step_of_the_search_is_on_record():
     assert {one.key for one in misled().chosen.members} <= set(added)
 
 
-@pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
-def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
+@pytest.mark.parametrize(
+    ("leaves", "size", "named"),
+    [((), 0.03, True), (("quicker",), 0.03, False), (("quicker",), 0.6, True)],
+    ids=["is another cause", "is what the first one leaves", "is as clear as the first one"],
+)
+def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly_as_clear(
+    leaves, size, named
+):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
-    type(causes[0]).excludes = keeps_out
-    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
-    assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
+    type(causes[0]).leaves = leaves
+    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
+    assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
 
 
 @pytest.mark.parametrize(
