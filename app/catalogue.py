@@ -10,22 +10,29 @@ from app.jobs.computation import LogFile
 from app.problems import Problem
 from app.store.blobs import Incoming
 from app.store.records import Document, LogRecord, RobotRecord
-from app.store.store import Store
+from app.store.store import TenantStore
 from core.robot.model import RobotModel
 
 LONGEST_NAME = 200
 
 
 class Catalogue:
-    """Know all robots and logs, the built-in robots among them."""
+    """Know all robots and logs of a tenant, and the robots that are built in.
 
-    def __init__(self, store: Store) -> None:
-        self._store = store
-        self._base_parameters: dict[str, Document] = {}
-        self.built_in = {
-            name: _built_in(name, description)
-            for name, description in science.built_in_descriptions().items()
-        }
+    Parameters
+    ----------
+    store
+        What belongs to the tenant.
+    built_in
+        The built-in robots by id.
+    base_parameters
+        What was computed before, by the id of a robot, which is a hash of its description.
+    """
+
+    def __init__(
+        self, store: TenantStore, built_in: dict[str, RobotRecord], base_parameters: dict[str, Document]
+    ) -> None:
+        self._store, self.built_in, self._base_parameters = store, built_in, base_parameters
 
     def add_description(self, description: object) -> RobotRecord:
         """Keep a robot that is described by the service's own document.
@@ -71,12 +78,10 @@ class Catalogue:
         """Find a robot; None where there is none."""
         return self.built_in.get(identity) or self._store.robots.get(identity)
 
-    def robots(self, *, limit: int, offset: int) -> tuple[list[RobotRecord], int]:
-        """List robots, built-in ones first, and count all of them."""
-        fixed = list(self.built_in.values())
-        first = fixed[offset : offset + limit]
-        others, count = self._store.robots.page(limit=limit - len(first), offset=max(0, offset - len(fixed)))
-        return first + others, count + len(fixed)
+    def robots(self, *, limit: int, before: int | None = None) -> list[RobotRecord]:
+        """List robots, the newest first; those that are built in stand on the first page, before all others."""
+        fixed = [] if before is not None else list(self.built_in.values())
+        return fixed + self._store.robots.page(limit=limit, before=before)
 
     def remove_robot(self, identity: str) -> None:
         """Forget a robot.
@@ -95,7 +100,6 @@ class Catalogue:
                 remedy="delete only robots that were created by a request",
             )
         self._store.robots.remove(robot.id)
-        self._base_parameters.pop(robot.id, None)
 
     def base_parameters(self, identity: str) -> Document:
         """Say what motion of a robot can tell apart; computed once and remembered.
@@ -161,6 +165,13 @@ def log_name(given: str) -> str:
     """
     last = PurePath(given.replace("\\", "/")).name
     return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "log"
+
+
+def built_in_robots() -> dict[str, RobotRecord]:
+    """Give the robots that everybody has, by id."""
+    return {
+        name: _built_in(name, description) for name, description in science.built_in_descriptions().items()
+    }
 
 
 def _built_in(name: str, description: Document) -> RobotRecord:

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 from pydantic import ValidationError
 
-from app.settings import PREFIX, Settings, reaches_other_machines
+from app.settings import PREFIX, Settings
 from app.version import VERSION
 
 COMPILE_SECONDS = 5
@@ -50,7 +50,8 @@ def serve(
 ) -> None:
     """Start the service.
 
-    It listens on loopback unless VERITORQUE_ALLOW_REMOTE=1 is set: there are no keys yet.
+    On loopback no key is needed. On any other address it starts only where there is one: veritorque keys
+    create.
     """
     settings = _settings(
         host=host,
@@ -60,15 +61,32 @@ def serve(
         max_upload_bytes=max_upload_bytes,
         job_timeout_s=job_timeout_s,
     )
-    if reaches_other_machines(settings.host) and not settings.allow_remote:
-        _stop(
-            f"{settings.host} can be reached from other machines, and the service has no keys yet; set "
-            f"{PREFIX}ALLOW_REMOTE=1 if everybody who reaches the port may use it, or keep --host 127.0.0.1"
-        )
     _require_directory(settings.data_dir)
+    if settings.needs_keys:
+        _require_a_key(settings)
     _compute_on_one_thread()
     _keep_compiled_kernels(settings.data_dir)
     _listen(settings)
+
+
+@COMMANDS.command()
+def work(
+    *,
+    beside: Annotated[
+        bool, typer.Option(hidden=True, help="Say that it lives, and end with the service.")
+    ] = False,
+) -> None:
+    """Compute jobs in this process, beside the service or on another machine.
+
+    It needs the same VERITORQUE_DATABASE_URL and the same VERITORQUE_DATA_DIR as the service.
+    """
+    settings = _settings()
+    _require_directory(settings.data_dir)
+    _compute_on_one_thread()
+    _keep_compiled_kernels(settings.data_dir)
+    from app.jobs.process import work_until_told
+
+    work_until_told(settings, beside=beside)
 
 
 @COMMANDS.command()
@@ -92,6 +110,20 @@ def _settings(**chosen: object) -> Settings:
         first = error.errors(include_url=False)[0]
         _stop(f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}")
         raise
+
+
+def _require_a_key(settings: Settings) -> None:
+    from app.keys import KeyRing
+    from app.store.store import Store
+
+    store = Store(settings.data_dir, settings.database_url)
+    known = KeyRing(store.database).any()
+    store.close()
+    if not known:
+        _stop(
+            f"{settings.host} can be reached from other machines, and there is no key yet; make one with "
+            "`veritorque keys create NAME`, or keep --host 127.0.0.1"
+        )
 
 
 def _require_directory(data_dir: Path) -> None:
@@ -125,12 +157,14 @@ def _keep_compiled_kernels(data_dir: Path) -> None:
 def _listen(settings: Settings) -> None:
     import uvicorn
 
+    from app.jobs.supervisor import Supervisor
     from app.main import create_app
 
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
     print(f"http://{shown}:{settings.port}/docs", flush=True)
+    supervisor = Supervisor(settings) if settings.workers else None
     uvicorn.run(
-        create_app(settings),
+        create_app(settings, supervisor=supervisor),
         host=settings.host,
         port=settings.port,
         server_header=False,

@@ -13,6 +13,7 @@ from starlette.routing import Match
 from app.documents import json_bytes
 from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of
 from app.reading import invalid
+from app.store.errors import Unavailable
 from core.errors import VeritorqueError
 
 LOGGER = logging.getLogger(__name__)
@@ -35,6 +36,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _on_http)
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(VeritorqueError, _on_science)
+    app.add_exception_handler(Unavailable, _on_unavailable)
     app.add_exception_handler(Exception, _on_mistake)
 
 
@@ -62,10 +64,29 @@ async def _on_science(_request: Request, error: Exception) -> Response:
     return problem_response(problem_of(error) if isinstance(error, VeritorqueError) else _mistake(""))
 
 
+async def _on_unavailable(_request: Request, error: Exception) -> Response:
+    LOGGER.error("the database does not answer: %s", error)
+    return problem_response(_unavailable(str(error)))
+
+
 async def _on_mistake(request: Request, error: Exception) -> Response:
     incident = secrets.token_hex(6)
     LOGGER.error("incident %s at %s %s", incident, request.method, request.url.path, exc_info=error)
     return problem_response(_mistake(incident))
+
+
+def _unavailable(reason: str) -> Problem:
+    if "full" in reason:
+        return Problem(
+            "disk-full", "the disk is full", remedy="delete logs and jobs, or let the operator make room"
+        )
+    return Problem(
+        "unavailable",
+        "the database does not answer",
+        evidence={"reason": reason},
+        remedy="send the request again in a few seconds; nothing of it was kept",
+        headers={"Retry-After": "2"},
+    )
 
 
 def _wrong_method(request: Request) -> Problem:

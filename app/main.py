@@ -12,7 +12,8 @@ import anyio
 from fastapi import FastAPI
 
 from app import handlers, openapi
-from app.jobs.executor import Executor, ProcessExecutor
+from app.jobs.executor import Executor
+from app.jobs.supervisor import Supervisor
 from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
 from app.routes import health, identify, jobs, logs, pages, robots
 from app.services import Services
@@ -28,7 +29,12 @@ TAGS = [
 ]
 
 
-def create_app(settings: Settings | None = None, *, executor: Executor | None = None) -> FastAPI:
+def create_app(
+    settings: Settings | None = None,
+    *,
+    executor: Executor | None = None,
+    supervisor: Supervisor | None = None,
+) -> FastAPI:
     """Make the application.
 
     Parameters
@@ -36,15 +42,15 @@ def create_app(settings: Settings | None = None, *, executor: Executor | None = 
     settings
         Read from the environment if None.
     executor
-        What computes; a process per computation if None.
+        What computes within this process; None where others compute.
+    supervisor
+        Keeps the process alive that does, beside this one.
     """
     chosen = settings or Settings()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.services = await anyio.to_thread.run_sync(
-            Services.open, chosen, executor or ProcessExecutor()
-        )
+        app.state.services = await anyio.to_thread.run_sync(Services.open, chosen, executor, supervisor)
         try:
             yield
         finally:

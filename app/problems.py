@@ -18,6 +18,8 @@ URN = "urn:veritorque:problem:"
 KINDS: dict[str, tuple[int, str]] = {
     "bad-request": (400, "The request cannot be read"),
     "not-json": (400, "The document is not JSON that can be used"),
+    "no-key": (401, "The request carries no key that is known"),
+    "no-scope": (403, "The key does not permit this"),
     "not-found": (404, "There is no such resource"),
     "method-not-allowed": (405, "The resource does not take this method"),
     "not-acceptable": (406, "The resource does not come in this form"),
@@ -26,9 +28,12 @@ KINDS: dict[str, tuple[int, str]] = {
     "job-dismissed": (409, "The job has no results because it was dismissed"),
     "in-use": (409, "The resource is still needed"),
     "built-in": (409, "The robot is built in"),
+    "digest": (400, "The body is not the one that was announced"),
+    "too-slow": (408, "The request came too slowly"),
     "too-large": (413, "The body is larger than the service takes"),
     "unsupported-media-type": (415, "The body comes in a form that is not known"),
     "request": (422, "The request does not follow the contract"),
+    "key-reused": (422, "The Idempotency-Key stands for another request"),
     "unknown-reference": (422, "The request names something that does not exist"),
     "robot": (422, "The description of the robot cannot be used"),
     "log": (422, "The log cannot be used"),
@@ -36,9 +41,13 @@ KINDS: dict[str, tuple[int, str]] = {
     "excitation": (422, "The motion cannot tell what was asked of it"),
     "solver": (422, "The optimiser stopped without an optimum"),
     "job-timeout": (422, "The computation took too long"),
+    "too-many": (429, "Too many requests"),
+    "quota": (429, "The key's share is used up"),
     "internal": (500, "The service made a mistake"),
     "computation-stopped": (500, "The computation stopped unexpectedly"),
     "not-ready": (503, "The service is starting"),
+    "unavailable": (503, "The database does not answer"),
+    "disk-full": (507, "The disk is nearly full"),
 }
 
 _KIND_OF_ERROR: dict[type[VeritorqueError], str] = {

@@ -1,49 +1,100 @@
-"""Hold what every request needs, opened once at the start of the service and closed at its end."""
+"""Hold what requests need, opened once at the start of the service and closed at its end."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated
 
 from fastapi import Depends, Request
 
-from app.catalogue import Catalogue
+from app.callers import Caller, caller_of
+from app.catalogue import Catalogue, built_in_robots
 from app.jobs.executor import Executor
 from app.jobs.queue import Queue
-from app.jobs.runner import Runner
+from app.jobs.supervisor import Supervisor
+from app.jobs.worker import Worker
+from app.keys import KeyRing
 from app.settings import Settings
-from app.store.store import Store
+from app.store.records import Document, RobotRecord
+from app.store.store import Store, TenantStore
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Carry what belongs to the tenant of one request."""
+
+    caller: Caller
+    store: TenantStore
+    catalogue: Catalogue
+    queue: Queue
 
 
 @dataclass(frozen=True)
 class Services:
-    """Carry the settings and the parts of the service that requests use."""
+    """Carry the settings and the parts of the service that requests use.
+
+    `worker` computes within this process, `supervisor` keeps one beside it; None where others do.
+    """
 
     settings: Settings
     store: Store
-    catalogue: Catalogue
-    runner: Runner
-    queue: Queue
+    keys: KeyRing
+    worker: Worker | None
+    supervisor: Supervisor | None
+    built_in: dict[str, RobotRecord]
+    base_parameters: dict[str, Document] = field(default_factory=dict)
 
     @classmethod
-    def open(cls, settings: Settings, executor: Executor) -> "Services":
-        """Open the store and begin to work through the queue."""
-        store = Store(settings.data_dir)
-        catalogue = Catalogue(store)
-        robots = {identity: robot.description for identity, robot in catalogue.built_in.items()}
-        runner = Runner(
-            store, executor, robots=robots, workers=settings.workers, timeout_s=settings.job_timeout_s
-        )
-        runner.start()
-        return cls(settings, store, catalogue, runner, Queue(store, runner))
+    def open(cls, settings: Settings, executor: Executor | None, supervisor: Supervisor | None) -> "Services":
+        """Open the store, and begin to work through the queue where there is something to compute with."""
+        store = Store(settings.data_dir, settings.database_url)
+        built_in = built_in_robots()
+        worker = None if executor is None else worker_of(store, settings, executor, built_in)
+        for computing in (worker, supervisor):
+            if computing is not None:
+                computing.start()
+        return cls(settings, store, KeyRing(store.database), worker, supervisor, built_in)
+
+    @property
+    def ready(self) -> bool:
+        """Tell whether whoever computes has loaded the solver."""
+        computing = self.worker or self.supervisor
+        return computing is None or computing.ready.is_set()
+
+    def desk(self, caller: Caller) -> Desk:
+        """Open what belongs to the tenant of a request."""
+        store = self.store.of(caller.tenant)
+        return Desk(caller, store, Catalogue(store, self.built_in, self.base_parameters), Queue(store))
 
     def close(self) -> None:
-        """Stop the computations, queue their jobs again, and close the store."""
-        self.runner.close()
+        """Stop the computations, hand their jobs back, and close the store."""
+        for computing in (self.worker, self.supervisor):
+            if computing is not None:
+                computing.close()
         self.store.close()
 
 
-def _of_request(request: Request) -> Services:
+def worker_of(
+    store: Store, settings: Settings, executor: Executor, built_in: dict[str, RobotRecord]
+) -> Worker:
+    """Make a worker as the settings ask for it."""
+    return Worker(
+        store,
+        executor,
+        robots={identity: robot.description for identity, robot in built_in.items()},
+        slots=settings.workers,
+        most_per_tenant=settings.running_per_tenant,
+        timeout_s=settings.job_timeout_s,
+    )
+
+
+def _services(request: Request) -> Services:
     services: Services = request.app.state.services
     return services
 
 
-ServicesOf = Annotated[Services, Depends(_of_request)]
+def _desk(request: Request) -> Desk:
+    services = _services(request)
+    return services.desk(caller_of(request, services.keys, open_to_all=not services.settings.needs_keys))
+
+
+ServicesOf = Annotated[Services, Depends(_services)]
+DeskOf = Annotated[Desk, Depends(_desk)]

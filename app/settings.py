@@ -5,6 +5,7 @@ a terminal are told the same thing.
 """
 
 import ipaddress
+import json
 from pathlib import Path
 
 from pydantic import Field
@@ -19,29 +20,60 @@ class Settings(BaseSettings):
     Attributes
     ----------
     host, port
-        Address to listen on; loopback unless `allow_remote` is set.
+        Address to listen on. On loopback no key is needed; on any other there has to be one.
+    hosts
+        Names by which the service is called, besides those of loopback: others in the Host header are refused.
     data_dir
         Directory of the database, the uploaded logs, the results and the compiled kernels.
+    database_url
+        Where the database is, ``postgresql+psycopg://...``; None for the one in `data_dir`.
     max_upload_bytes
         Largest log taken.
+    disk_reserve_bytes
+        Free space of the disk below which nothing more is taken.
     workers
-        Computations that run at the same time, each in its own process.
+        Computations that run at the same time, each in its own process; 0 to leave them to other machines.
+    running_per_tenant
+        Of these, computations of one tenant.
+    queued_per_tenant, stored_bytes_per_tenant
+        Unfinished jobs, and bytes of logs and results, that a tenant may have.
+    requests_per_second
+        Requests of one caller on average; four times as many may come at once.
     job_timeout_s
         Longest a computation may take, s.
-    allow_remote
-        Permit a `host` that other machines can reach. There are no keys yet: whoever reaches the port may use
-        the service.
+    job_memory_bytes
+        Most memory that a computation may use.
     """
 
     model_config = SettingsConfigDict(env_prefix=PREFIX, frozen=True, allow_inf_nan=False)
 
     host: str = Field(default="127.0.0.1", min_length=1, max_length=255)
     port: int = Field(default=8000, ge=0, le=65535)
+    hosts: tuple[str, ...] = ()
     data_dir: Path = Path("data")
+    database_url: str | None = None
     max_upload_bytes: int = Field(default=2 * 1024**3, ge=1024)
-    workers: int = Field(default=1, ge=1, le=64)
+    disk_reserve_bytes: int = Field(default=512 * 1024**2, ge=0)
+    workers: int = Field(default=1, ge=0, le=64)
+    running_per_tenant: int = Field(default=64, ge=1, le=64)
+    queued_per_tenant: int = Field(default=1000, ge=1)
+    stored_bytes_per_tenant: int = Field(default=100 * 1024**3, ge=1024)
+    requests_per_second: float = Field(default=1000.0, gt=0.0)
     job_timeout_s: float = Field(default=600.0, gt=0.0, le=86400.0)
-    allow_remote: bool = False
+    job_memory_bytes: int = Field(default=4 * 1024**3, ge=256 * 1024**2)
+
+    @property
+    def needs_keys(self) -> bool:
+        """Tell whether requests have to carry a key."""
+        return reaches_other_machines(self.host)
+
+    def environment(self) -> dict[str, str]:
+        """Write the settings as the environment of another process that shall be told the same."""
+        told = self.model_dump(mode="json", exclude_none=True)
+        return {
+            PREFIX + name.upper(): value if isinstance(value, str) else json.dumps(value)
+            for name, value in told.items()
+        }
 
 
 def reaches_other_machines(host: str) -> bool:

@@ -5,12 +5,12 @@ import time
 import anyio
 
 from app.store.records import JobRecord
-from app.store.store import Store
+from app.store.store import TenantStore
 
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.02, 0.25
 
 
-async def wait_for(store: Store, job: JobRecord, seconds: float) -> JobRecord:
+async def wait_for(store: TenantStore, job: JobRecord, seconds: float) -> JobRecord:
     """Give the job as it is when it is finished, or when the time is over."""
     deadline = time.monotonic() + seconds
     pause = FIRST_PAUSE_S

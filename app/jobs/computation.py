@@ -63,8 +63,15 @@ class Failed:
 
 
 @dataclass(frozen=True)
+class Died:
+    """Carry the problem document that says how a computation ended without a word; it may be tried again."""
+
+    problem: Document
+
+
+@dataclass(frozen=True)
 class Stopped:
     """Say that the computation was stopped on demand."""
 
 
-Outcome = Finished | Failed | Stopped
+Outcome = Finished | Failed | Died | Stopped

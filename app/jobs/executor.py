@@ -15,8 +15,8 @@ from multiprocessing.process import BaseProcess
 from threading import Event
 from typing import Protocol
 
-from app.jobs import science, worker
-from app.jobs.computation import Computation, Failed, Finished, Outcome, Progress, Stopped, Work
+from app.jobs import child, science
+from app.jobs.computation import Computation, Died, Failed, Finished, Outcome, Progress, Stopped, Work
 from app.problems import Problem
 
 LOGGER = logging.getLogger(__name__)
@@ -51,11 +51,11 @@ class ProcessExecutor:
     def __init__(self, work: Work = science.compute, *, preload: tuple[str, ...] = ("core.study",)) -> None:
         self._work = work
         self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(["app.jobs.worker", *preload])
+        self._context.set_forkserver_preload(["app.jobs.child", *preload])
 
     def prepare(self) -> None:
         """Let the server process load the solver, then load it here too, where options are checked."""
-        process = self._context.Process(target=worker.nothing, daemon=True)
+        process = self._context.Process(target=child.nothing, daemon=True)
         process.start()
         process.join()
         process.close()
@@ -65,7 +65,7 @@ class ProcessExecutor:
         """Run a computation in a new process; see `Executor`."""
         ours, theirs = self._context.Pipe()
         process = self._context.Process(
-            target=worker.compute, args=(theirs, self._work, computation), daemon=True
+            target=child.compute, args=(theirs, self._work, computation), daemon=True
         )
         try:
             process.start()
@@ -93,7 +93,7 @@ def _follow(
             message = pipe.recv_bytes()
         except (EOFError, OSError):
             process.join()
-            return Failed(_vanished(process.exitcode).document())
+            return Died(_vanished(process.exitcode).document())
         outcome = _read(message, progress)
         if outcome is not None:
             return outcome
@@ -102,11 +102,11 @@ def _follow(
 
 def _read(message: bytes, progress: Progress) -> Outcome | None:
     letter, content = message[:1], message[1:]
-    if letter == worker.RESULT:
+    if letter == child.RESULT:
         return Finished(content)
-    if letter == worker.FAILURE:
+    if letter == child.FAILURE:
         return Failed(json.loads(content))
-    if letter == worker.TRACE:
+    if letter == child.TRACE:
         LOGGER.error("a computation met a mistake of ours:\n%s", content.decode(errors="replace"))
     else:
         stage, fraction = json.loads(content)

@@ -2,23 +2,31 @@
 
 from app.jobs import science
 from app.jobs.references import check_reference
-from app.jobs.runner import Runner
 from app.problems import Problem
+from app.store.errors import KeyReused
 from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
-from app.store.store import Store
+from app.store.store import TenantStore
 from core.errors import LogError
 
 
 class Queue:
-    """Accept, dismiss and delete jobs."""
+    """Accept and dismiss the jobs of a tenant."""
 
-    def __init__(self, store: Store, runner: Runner) -> None:
-        self._store, self._runner = store, runner
+    def __init__(self, store: TenantStore) -> None:
+        self._store = store
 
     def submit(
-        self, *, kind: str, robot: RobotRecord, logs: tuple[LogRecord, ...], options: Document
+        self,
+        *,
+        kind: str,
+        robot: RobotRecord,
+        logs: tuple[LogRecord, ...],
+        options: Document,
+        key: str | None = None,
     ) -> JobRecord:
-        """Queue a job.
+        """Queue a job, or find the one that asks for the same.
+
+        `key` is what the client calls its request, so that it can send it twice and mean it once.
 
         Raises
         ------
@@ -36,15 +44,14 @@ class Queue:
             _check_joints(robot, log)
         check_reference(self._store, kind, robot, options)
         request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
-        job = self._store.jobs.add(request)
-        self._runner.wake()
-        return job
+        try:
+            return self._store.jobs.add(request, key=key)
+        except KeyReused as error:
+            raise _another_request(error.key) from None
 
     def dismiss(self, job: JobRecord) -> JobRecord:
-        """Dismiss an unfinished job and end its computation."""
-        self._store.jobs.dismiss(job.id)
-        self._runner.stop(job.id)
-        return self._store.jobs.get(job.id) or job
+        """Dismiss an unfinished job; whoever computes it notices."""
+        return self._store.jobs.dismiss(job.id) or job
 
     def refuse_if_needed(self, *, robot: str | None = None, log: str | None = None) -> None:
         """Refuse to delete what an unfinished job needs.
@@ -63,6 +70,15 @@ class Queue:
                 evidence={"jobs": len(users), "states": list(UNFINISHED)},
                 remedy="wait for these jobs or dismiss them",
             )
+
+
+def _another_request(key: str) -> Problem:
+    return Problem(
+        "key-reused",
+        f"the Idempotency-Key {key} came with another request before",
+        evidence={"key": key},
+        remedy="send a new key with a new request, and the same key only with the same body",
+    )
 
 
 def _check_joints(robot: RobotRecord, log: LogRecord) -> None:

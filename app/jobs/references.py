@@ -5,11 +5,11 @@ from pathlib import Path
 from app.jobs import science
 from app.problems import Problem
 from app.store.records import Document, RobotRecord
-from app.store.store import Store
+from app.store.store import TenantStore
 from core.errors import OptionError
 
 
-def reference_file(store: Store, kind: str, options: Document) -> Path | None:
+def reference_file(store: TenantStore, kind: str, options: Document) -> Path | None:
     """Give the file of the result that a request compares with; None where it names no job.
 
     Raises
@@ -39,7 +39,7 @@ def reference_file(store: Store, kind: str, options: Document) -> Path | None:
     return store.blobs.path(job.result_sha256)
 
 
-def check_reference(store: Store, kind: str, robot: RobotRecord, options: Document) -> None:
+def check_reference(store: TenantStore, kind: str, robot: RobotRecord, options: Document) -> None:
     """Refuse a reference that cannot be compared with, before anything is computed.
 
     Raises

@@ -24,7 +24,7 @@ async def healthz() -> Response:
 @ROUTER.get("/readyz", response_model=dict[str, str], summary="Is it ready?", responses=problems(503))
 async def readyz(services: ServicesOf) -> Response:
     """Answer once the solver is loaded; jobs are accepted before and wait for it."""
-    if not services.runner.ready.is_set():
+    if not services.ready:
         raise Problem(
             "not-ready",
             "the solver is being loaded; at the very first start it is compiled",

@@ -15,7 +15,7 @@ from app.reading import parse_json, parse_object, require_media_type
 from app.schemas.examples import MAPPING
 from app.schemas.jobs import Job
 from app.schemas.results import ResultDocument
-from app.services import Services, ServicesOf
+from app.services import Desk, DeskOf
 from app.store.records import JobRecord, LogRecord, RobotRecord
 from app.uploads import (
     MULTIPART,
@@ -63,7 +63,7 @@ FORM_SCHEMA = {
 )
 async def identify(
     request: Request,
-    services: ServicesOf,
+    desk: DeskOf,
     prefer: Annotated[
         str | None, Header(max_length=200, description="wait=N: wait up to N seconds; default 60")
     ] = None,
@@ -75,17 +75,17 @@ async def identify(
         options = parse_object(text_of(form, "options"), what="options") or {}
         mapping = parse_object(text_of(form, "mapping"), what="the mapping")
         files = files_of(form, "log")
-        robot = await _robot(services, form)
-        logs = tuple([await _log(services, part, mapping) for part in files])
+        robot = await _robot(desk, form)
+        logs = tuple([await _log(desk, part, mapping) for part in files])
     job = await anyio.to_thread.run_sync(
-        lambda: services.queue.submit(kind="identify", robot=robot, logs=logs, options=options)
+        lambda: desk.queue.submit(kind="identify", robot=robot, logs=logs, options=options)
     )
     seconds = wait_seconds(prefer)
-    job = await wait_for(services.store, job, LONGEST_WAIT_S if seconds is None else seconds)
-    return await anyio.to_thread.run_sync(_answer, services, job)
+    job = await wait_for(desk.store, job, LONGEST_WAIT_S if seconds is None else seconds)
+    return await anyio.to_thread.run_sync(_answer, desk, job)
 
 
-async def _robot(services: Services, form: FormData) -> RobotRecord:
+async def _robot(desk: Desk, form: FormData) -> RobotRecord:
     given = form.getlist("robot")
     if len(given) != 1:
         raise Problem(
@@ -96,31 +96,31 @@ async def _robot(services: Services, form: FormData) -> RobotRecord:
         )
     part = given[0]
     content = await part.read(LONGEST_ROBOT + 1) if isinstance(part, UploadFile) else part.encode()
-    return await anyio.to_thread.run_sync(_find_or_create, services, content.strip())
+    return await anyio.to_thread.run_sync(_find_or_create, desk, content.strip())
 
 
-def _find_or_create(services: Services, content: bytes) -> RobotRecord:
+def _find_or_create(desk: Desk, content: bytes) -> RobotRecord:
     if content.startswith(b"{"):
-        return services.catalogue.add_description(parse_json(content, what="the robot"))
+        return desk.catalogue.add_description(parse_json(content, what="the robot"))
     if content.startswith((b"<", b"\xef\xbb\xbf")):
-        return services.catalogue.add_urdf(content)
-    return services.catalogue.robot(content.decode(errors="replace")[:100], named_in_body=True)
+        return desk.catalogue.add_urdf(content)
+    return desk.catalogue.robot(content.decode(errors="replace")[:100], named_in_body=True)
 
 
-async def _log(services: Services, part: UploadFile, mapping: dict[str, object] | None) -> LogRecord:
-    with services.store.blobs.receive() as incoming:
+async def _log(desk: Desk, part: UploadFile, mapping: dict[str, object] | None) -> LogRecord:
+    with desk.store.blobs.receive() as incoming:
         await receive_part(part, incoming)
         return await anyio.to_thread.run_sync(
-            lambda: services.catalogue.add_log(
+            lambda: desk.catalogue.add_log(
                 incoming, name=part.filename or "log", mapping=mapping, media_type=claimed_type(part)
             )
         )
 
 
-def _answer(services: Services, job: JobRecord) -> Response:
+def _answer(desk: Desk, job: JobRecord) -> Response:
     path = f"/v1/jobs/{job.id}"
     if job.result_sha256 is not None:
-        result = services.store.blobs.path(job.result_sha256).read_bytes()
+        result = desk.store.blobs.path(job.result_sha256).read_bytes()
         return Response(
             result, media_type="application/json", headers={"Content-Location": f"{path}/results"}
         )

@@ -4,9 +4,10 @@ import json
 from typing import Annotated
 
 import anyio
-from fastapi import APIRouter, Header, Query, Request, Response
+from fastapi import APIRouter, Header, Request, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
+from app.listing import CursorOf, Limit, before, following
 from app.negotiation import matches, preferred, wait_seconds
 from app.openapi import body, problems, reference
 from app.problems import Problem
@@ -15,7 +16,7 @@ from app.reports import report_response
 from app.schemas.examples import JOB_REQUESTS
 from app.schemas.jobs import Job, JobList, JobRequest
 from app.schemas.results import ResultDocument
-from app.services import Services, ServicesOf
+from app.services import Desk, DeskOf
 from app.store.records import JobRecord
 from app.tables import ARTIFACTS
 from app.views import job_document
@@ -37,30 +38,36 @@ RESULT_FORMS = ("application/json", "text/csv", "text/html")
 )
 async def create_job(
     request: Request,
-    services: ServicesOf,
+    desk: DeskOf,
     prefer: Annotated[
         str | None, Header(max_length=200, description="wait=N: wait up to N seconds (at most 60)")
     ] = None,
+    idempotency_key: Annotated[
+        str | None,
+        Header(
+            min_length=1, max_length=200, description="of a request that may be sent twice and is meant once"
+        ),
+    ] = None,
 ) -> Response:
-    """Queue a computation. What cannot succeed is refused at once."""
+    """Queue a computation, or find the one that asked for the same. What cannot succeed is refused at once."""
     require_media_type(request, ("application/json",))
     asked = check(JobRequest, parse_json(await request.body()))
-    job = await anyio.to_thread.run_sync(_submit, services, asked)
+    job = await anyio.to_thread.run_sync(_submit, desk, asked, idempotency_key)
     seconds = wait_seconds(prefer)
     if seconds is not None:
-        job = await wait_for(services.store, job, seconds)
+        job = await wait_for(desk.store, job, seconds)
     return _job_response(job, applied=seconds)
 
 
 @ROUTER.get("", response_model=JobList, summary="List jobs", responses=problems(422))
 def list_jobs(
-    services: ServicesOf,
-    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
-    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+    desk: DeskOf,
+    limit: Limit = 100,
+    cursor: CursorOf = None,
 ) -> Response:
     """List jobs, the newest first."""
-    jobs, total = services.store.jobs.page(limit=limit, offset=offset)
-    return JSONResponse({"jobs": [job_document(job) for job in jobs], "total": total})
+    jobs = desk.store.jobs.page(limit=limit, before=before(cursor))
+    return JSONResponse({"jobs": [job_document(job) for job in jobs], "next": following(jobs, limit)})
 
 
 @ROUTER.get(
@@ -70,10 +77,10 @@ def list_jobs(
     responses=problems(404) | {304: {"description": "Nothing has changed since"}},
 )
 def read_job(
-    services: ServicesOf, job_id: str, if_none_match: Annotated[str | None, Header(max_length=1000)] = None
+    desk: DeskOf, job_id: str, if_none_match: Annotated[str | None, Header(max_length=1000)] = None
 ) -> Response:
     """Read how far a job is. Send the ETag of the last answer as If-None-Match to hear only of changes."""
-    job = _find(services, job_id)
+    job = _find(desk, job_id)
     headers = {"ETag": f'"{job.id}-{job.version}"', "Cache-Control": "no-cache"}
     if not job.finished:
         headers["Retry-After"] = RETRY_AFTER_S
@@ -95,7 +102,7 @@ def read_job(
     },
 )
 def read_results(
-    services: ServicesOf, job_id: str, accept: Annotated[str | None, Header(include_in_schema=False)] = None
+    desk: DeskOf, job_id: str, accept: Annotated[str | None, Header(include_in_schema=False)] = None
 ) -> Response:
     """Read the result document; with Accept: text/csv its base parameters, with text/html its report."""
     form = preferred(accept, RESULT_FORMS)
@@ -106,7 +113,7 @@ def read_results(
             evidence={"accept": accept, "known": list(RESULT_FORMS)},
             remedy="accept one of the known forms",
         )
-    content, etag = _result(services, job_id)
+    content, etag = _result(desk, job_id)
     headers = {"ETag": etag, "Vary": "Accept"}
     if form == "text/csv":
         table = ARTIFACTS["parameters.csv"](json.loads(content))
@@ -122,9 +129,9 @@ def read_results(
     summary="Read the report",
     responses=problems(404, 409) | {200: {"description": "One HTML file that opens offline"}},
 )
-def read_report(services: ServicesOf, job_id: str) -> HTMLResponse:
+def read_report(desk: DeskOf, job_id: str) -> HTMLResponse:
     """Read what came out as a page: figures, tables and sentences, without a script."""
-    content, _ = _result(services, job_id)
+    content, _ = _result(desk, job_id)
     return report_response(content)
 
 
@@ -135,9 +142,9 @@ def read_report(services: ServicesOf, job_id: str) -> HTMLResponse:
     responses=problems(404, 409)
     | {200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}},
 )
-def read_artifact(services: ServicesOf, job_id: str, artifact: str) -> Response:
+def read_artifact(desk: DeskOf, job_id: str, artifact: str) -> Response:
     """Read parameters.csv or standard_parameters.csv."""
-    content, _ = _result(services, job_id)
+    content, _ = _result(desk, job_id)
     if artifact not in ARTIFACTS:
         raise Problem(
             "not-found",
@@ -159,20 +166,21 @@ def read_artifact(services: ServicesOf, job_id: str, artifact: str) -> Response:
         204: {"description": "It was finished and is gone"},
     },
 )
-def delete_job(services: ServicesOf, job_id: str) -> Response:
+def delete_job(desk: DeskOf, job_id: str) -> Response:
     """Dismiss an unfinished job, which ends its computation; delete a finished one with its result."""
-    job = _find(services, job_id)
-    if services.store.remove_job(job.id):
+    job = _find(desk, job_id)
+    if job.finished and desk.store.jobs.remove(job.id):
         return Response(status_code=204)
-    return JSONResponse(job_document(services.queue.dismiss(job)))
+    return JSONResponse(job_document(desk.queue.dismiss(job)))
 
 
-def _submit(services: Services, asked: JobRequest) -> JobRecord:
-    return services.queue.submit(
+def _submit(desk: Desk, asked: JobRequest, key: str | None) -> JobRecord:
+    return desk.queue.submit(
         kind=asked.kind,
-        robot=services.catalogue.robot(asked.robot, named_in_body=True),
-        logs=tuple(services.catalogue.log(identity, named_in_body=True) for identity in asked.logs),
+        robot=desk.catalogue.robot(asked.robot, named_in_body=True),
+        logs=tuple(desk.catalogue.log(identity, named_in_body=True) for identity in asked.logs),
         options=dict(asked.options),
+        key=key,
     )
 
 
@@ -185,8 +193,8 @@ def _job_response(job: JobRecord, *, applied: int | None) -> Response:
     return JSONResponse(job_document(job), 202, headers=headers | {"Retry-After": RETRY_AFTER_S})
 
 
-def _find(services: Services, job_id: str) -> JobRecord:
-    job = services.store.jobs.get(job_id)
+def _find(desk: Desk, job_id: str) -> JobRecord:
+    job = desk.store.jobs.get(job_id)
     if job is None:
         raise Problem(
             "not-found",
@@ -197,10 +205,10 @@ def _find(services: Services, job_id: str) -> JobRecord:
     return job
 
 
-def _result(services: Services, job_id: str) -> tuple[bytes, str]:
-    job = _find(services, job_id)
+def _result(desk: Desk, job_id: str) -> tuple[bytes, str]:
+    job = _find(desk, job_id)
     if job.result_sha256 is not None:
-        return services.store.blobs.path(job.result_sha256).read_bytes(), f'"{job.result_sha256}"'
+        return desk.store.blobs.path(job.result_sha256).read_bytes(), f'"{job.result_sha256}"'
     if job.state == "failed":
         evidence = {"state": job.state, "problem": job.problem}
         cause = str((job.problem or {}).get("cause", "the job failed"))

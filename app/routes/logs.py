@@ -6,11 +6,12 @@ import anyio
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 
+from app.listing import CursorOf, Limit, before, following
 from app.openapi import body, file_part, problems, text_part
 from app.reading import media_type_of, parse_object, require_media_type
 from app.schemas.examples import CSV_LOG, MAPPING
 from app.schemas.logs import LogList, LogSummary
-from app.services import Services, ServicesOf
+from app.services import Desk, DeskOf
 from app.store.blobs import Incoming
 from app.store.records import LogRecord
 from app.uploads import (
@@ -57,7 +58,7 @@ RAW_CONTENT = {
 )
 async def create_log(
     request: Request,
-    services: ServicesOf,
+    desk: DeskOf,
     name: Annotated[str | None, Query(max_length=200)] = None,
     mapping: Annotated[str | None, Query(max_length=60_000, description=f"JSON, e.g. {MAPPING}")] = None,
 ) -> Response:
@@ -66,44 +67,42 @@ async def create_log(
     Unusable data is refused; usable data comes with its defects listed.
     """
     media_type = require_media_type(request, (MULTIPART, *LOG_MEDIA_TYPES))
-    with services.store.blobs.receive() as incoming:
+    with desk.store.blobs.receive() as incoming:
         if media_type == MULTIPART:
-            log = await _from_form(request, services, incoming, name=name, mapping=mapping)
+            log = await _from_form(request, desk, incoming, name=name, mapping=mapping)
         else:
             await receive_body(request, incoming)
-            log = await _add(
-                services, incoming, name=name or "log", mapping=mapping, kind=media_type_of(request)
-            )
+            log = await _add(desk, incoming, name=name or "log", mapping=mapping, kind=media_type_of(request))
     return JSONResponse(log_document(log), 201, headers={"Location": f"/v1/logs/{log.id}"})
 
 
 @ROUTER.get("", response_model=LogList, summary="List logs", responses=problems(422))
 def list_logs(
-    services: ServicesOf,
-    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
-    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+    desk: DeskOf,
+    limit: Limit = 100,
+    cursor: CursorOf = None,
 ) -> Response:
     """List logs, the newest first."""
-    logs, total = services.store.logs.page(limit=limit, offset=offset)
-    return JSONResponse({"logs": [log_document(log) for log in logs], "total": total})
+    logs = desk.store.logs.page(limit=limit, before=before(cursor))
+    return JSONResponse({"logs": [log_document(log) for log in logs], "next": following(logs, limit)})
 
 
 @ROUTER.get("/{log_id}", response_model=LogSummary, summary="Read what is in a log", responses=problems(404))
-def read_log(services: ServicesOf, log_id: str) -> Response:
+def read_log(desk: DeskOf, log_id: str) -> Response:
     """Read the summary of a log with its defects."""
-    return JSONResponse(log_document(services.catalogue.log(log_id)))
+    return JSONResponse(log_document(desk.catalogue.log(log_id)))
 
 
 @ROUTER.delete("/{log_id}", status_code=204, summary="Delete a log", responses=problems(404, 409))
-def delete_log(services: ServicesOf, log_id: str) -> None:
+def delete_log(desk: DeskOf, log_id: str) -> None:
     """Delete a log that no unfinished job needs."""
-    log = services.catalogue.log(log_id)
-    services.queue.refuse_if_needed(log=log.id)
-    services.store.remove_log(log)
+    log = desk.catalogue.log(log_id)
+    desk.queue.refuse_if_needed(log=log.id)
+    desk.store.logs.remove(log.id)
 
 
 async def _from_form(
-    request: Request, services: Services, incoming: Incoming, *, name: str | None, mapping: str | None
+    request: Request, desk: Desk, incoming: Incoming, *, name: str | None, mapping: str | None
 ) -> LogRecord:
     async with open_form(request, longest_text=LONGEST_MAPPING) as form:
         refuse_unknown_parts(form, ("file", "mapping"))
@@ -111,13 +110,13 @@ async def _from_form(
         name = name or part.filename or "log"
         mapping = text_of(form, "mapping") or mapping
         await receive_part(part, incoming)
-        return await _add(services, incoming, name=name, mapping=mapping, kind=claimed_type(part))
+        return await _add(desk, incoming, name=name, mapping=mapping, kind=claimed_type(part))
 
 
 async def _add(
-    services: Services, incoming: Incoming, *, name: str, mapping: str | None, kind: str | None
+    desk: Desk, incoming: Incoming, *, name: str, mapping: str | None, kind: str | None
 ) -> LogRecord:
     columns = parse_object(mapping, what="the mapping")
     return await anyio.to_thread.run_sync(
-        lambda: services.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind)
+        lambda: desk.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind)
     )

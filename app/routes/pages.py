@@ -9,7 +9,7 @@ from fastapi.responses import FileResponse, HTMLResponse
 
 from app.pages.latest import header_cells, job_rows
 from app.problems import Problem
-from app.services import ServicesOf
+from app.services import DeskOf
 from app.version import VERSION
 
 ROUTER = APIRouter(include_in_schema=False)
@@ -32,16 +32,15 @@ RECENT = 10
 
 
 @ROUTER.get("/")
-def start_page(request: Request, services: ServicesOf) -> HTMLResponse:
+def start_page(request: Request, desk: DeskOf) -> HTMLResponse:
     """Show where everything is, and the latest jobs."""
-    jobs, total = services.store.jobs.page(limit=RECENT, offset=0)
+    jobs = desk.store.jobs.page(limit=RECENT)
     page = Template((PAGES / "start.html").read_text())
     text = page.substitute(
         version=VERSION,
         address=escape(str(request.base_url)),
         columns=header_cells(),
-        rows=job_rows(jobs, services.catalogue),
-        total=total,
+        rows=job_rows(jobs, desk.catalogue),
     )
     return HTMLResponse(text, headers=POLICY)
 

@@ -6,12 +6,13 @@ import anyio
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 
+from app.listing import CursorOf, Limit, before, following
 from app.openapi import body, problems, reference
 from app.problems import Problem
 from app.reading import parse_json, require_media_type
 from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
 from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
-from app.services import ServicesOf
+from app.services import DeskOf
 from app.views import robot_document, robot_summary
 
 ROUTER = APIRouter(prefix="/v1/robots", tags=["robots"])
@@ -34,7 +35,7 @@ LinkName = Annotated[str | None, Query(max_length=200)]
 )
 async def create_robot(
     request: Request,
-    services: ServicesOf,
+    desk: DeskOf,
     base_link: LinkName = None,
     tip_link: LinkName = None,
     gravity: Annotated[
@@ -48,31 +49,30 @@ async def create_robot(
     if media_type in XML_TYPES:
         vector = _vector(gravity)
         robot = await anyio.to_thread.run_sync(
-            lambda: services.catalogue.add_urdf(
-                content, base_link=base_link, tip_link=tip_link, gravity=vector
-            )
+            lambda: desk.catalogue.add_urdf(content, base_link=base_link, tip_link=tip_link, gravity=vector)
         )
     else:
         _refuse_urdf_options(base_link=base_link, tip_link=tip_link, gravity=gravity)
-        robot = await anyio.to_thread.run_sync(services.catalogue.add_description, parse_json(content))
+        robot = await anyio.to_thread.run_sync(desk.catalogue.add_description, parse_json(content))
     return JSONResponse(robot_document(robot), 201, headers={"Location": f"/v1/robots/{robot.id}"})
 
 
 @ROUTER.get("", response_model=RobotList, summary="List robots", responses=problems(422))
 def list_robots(
-    services: ServicesOf,
-    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
-    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+    desk: DeskOf,
+    limit: Limit = 100,
+    cursor: CursorOf = None,
 ) -> Response:
     """List robots: built-in ones first, then the newest."""
-    robots, total = services.catalogue.robots(limit=limit, offset=offset)
-    return JSONResponse({"robots": [robot_summary(robot) for robot in robots], "total": total})
+    robots = desk.catalogue.robots(limit=limit, before=before(cursor))
+    listed = {"robots": [robot_summary(robot) for robot in robots]}
+    return JSONResponse(listed | {"next": following(robots, limit)})
 
 
 @ROUTER.get("/{robot_id}", response_model=Robot, summary="Read a robot", responses=problems(404))
-def read_robot(services: ServicesOf, robot_id: str) -> Response:
+def read_robot(desk: DeskOf, robot_id: str) -> Response:
     """Read a robot with every default of its description filled in."""
-    return JSONResponse(robot_document(services.catalogue.robot(robot_id)))
+    return JSONResponse(robot_document(desk.catalogue.robot(robot_id)))
 
 
 @ROUTER.get(
@@ -81,16 +81,16 @@ def read_robot(services: ServicesOf, robot_id: str) -> Response:
     summary="Read what can be told apart",
     responses=problems(404, 422),
 )
-def read_base_parameters(services: ServicesOf, robot_id: str) -> Response:
+def read_base_parameters(desk: DeskOf, robot_id: str) -> Response:
     """Read the combinations of parameters that some motion can tell apart, with their groupings."""
-    return JSONResponse(services.catalogue.base_parameters(robot_id))
+    return JSONResponse(desk.catalogue.base_parameters(robot_id))
 
 
 @ROUTER.delete("/{robot_id}", status_code=204, summary="Delete a robot", responses=problems(404, 409))
-def delete_robot(services: ServicesOf, robot_id: str) -> None:
+def delete_robot(desk: DeskOf, robot_id: str) -> None:
     """Delete a robot that no unfinished job needs. Built-in robots stay."""
-    services.queue.refuse_if_needed(robot=robot_id)
-    services.catalogue.remove_robot(robot_id)
+    desk.queue.refuse_if_needed(robot=robot_id)
+    desk.catalogue.remove_robot(robot_id)
 
 
 def _vector(text: str | None) -> tuple[float, ...] | None:

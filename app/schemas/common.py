@@ -23,6 +23,9 @@ Options = Annotated[dict[str, JsonValue], Field(max_length=100)]
 Instant = Annotated[str, Field(description="ISO 8601, UTC", examples=["2026-01-31T12:00:00.000+00:00"])]
 
 
+Next = Annotated[str | None, Field(description="`cursor` of the next page; null where this is the last")]
+
+
 class ProblemDocument(Open):
     """An RFC 9457 problem document: what went wrong, what was seen, what to do about it."""
 

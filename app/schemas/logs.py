@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, JsonValue
 
-from app.schemas.common import Instant, Open
+from app.schemas.common import Instant, Next, Open
 
 
 class Defect(Open):
@@ -42,4 +42,4 @@ class LogList(Open):
     """Logs, the newest first."""
 
     logs: list[LogSummary]
-    total: int
+    next: Next

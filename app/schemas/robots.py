@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from app.schemas.common import Instant, Open, Strict
+from app.schemas.common import Instant, Next, Open, Strict
 
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -153,7 +153,7 @@ class RobotList(Open):
     """Robots, built-in ones first, then the newest."""
 
     robots: list[RobotSummary]
-    total: int
+    next: Next
 
 
 class BaseParameters(Open):

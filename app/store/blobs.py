@@ -7,9 +7,13 @@ here, never anything that a client sent.
 import hashlib
 import os
 import secrets
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Self
+
+Mark = tuple[int, int]
+"""Number of a file and when it was written: both differ where the same bytes were kept again."""
 
 
 class Incoming:
@@ -63,7 +67,7 @@ class BlobStore:
     Parameters
     ----------
     root
-        Directory to keep them in; what an earlier run left half received is removed.
+        Directory to keep them in.
     """
 
     def __init__(self, root: Path) -> None:
@@ -71,8 +75,6 @@ class BlobStore:
         self._aside = root / "incoming"
         for directory in (self._kept, self._aside):
             directory.mkdir(parents=True, exist_ok=True)
-        for leftover in self._aside.iterdir():
-            leftover.unlink(missing_ok=True)
 
     def receive(self) -> Incoming:
         """Start to take bytes; use as a context manager."""
@@ -83,7 +85,7 @@ class BlobStore:
         incoming.finish()
         target = self.path(incoming.sha256)
         target.parent.mkdir(exist_ok=True)
-        incoming.path.replace(target)
+        incoming.path.replace(target)  # a new file each time, even of bytes that are known: see `Mark`
         directory = os.open(target.parent, os.O_RDONLY)
         try:
             os.fsync(directory)  # the new name is on the disk too
@@ -101,6 +103,29 @@ class BlobStore:
         """Say where the bytes of a hash are kept."""
         return self._kept / sha256[:2] / sha256
 
-    def remove(self, sha256: str) -> None:
-        """Forget bytes; it is no error that they are gone."""
-        self.path(sha256).unlink(missing_ok=True)
+    def marks(self) -> dict[str, Mark]:
+        """List all bytes that are kept, with what tells whether they were kept again meanwhile."""
+        return {path.name: mark for path in self._kept.glob("??/*") for mark in [_mark(path)] if mark}
+
+    def remove(self, sha256: str, mark: Mark) -> None:
+        """Forget bytes, unless they were kept again since they were marked."""
+        aside = self._aside / secrets.token_hex(16)
+        with suppress(FileNotFoundError):
+            self.path(sha256).rename(aside)
+            if _mark(aside) == mark:
+                aside.unlink()
+            else:
+                aside.replace(self.path(sha256))
+
+    def remove_leftovers(self) -> None:
+        """Remove what was left half received; only while nobody receives anything."""
+        for leftover in self._aside.iterdir():
+            leftover.unlink(missing_ok=True)
+
+
+def _mark(path: Path) -> Mark | None:
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        return None
+    return found.st_ino, found.st_mtime_ns

@@ -1,155 +1,144 @@
-r"""Keep jobs and their states; every change is one statement that only succeeds from the state it belongs to.
+r"""Keep the jobs of a tenant: asked for, looked at, dismissed, removed.
 
     accepted -> running -> successful | failed
-        |          |  \-> accepted (the service stopped meanwhile)
+        |          |  \-> accepted (whoever computed it stopped or died)
         `----------`----> dismissed
 
-So two workers never take the same job, and a job that was dismissed does not come back as successful.
+Every change is one statement that only succeeds from the state it belongs to: a job that was dismissed does
+not come back as successful. What workers do to jobs stands in `app.store.work`.
 """
 
-import json
+import hashlib
 import secrets
 
-from sqlalchemy import Engine, Row, and_, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, and_, delete, insert, select, update
 
-from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, State
-from app.store.tables import JOBS, now
+from app.documents import canonical_json
+from app.store.database import Database, take_turns
+from app.store.errors import KeyReused
+from app.store.records import UNFINISHED, JobRecord, JobRequestRecord
+from app.store.rows import job_record, request_record
+from app.store.tables import JOBS, REPEATS, now
+from app.version import VERSION
 
-MOST_ATTEMPTS = 3
+ANSWERED = (*UNFINISHED, "successful")
+"""States of a job that answers a later request for the same."""
 
 
 class JobStore:
-    """Keep jobs in the database."""
+    """Keep one tenant's jobs in the database."""
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    def __init__(self, database: Database, tenant: str) -> None:
+        self._database, self._tenant = database, tenant
 
-    def add(self, request: JobRequestRecord) -> JobRecord:
-        """Queue a job."""
-        asked = {
-            "kind": request.kind,
-            "robot": request.robot,
-            "logs": request.logs,
-            "options": request.options,
-        }
-        values = {
-            "id": "job-" + secrets.token_hex(10),
-            "request": json.dumps(asked),
-            "state": "accepted",
-            "created_at": now(),
-        }
-        with self._engine.begin() as connection:
-            return _record(connection.execute(insert(JOBS).values(values).returning(JOBS)).one())
+    def add(self, request: JobRequestRecord, *, key: str | None = None) -> JobRecord:
+        """Queue a job, or find the one that asked for the same.
+
+        Parameters
+        ----------
+        key
+            What a client calls its request, so that it can send it twice and mean it once.
+
+        Raises
+        ------
+        KeyReused
+            If the key came with another request before.
+        """
+        asked = canonical_json(request.document())
+        fingerprint = hashlib.sha256(canonical_json([VERSION, request.document()])).hexdigest()
+        digest = hashlib.sha256(asked).hexdigest()
+
+        def work(connection: Connection) -> JobRecord:
+            if key is not None:
+                take_turns(connection, f"{self._tenant} {key}")
+            take_turns(connection, fingerprint)
+            known = None if key is None else self._repeated(connection, key, digest)
+            found = known or self._alike(connection, fingerprint) or self._new(connection, asked, fingerprint)
+            if key is not None and known is None:
+                values = {"tenant": self._tenant, "key": key, "digest": digest, "job_id": found.id}
+                connection.execute(insert(REPEATS).values(values | {"created_at": now()}))
+            return found
+
+        return self._database.write(work)
 
     def get(self, identity: str) -> JobRecord | None:
         """Find a job."""
-        with self._engine.connect() as connection:
-            row = connection.execute(select(JOBS).where(JOBS.c.id == identity)).one_or_none()
-        return None if row is None else _record(row)
+        return self._database.read(lambda connection: self._find(connection, identity))
 
-    def page(self, *, limit: int, offset: int) -> tuple[list[JobRecord], int]:
-        """List jobs, the newest first, and count all of them."""
-        newest = select(JOBS).order_by(JOBS.c.sequence.desc()).limit(limit).offset(offset)
-        with self._engine.connect() as connection:
-            total = connection.execute(select(func.count()).select_from(JOBS)).scalar_one()
-            return [_record(row) for row in connection.execute(newest)], total
+    def page(self, *, limit: int, before: int | None = None) -> list[JobRecord]:
+        """List jobs, the newest first, from before a sequence number on."""
+        query = select(JOBS).where(JOBS.c.tenant == self._tenant).order_by(JOBS.c.sequence.desc())
+        if before is not None:
+            query = query.where(JOBS.c.sequence < before)
+        return self._database.read(
+            lambda connection: [job_record(row) for row in connection.execute(query.limit(limit))]
+        )
 
-    def claim(self) -> JobRecord | None:
-        """Take the oldest waiting job and mark it running; None where none waits."""
-        oldest = select(func.min(JOBS.c.sequence)).where(JOBS.c.state == "accepted").scalar_subquery()
-        values = {
-            "state": "running",
-            "stage": "starting",
-            "fraction": 0.0,
-            "started_at": now(),
-            "attempts": JOBS.c.attempts + 1,
-            "version": JOBS.c.version + 1,
-        }
-        taken = and_(JOBS.c.sequence == oldest, JOBS.c.state == "accepted")
-        with self._engine.begin() as connection:
-            row = connection.execute(update(JOBS).where(taken).values(values).returning(JOBS)).one_or_none()
-        return None if row is None else _record(row)
+    def dismiss(self, identity: str) -> JobRecord | None:
+        """Mark an unfinished job dismissed; give the job as it is then, None where there is none."""
+        values = {"state": "dismissed", "finished_at": now(), "version": JOBS.c.version + 1}
+        unfinished = and_(self._own(identity), JOBS.c.state.in_(UNFINISHED))
 
-    def report(self, identity: str, *, stage: str, fraction: float) -> None:
-        """Say how far a running job is."""
-        self._change(identity, ("running",), {"stage": stage, "fraction": fraction})
+        def work(connection: Connection) -> JobRecord | None:
+            connection.execute(update(JOBS).where(unfinished).values(values))
+            return self._find(connection, identity)
 
-    def succeed(self, identity: str, *, result_sha256: str) -> bool:
-        """Mark a running job successful, and say whether it still ran."""
-        done = {"state": "successful", "stage": "done", "fraction": 1.0, "result_sha256": result_sha256}
-        return self._change(identity, ("running",), done | {"finished_at": now()})
-
-    def fail(self, identity: str, problem: Document) -> bool:
-        """Mark a running job failed, and say whether it still ran."""
-        values: dict[str, object] = {
-            "state": "failed",
-            "problem": json.dumps(problem),
-            "finished_at": now(),
-        }
-        return self._change(identity, ("running",), values)
-
-    def dismiss(self, identity: str) -> bool:
-        """Mark an unfinished job dismissed, and say whether it was unfinished."""
-        return self._change(identity, UNFINISHED, {"state": "dismissed", "finished_at": now()})
-
-    def put_back(self, identity: str) -> bool:
-        """Queue a running job again, as if it had never been taken."""
-        values = {"state": "accepted", "stage": "", "fraction": 0.0, "started_at": None}
-        return self._change(identity, ("running",), values | {"attempts": JOBS.c.attempts - 1})
-
-    def recover(self, problem: Document) -> None:
-        """Queue again what an earlier run left running; what was tried too often fails."""
-        left = JOBS.c.state == "running"
-        failed = {"state": "failed", "problem": json.dumps(problem), "finished_at": now()}
-        queued = {"state": "accepted", "stage": "", "fraction": 0.0, "started_at": None}
-        later = {"version": JOBS.c.version + 1}
-        with self._engine.begin() as connection:
-            too_often = and_(left, JOBS.c.attempts >= MOST_ATTEMPTS)
-            connection.execute(update(JOBS).where(too_often).values(failed | later))
-            connection.execute(update(JOBS).where(left).values(queued | later))
+        return self._database.write(work)
 
     def remove(self, identity: str) -> bool:
         """Forget a finished job, and say whether there was one."""
-        finished = and_(JOBS.c.id == identity, JOBS.c.state.not_in(UNFINISHED))
-        with self._engine.begin() as connection:
-            return connection.execute(delete(JOBS).where(finished)).rowcount > 0
+        finished = and_(self._own(identity), JOBS.c.state.not_in(UNFINISHED))
+        return self._database.write(
+            lambda connection: connection.execute(delete(JOBS).where(finished)).rowcount > 0
+        )
 
     def unfinished_requests(self) -> list[JobRequestRecord]:
         """List what unfinished jobs need."""
-        with self._engine.connect() as connection:
-            rows = connection.execute(select(JOBS.c.request).where(JOBS.c.state.in_(UNFINISHED)))
-            return [_request(row.request) for row in rows]
+        query = select(JOBS.c.request).where(JOBS.c.tenant == self._tenant, JOBS.c.state.in_(UNFINISHED))
+        return self._database.read(
+            lambda connection: [request_record(text) for text in connection.execute(query).scalars()]
+        )
 
-    def uses(self, sha256: str) -> bool:
-        """Tell whether any job's result is the bytes of a hash."""
-        with self._engine.connect() as connection:
-            query = select(func.count()).select_from(JOBS).where(JOBS.c.result_sha256 == sha256)
-            return connection.execute(query).scalar_one() > 0
+    def _own(self, identity: str) -> ColumnElement[bool]:
+        return and_(JOBS.c.tenant == self._tenant, JOBS.c.id == identity)
 
-    def _change(self, identity: str, states: tuple[State, ...], values: dict[str, object]) -> bool:
-        there = and_(JOBS.c.id == identity, JOBS.c.state.in_(states))
-        later: dict[str, object] = {"version": JOBS.c.version + 1}
-        with self._engine.begin() as connection:
-            return connection.execute(update(JOBS).where(there).values(values | later)).rowcount > 0
+    def _find(self, connection: Connection, identity: str) -> JobRecord | None:
+        row = connection.execute(select(JOBS).where(self._own(identity))).one_or_none()
+        return None if row is None else job_record(row)
 
+    def _repeated(self, connection: Connection, key: str, digest: str) -> JobRecord | None:
+        """Find what an earlier request with this key led to; None where there was none, or it is deleted."""
+        mine = and_(REPEATS.c.tenant == self._tenant, REPEATS.c.key == key)
+        earlier = connection.execute(select(REPEATS).where(mine)).one_or_none()
+        if earlier is None:
+            return None
+        if earlier.digest != digest:
+            raise KeyReused(key)
+        found = self._find(connection, earlier.job_id)
+        if found is None:
+            connection.execute(delete(REPEATS).where(mine))
+        return found
 
-def _request(text: str) -> JobRequestRecord:
-    asked = json.loads(text)
-    return JobRequestRecord(asked["kind"], asked["robot"], tuple(asked["logs"]), asked["options"])
+    def _alike(self, connection: Connection, fingerprint: str) -> JobRecord | None:
+        alike = and_(JOBS.c.tenant == self._tenant, JOBS.c.fingerprint == fingerprint)
+        query = select(JOBS).where(alike, JOBS.c.state.in_(ANSWERED)).order_by(JOBS.c.sequence).limit(1)
+        row = connection.execute(query).one_or_none()
+        return None if row is None else job_record(row)
 
-
-def _record(row: Row[tuple[object, ...]]) -> JobRecord:
-    return JobRecord(
-        id=row.id,
-        request=_request(row.request),
-        state=row.state,
-        stage=row.stage,
-        fraction=row.fraction,
-        attempts=row.attempts,
-        version=row.version,
-        problem=None if row.problem is None else json.loads(row.problem),
-        result_sha256=row.result_sha256,
-        created_at=row.created_at,
-        started_at=row.started_at,
-        finished_at=row.finished_at,
-    )
+    def _new(self, connection: Connection, asked: bytes, fingerprint: str) -> JobRecord:
+        values = {
+            "tenant": self._tenant,
+            "id": "job-" + secrets.token_hex(10),
+            "fingerprint": fingerprint,
+            "request": asked.decode(),
+            "state": "accepted",
+            "stage": "",
+            "fraction": 0.0,
+            "version": 1,
+            "attempts": 0,
+            "token": 0,
+            "beat": 0,
+            "result_bytes": 0,
+            "created_at": now(),
+        }
+        return job_record(connection.execute(insert(JOBS).values(values).returning(JOBS)).one())

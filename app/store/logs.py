@@ -3,10 +3,12 @@
 import hashlib
 import json
 
-from sqlalchemy import Engine, Row, delete, func, insert, select
+from sqlalchemy import ColumnElement, Connection, and_, delete, select
 
 from app.documents import canonical_json
+from app.store.database import Database, insert_if_new
 from app.store.records import Document, LogRecord
+from app.store.rows import log_record
 from app.store.tables import LOGS, now
 
 
@@ -16,48 +18,47 @@ def log_id(*, sha256: str, name: str, mapping: Document | None) -> str:
 
 
 class LogStore:
-    """Keep the summaries of logs in the database."""
+    """Keep the summaries of one tenant's logs in the database."""
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    def __init__(self, database: Database, tenant: str) -> None:
+        self._database, self._tenant = database, tenant
 
-    def add(self, identity: str, *, sha256: str, summary: Document) -> LogRecord:
-        """Keep a log, or find it where it is known already."""
+    def add(self, identity: str, *, sha256: str, size: int, summary: Document) -> LogRecord:
+        """Keep a log, or find it where it is known already; its bytes are there before it is."""
         values = {
+            "tenant": self._tenant,
             "id": identity,
-            "sequence": select(func.coalesce(func.max(LOGS.c.sequence), 0) + 1).scalar_subquery(),
             "sha256": sha256,
+            "bytes": size,
             "document": json.dumps(summary),
             "created_at": now(),
         }
-        with self._engine.begin() as connection:
-            connection.execute(insert(LOGS).prefix_with("OR IGNORE").values(values))
-            return _record(connection.execute(select(LOGS).where(LOGS.c.id == identity)).one())
+
+        def work(connection: Connection) -> LogRecord:
+            insert_if_new(connection, LOGS, values)
+            return log_record(connection.execute(select(LOGS).where(self._own(identity))).one())
+
+        return self._database.write(work)
 
     def get(self, identity: str) -> LogRecord | None:
         """Find a log."""
-        with self._engine.connect() as connection:
-            row = connection.execute(select(LOGS).where(LOGS.c.id == identity)).one_or_none()
-        return None if row is None else _record(row)
+        query = select(LOGS).where(self._own(identity))
+        row = self._database.read(lambda connection: connection.execute(query).one_or_none())
+        return None if row is None else log_record(row)
 
-    def page(self, *, limit: int, offset: int) -> tuple[list[LogRecord], int]:
-        """List logs, the newest first, and count all of them."""
-        newest = select(LOGS).order_by(LOGS.c.sequence.desc()).limit(limit).offset(offset)
-        with self._engine.connect() as connection:
-            total = connection.execute(select(func.count()).select_from(LOGS)).scalar_one()
-            return [_record(row) for row in connection.execute(newest)], total
+    def page(self, *, limit: int, before: int | None = None) -> list[LogRecord]:
+        """List logs, the newest first, from before a sequence number on."""
+        query = select(LOGS).where(LOGS.c.tenant == self._tenant).order_by(LOGS.c.sequence.desc())
+        if before is not None:
+            query = query.where(LOGS.c.sequence < before)
+        return self._database.read(
+            lambda connection: [log_record(row) for row in connection.execute(query.limit(limit))]
+        )
 
     def remove(self, identity: str) -> bool:
         """Forget a log, and say whether it was there."""
-        with self._engine.begin() as connection:
-            return connection.execute(delete(LOGS).where(LOGS.c.id == identity)).rowcount > 0
+        gone = delete(LOGS).where(self._own(identity))
+        return self._database.write(lambda connection: connection.execute(gone).rowcount > 0)
 
-    def uses(self, sha256: str) -> bool:
-        """Tell whether any log needs the bytes of a hash."""
-        with self._engine.connect() as connection:
-            query = select(func.count()).select_from(LOGS).where(LOGS.c.sha256 == sha256)
-            return connection.execute(query).scalar_one() > 0
-
-
-def _record(row: Row[tuple[object, ...]]) -> LogRecord:
-    return LogRecord(row.id, row.sha256, json.loads(row.document), row.created_at)
+    def _own(self, identity: str) -> ColumnElement[bool]:
+        return and_(LOGS.c.tenant == self._tenant, LOGS.c.id == identity)

@@ -19,6 +19,7 @@ class RobotRecord:
     description: Document
     suspicions: tuple[str, ...]
     created_at: str | None
+    sequence: int | None = None
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,7 @@ class LogRecord:
     """Keep a log: the summary that clients see; the samples stay in the uploaded file."""
 
     id: str
+    sequence: int
     sha256: str
     summary: Document
     created_at: str
@@ -45,17 +47,32 @@ class JobRequestRecord:
     logs: tuple[str, ...]
     options: Document
 
+    def document(self) -> Document:
+        """Write it as a document."""
+        return {"kind": self.kind, "robot": self.robot, "logs": list(self.logs), "options": self.options}
+
 
 @dataclass(frozen=True)
 class JobRecord:
-    """Keep a job: what was asked for, how far it is, and how it ended."""
+    """Keep a job: what was asked for, how far it is, and how it ended.
 
+    Attributes
+    ----------
+    token
+        How often it was taken; who took it earlier no longer has a say.
+    version
+        Grows with every change.
+    """
+
+    tenant: str
     id: str
+    sequence: int
     request: JobRequestRecord
     state: State
     stage: str
     fraction: float
     attempts: int
+    token: int
     version: int
     problem: Document | None
     result_sha256: str | None

@@ -3,18 +3,20 @@
 import hashlib
 import json
 
-from sqlalchemy import Engine, Row, delete, func, insert, select
+from sqlalchemy import ColumnElement, Connection, and_, delete, select
 
 from app.documents import canonical_json
+from app.store.database import Database, insert_if_new
 from app.store.records import Document, RobotRecord
+from app.store.rows import robot_record
 from app.store.tables import ROBOTS, now
 
 
 class RobotStore:
-    """Keep robots in the database."""
+    """Keep one tenant's robots in the database."""
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    def __init__(self, database: Database, tenant: str) -> None:
+        self._database, self._tenant = database, tenant
 
     def add(
         self, *, name: str, joints: int, description: Document, suspicions: tuple[str, ...]
@@ -28,42 +30,37 @@ class RobotStore:
             "suspicions": list(suspicions),
         }
         values = {
+            "tenant": self._tenant,
             "id": identity,
-            "sequence": select(func.coalesce(func.max(ROBOTS.c.sequence), 0) + 1).scalar_subquery(),
             "document": json.dumps(document),
             "created_at": now(),
         }
-        with self._engine.begin() as connection:
-            connection.execute(insert(ROBOTS).prefix_with("OR IGNORE").values(values))
-            return _record(connection.execute(select(ROBOTS).where(ROBOTS.c.id == identity)).one())
+
+        def work(connection: Connection) -> RobotRecord:
+            insert_if_new(connection, ROBOTS, values)
+            return robot_record(connection.execute(select(ROBOTS).where(self._own(identity))).one())
+
+        return self._database.write(work)
 
     def get(self, identity: str) -> RobotRecord | None:
         """Find a robot."""
-        with self._engine.connect() as connection:
-            row = connection.execute(select(ROBOTS).where(ROBOTS.c.id == identity)).one_or_none()
-        return None if row is None else _record(row)
+        query = select(ROBOTS).where(self._own(identity))
+        row = self._database.read(lambda connection: connection.execute(query).one_or_none())
+        return None if row is None else robot_record(row)
 
-    def page(self, *, limit: int, offset: int) -> tuple[list[RobotRecord], int]:
-        """List robots, the newest first, and count all of them."""
-        newest = select(ROBOTS).order_by(ROBOTS.c.sequence.desc()).limit(limit).offset(offset)
-        with self._engine.connect() as connection:
-            total = connection.execute(select(func.count()).select_from(ROBOTS)).scalar_one()
-            return [_record(row) for row in connection.execute(newest)], total
+    def page(self, *, limit: int, before: int | None = None) -> list[RobotRecord]:
+        """List robots, the newest first, from before a sequence number on."""
+        query = select(ROBOTS).where(ROBOTS.c.tenant == self._tenant).order_by(ROBOTS.c.sequence.desc())
+        if before is not None:
+            query = query.where(ROBOTS.c.sequence < before)
+        return self._database.read(
+            lambda connection: [robot_record(row) for row in connection.execute(query.limit(limit))]
+        )
 
     def remove(self, identity: str) -> bool:
         """Forget a robot, and say whether it was there."""
-        with self._engine.begin() as connection:
-            return connection.execute(delete(ROBOTS).where(ROBOTS.c.id == identity)).rowcount > 0
+        gone = delete(ROBOTS).where(self._own(identity))
+        return self._database.write(lambda connection: connection.execute(gone).rowcount > 0)
 
-
-def _record(row: Row[tuple[object, ...]]) -> RobotRecord:
-    document = json.loads(row.document)
-    return RobotRecord(
-        id=row.id,
-        name=document["name"],
-        joints=document["joints"],
-        built_in=False,
-        description=document["description"],
-        suspicions=tuple(document["suspicions"]),
-        created_at=row.created_at,
-    )
+    def _own(self, identity: str) -> ColumnElement[bool]:
+        return and_(ROBOTS.c.tenant == self._tenant, ROBOTS.c.id == identity)

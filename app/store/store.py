@@ -1,74 +1,87 @@
-"""Bind records and bytes together: bytes are kept as long as a record needs them, and no longer.
+"""Bind records and bytes together: bytes are written before the record that needs them, and removed after it.
 
-One lock orders the few moments in which both change, so that nobody removes bytes that somebody is about to
-need.
+What is in between when the power fails is bytes that no record needs; `app.store.sweep` removes them.
 """
 
-import threading
+from dataclasses import dataclass
 from pathlib import Path
 
+from sqlalchemy import Connection, exists, select, union_all
+
 from app.store.blobs import BlobStore, Incoming
+from app.store.database import Database
 from app.store.jobs import JobStore
 from app.store.logs import LogStore, log_id
 from app.store.records import Document, LogRecord
 from app.store.robots import RobotStore
-from app.store.tables import open_database
+from app.store.tables import JOBS, LOGS
+from app.store.work import Held, WorkStore
 
 
 class Store:
-    """Open everything that is kept under one directory.
+    """Open everything that is kept.
 
     Parameters
     ----------
     directory
-        Created where it does not exist.
+        Created where it does not exist; bytes are kept here, and the database where no other is named.
+    database_url
+        Where the database is; None for the embedded one.
     """
 
-    def __init__(self, directory: Path) -> None:
+    def __init__(self, directory: Path, database_url: str | None = None) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        self._engine = open_database(directory / "veritorque.sqlite")
-        self._lock = threading.Lock()
+        self.directory = directory
+        self.database = Database(database_url) if database_url else Database.in_directory(directory)
         self.blobs = BlobStore(directory / "blobs")
-        self.robots = RobotStore(self._engine)
-        self.logs = LogStore(self._engine)
-        self.jobs = JobStore(self._engine)
+        self.work = WorkStore(self.database)
+
+    def of(self, tenant: str) -> "TenantStore":
+        """Open what belongs to one tenant; nothing of another's can be reached through it."""
+        return TenantStore(
+            blobs=self.blobs,
+            robots=RobotStore(self.database, tenant),
+            logs=LogStore(self.database, tenant),
+            jobs=JobStore(self.database, tenant),
+        )
 
     def close(self) -> None:
         """Let go of the database."""
-        self._engine.dispose()
+        self.database.close()
+
+    def keep_result(self, held: Held, result: bytes) -> bool:
+        """Keep a job's result document, and say whether whoever computed it still held the job."""
+        sha256 = self.blobs.put(result)
+        return self.work.succeed(held, result_sha256=sha256, result_bytes=len(result))
+
+    def needed(self) -> set[str]:
+        """List the hashes of all bytes that a record needs."""
+        query = union_all(
+            select(LOGS.c.sha256), select(JOBS.c.result_sha256).where(JOBS.c.result_sha256.is_not(None))
+        )
+        return self.database.read(lambda connection: set(connection.execute(query).scalars()))
+
+    def needs(self, sha256: str) -> bool:
+        """Tell whether a record needs the bytes of a hash."""
+
+        def work(connection: Connection) -> bool:
+            either = exists().where(LOGS.c.sha256 == sha256) | exists().where(JOBS.c.result_sha256 == sha256)
+            return bool(connection.execute(select(either)).scalar_one())
+
+        return self.database.read(work)
+
+
+@dataclass(frozen=True)
+class TenantStore:
+    """Keep what belongs to one tenant."""
+
+    blobs: BlobStore
+    robots: RobotStore
+    logs: LogStore
+    jobs: JobStore
 
     def keep_log(self, incoming: Incoming, *, mapping: Document | None, summary: Document) -> LogRecord:
-        """Keep an uploaded log: its bytes and its summary."""
-        identity = log_id(sha256=incoming.sha256, name=str(summary["name"]), mapping=mapping)
-        with self._lock:
-            sha256 = self.blobs.keep(incoming)
-            return self.logs.add(identity, sha256=sha256, summary=summary)
-
-    def remove_log(self, log: LogRecord) -> None:
-        """Forget a log, and its bytes where no other log has the same."""
-        with self._lock:
-            self.logs.remove(log.id)
-            self._release(log.sha256)
-
-    def keep_result(self, job_id: str, result: bytes) -> bool:
-        """Keep a job's result document, and say whether the job still wanted it."""
-        with self._lock:
-            sha256 = self.blobs.put(result)
-            wanted = self.jobs.succeed(job_id, result_sha256=sha256)
-            if not wanted:
-                self._release(sha256)
-            return wanted
-
-    def remove_job(self, job_id: str) -> bool:
-        """Forget a finished job and its result, and say whether there was one."""
-        with self._lock:
-            job = self.jobs.get(job_id)
-            if job is None or not self.jobs.remove(job_id):
-                return False
-            if job.result_sha256 is not None:
-                self._release(job.result_sha256)
-            return True
-
-    def _release(self, sha256: str) -> None:
-        if not (self.logs.uses(sha256) or self.jobs.uses(sha256)):
-            self.blobs.remove(sha256)
+        """Keep an uploaded log: its bytes, then its summary."""
+        sha256, size = self.blobs.keep(incoming), incoming.size
+        identity = log_id(sha256=sha256, name=str(summary["name"]), mapping=mapping)
+        return self.logs.add(identity, sha256=sha256, size=size, summary=summary)

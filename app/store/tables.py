@@ -1,80 +1,99 @@
 """Lay out the database: one table per resource, JSON documents as text, times as ISO 8601 in UTC.
 
-SQLite in WAL mode lets requests read while a computation reports its progress. Source: https://www.sqlite.org/wal.html
+Everything but a key belongs to a tenant. Numbers that only ever grow (`sequence`, `token`, `beat`, `version`)
+order what clocks cannot: a clock may be set back an hour.
 """
 
 from datetime import UTC, datetime
-from pathlib import Path
 
-from sqlalchemy import (
-    URL,
-    Column,
-    Engine,
-    Float,
-    Integer,
-    MetaData,
-    String,
-    Table,
-    Text,
-    create_engine,
-    event,
+from sqlalchemy import Column, Float, Index, Integer, MetaData, String, Table, Text, UniqueConstraint
+
+METADATA = MetaData(
+    naming_convention={
+        "pk": "pk_%(table_name)s",
+        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
+        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
+    }
 )
-from sqlalchemy.engine.interfaces import DBAPIConnection
-from sqlalchemy.pool import ConnectionPoolEntry
-
-METADATA = MetaData()
 
 ROBOTS = Table(
     "robots",
     METADATA,
-    Column("id", String, primary_key=True),
-    Column("sequence", Integer, nullable=False, index=True),
+    Column("sequence", Integer, primary_key=True, autoincrement=True),
+    Column("tenant", String, nullable=False),
+    Column("id", String, nullable=False),
     Column("document", Text, nullable=False),
     Column("created_at", String, nullable=False),
+    UniqueConstraint("tenant", "id"),
+    sqlite_autoincrement=True,
 )
 LOGS = Table(
     "logs",
     METADATA,
-    Column("id", String, primary_key=True),
-    Column("sequence", Integer, nullable=False, index=True),
+    Column("sequence", Integer, primary_key=True, autoincrement=True),
+    Column("tenant", String, nullable=False),
+    Column("id", String, nullable=False),
     Column("sha256", String, nullable=False, index=True),
+    Column("bytes", Integer, nullable=False),
     Column("document", Text, nullable=False),
     Column("created_at", String, nullable=False),
+    UniqueConstraint("tenant", "id"),
+    sqlite_autoincrement=True,
 )
 JOBS = Table(
     "jobs",
     METADATA,
     Column("sequence", Integer, primary_key=True, autoincrement=True),
+    Column("tenant", String, nullable=False),
     Column("id", String, nullable=False, unique=True),
+    Column("fingerprint", String, nullable=False),
     Column("request", Text, nullable=False),
-    Column("state", String, nullable=False, index=True),
-    Column("stage", String, nullable=False, default=""),
-    Column("fraction", Float, nullable=False, default=0.0),
-    Column("attempts", Integer, nullable=False, default=0),
-    Column("version", Integer, nullable=False, default=1),
+    Column("state", String, nullable=False),
+    Column("stage", String, nullable=False),
+    Column("fraction", Float, nullable=False),
+    Column("version", Integer, nullable=False),
+    Column("attempts", Integer, nullable=False),
+    Column("token", Integer, nullable=False),
+    Column("owner", String),
+    Column("beat", Integer, nullable=False),
     Column("problem", Text),
     Column("result_sha256", String, index=True),
+    Column("result_bytes", Integer, nullable=False),
     Column("created_at", String, nullable=False),
     Column("started_at", String),
     Column("finished_at", String),
+    Index(None, "state", "sequence"),
+    Index(None, "tenant", "fingerprint"),
+    sqlite_autoincrement=True,
 )
+"""`token` counts how often a job was taken: who holds an old one changes nothing. `beat` grows while `owner`
+lives. Of equal `fingerprint` are jobs that ask for the same."""
 
+REPEATS = Table(
+    "repeats",
+    METADATA,
+    Column("tenant", String, primary_key=True),
+    Column("key", String, primary_key=True),
+    Column("digest", String, nullable=False),
+    Column("job_id", String, nullable=False),
+    Column("created_at", String, nullable=False),
+)
+"""Requests that carried an Idempotency-Key, by that key, with a hash of what was asked and what came of it."""
 
-def open_database(path: Path) -> Engine:
-    """Open the database, and create it where there is none."""
-    engine = create_engine(URL.create("sqlite", database=str(path)), connect_args={"timeout": 10.0})
-    event.listen(engine, "connect", _set_pragmas)
-    METADATA.create_all(engine)
-    return engine
+KEYS = Table(
+    "keys",
+    METADATA,
+    Column("id", String, primary_key=True),
+    Column("tenant", String, nullable=False),
+    Column("name", String, nullable=False),
+    Column("scopes", String, nullable=False),
+    Column("sha256", String, nullable=False, unique=True),
+    Column("created_at", String, nullable=False),
+    Column("revoked_at", String),
+)
+"""API keys; of a key itself only the hash is kept."""
 
 
 def now() -> str:
     """Give the time as ISO 8601 in UTC with milliseconds."""
     return datetime.now(UTC).isoformat(timespec="milliseconds")
-
-
-def _set_pragmas(connection: DBAPIConnection, _entry: ConnectionPoolEntry) -> None:
-    cursor = connection.cursor()
-    for pragma in ("journal_mode=WAL", "synchronous=FULL", "busy_timeout=10000"):
-        cursor.execute(f"PRAGMA {pragma}")
-    cursor.close()

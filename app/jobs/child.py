@@ -1,0 +1,74 @@
+"""Compute one job in a process of its own, and tell the service how it goes over a pipe.
+
+A message is one letter and its content: ``p`` progress, ``r`` the result document, ``f`` the problem
+document, ``t`` the trace of a mistake of ours (for the service's own log, never for clients). A computation
+does not outlive the service.
+"""
+
+import os
+import signal
+import threading
+import traceback
+from contextlib import suppress
+from multiprocessing.connection import Connection
+
+from app.documents import json_bytes
+from app.jobs.computation import Computation, Work
+from app.problems import Problem, problem_of
+from core.errors import VeritorqueError
+
+PROGRESS, RESULT, FAILURE, TRACE = b"p", b"r", b"f", b"t"
+
+
+def compute(pipe: Connection, work: Work, computation: Computation) -> None:
+    """Do the work and send its outcome; the entry point of the process."""
+    signal.signal(
+        signal.SIGINT, signal.SIG_IGN
+    )  # Ctrl-C is for the service, which then stops its computations
+    threading.Thread(target=_end_with_the_service, args=(pipe,), daemon=True).start()
+    sending = threading.Lock()
+
+    def send(letter: bytes, content: bytes) -> None:
+        with sending:
+            pipe.send_bytes(letter + content)
+
+    def progress(stage: str, fraction: float) -> None:
+        send(PROGRESS, json_bytes([stage, min(max(float(fraction), 0.0), 1.0)]))
+
+    try:
+        send(RESULT, json_bytes(work(computation, progress)))
+    except VeritorqueError as error:
+        send(FAILURE, json_bytes(problem_of(error).document()))
+    except MemoryError:
+        send(FAILURE, json_bytes(out_of_memory().document()))
+    except Exception:  # noqa: BLE001  (the boundary of the process: what is not ours becomes a problem without internals)
+        send(TRACE, traceback.format_exc().encode(errors="replace"))
+        send(FAILURE, json_bytes(mistake().document()))
+
+
+def nothing() -> None:
+    """Do nothing; the work of the process that is started to load the solver."""
+
+
+def out_of_memory() -> Problem:
+    """Say that the memory did not suffice."""
+    return Problem(
+        "computation-stopped",
+        "the computation ran out of memory",
+        remedy="shorten the log or raise the decimation",
+    )
+
+
+def mistake() -> Problem:
+    """Say that the mistake is ours."""
+    return Problem(
+        "internal",
+        "the computation met a mistake of the service",
+        remedy="report it; the service's own log holds the details",
+    )
+
+
+def _end_with_the_service(pipe: Connection) -> None:
+    with suppress(OSError):
+        pipe.poll(None)  # nothing is ever sent this way: it returns when the other end is gone
+    os._exit(1)

@@ -1,0 +1,104 @@
+"""Keep a worker process alive beside the service: it is started again when it dies, and killed when it freezes.
+
+The worker writes a line a second; silence means that it is frozen. It ends by itself when the pipe to the
+service closes, so that none is left behind when the service is killed.
+"""
+
+import logging
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+from app.settings import Settings
+
+LOGGER = logging.getLogger(__name__)
+SILENCE_S = 10.0
+"""A worker that writes nothing for so long is frozen."""
+LOOK_EVERY_S = 0.5
+PAUSES_S = (0.0, 0.5, 2.0, 5.0)
+"""Before a worker is started again, by how often in a row that failed at once."""
+LIVED_S = 10.0
+PARTING_S = 15.0
+READY, ALIVE = b"ready", b"alive"
+
+Start = Callable[[Settings], "subprocess.Popen[bytes]"]
+
+
+class Supervisor:
+    """Start a worker process, and see that there is one as long as the service runs.
+
+    Parameters
+    ----------
+    start
+        Starts the process; its standard output says that it lives, and the end of its standard input that it
+        shall end.
+    """
+
+    def __init__(self, settings: Settings, start: Start | None = None) -> None:
+        self._settings, self._start = settings, start or start_worker
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._serve, name="supervisor")
+        self._heard = 0.0
+        self.ready = threading.Event()
+
+    @property
+    def alive(self) -> bool:
+        """Tell whether a worker was heard lately."""
+        return time.monotonic() - self._heard < SILENCE_S
+
+    def start(self) -> None:
+        """Start the first worker."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Let the worker hand its jobs back and end."""
+        self._closing.set()
+        self._thread.join()
+
+    def _serve(self) -> None:
+        failures = 0
+        while not self._closing.wait(PAUSES_S[min(failures, len(PAUSES_S) - 1)]):
+            begun = time.monotonic()
+            with self._start(self._settings) as process:
+                self._heard = begun
+                threading.Thread(target=self._listen, args=(process,), daemon=True).start()
+                self._watch(process)
+                _end(process)
+            lived = time.monotonic() - begun
+            failures = 0 if lived > LIVED_S else failures + 1
+            if not self._closing.is_set():
+                LOGGER.error("the worker ended (%s) after %.1f s", process.returncode, lived)
+
+    def _watch(self, process: "subprocess.Popen[bytes]") -> None:
+        while not self._closing.wait(LOOK_EVERY_S) and process.poll() is None:
+            if not self.alive:
+                LOGGER.error("the worker %d says nothing for %g s and is killed", process.pid, SILENCE_S)
+                process.kill()
+
+    def _listen(self, process: "subprocess.Popen[bytes]") -> None:
+        for line in process.stdout or ():
+            self._heard = time.monotonic()
+            if line.strip() == READY:
+                self.ready.set()
+
+
+def start_worker(settings: Settings) -> "subprocess.Popen[bytes]":
+    """Start a worker process that is told the same as the service."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "app", "work", "--beside"],
+        env={**os.environ, **settings.environment()},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+
+
+def _end(process: "subprocess.Popen[bytes]") -> None:
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(PARTING_S)
+        except subprocess.TimeoutExpired:
+            process.kill()

@@ -1,0 +1,40 @@
+"""Know the keys without asking the database at every request: the list is read again every few seconds.
+
+A key that is revoked elsewhere stops working within that time. Hashes are compared in constant time.
+"""
+
+import hmac
+import threading
+import time
+
+from app.store.database import Database
+from app.store.keys import KeyRecord, KeyStore, digest
+
+FRESH_S = 2.0
+
+
+class KeyRing:
+    """Find keys by their secrets."""
+
+    def __init__(self, database: Database) -> None:
+        self._store = KeyStore(database)
+        self._lock = threading.Lock()
+        self._known: dict[str, KeyRecord] = {}
+        self._until = 0.0
+
+    def find(self, secret: str) -> KeyRecord | None:
+        """Give the valid key of a secret; None where there is none."""
+        asked = digest(secret)
+        found = self._current().get(asked)
+        return found if found is not None and hmac.compare_digest(found.sha256, asked) else None
+
+    def any(self) -> bool:
+        """Tell whether there is a valid key."""
+        return bool(self._current())
+
+    def _current(self) -> dict[str, KeyRecord]:
+        if time.monotonic() >= self._until:
+            with self._lock:
+                self._known = {one.sha256: one for one in self._store.all() if one.revoked_at is None}
+                self._until = time.monotonic() + FRESH_S
+        return self._known

@@ -1,0 +1,17 @@
+"""Say what can go wrong with what is kept, in terms of the store."""
+
+
+class KeyReused(Exception):  # noqa: N818 - it is what it says
+    """Say that a request came with a key that another request had before."""
+
+    def __init__(self, key: str) -> None:
+        super().__init__(key)
+        self.key = key
+
+
+class Unavailable(Exception):  # noqa: N818 - it is what it says
+    """Say that the database cannot be reached or written, and why."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason

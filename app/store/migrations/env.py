@@ -1,0 +1,8 @@
+"""Let Alembic run the steps on the connection it is given, within the transaction that is open there."""
+
+from alembic import context
+
+from app.store.tables import METADATA
+
+context.configure(connection=context.config.attributes["connection"], target_metadata=METADATA)
+context.run_migrations()
