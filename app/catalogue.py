@@ -79,7 +79,7 @@ class Catalogue:
         return self.built_in.get(identity) or self._store.robots.get(identity)
 
     def robots(self, *, limit: int, before: int | None = None) -> list[RobotRecord]:
-        """List robots, the newest first; those that are built in stand on the first page, before all others."""
+        """List robots, the newest first; built-in ones stand on the first page, before all others."""
         fixed = [] if before is not None else list(self.built_in.values())
         return fixed + self._store.robots.page(limit=limit, before=before)
 

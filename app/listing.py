@@ -1,4 +1,4 @@
-"""Turn long lists page by page: a cursor says where the next page begins, whatever comes and goes meanwhile."""
+"""Turn long lists page by page: a cursor says where the next page begins, whatever comes and goes."""
 
 from collections.abc import Sequence
 from typing import Annotated, Protocol

@@ -22,7 +22,7 @@ class Settings(BaseSettings):
     host, port
         Address to listen on. On loopback no key is needed; on any other there has to be one.
     hosts
-        Names by which the service is called, besides those of loopback: others in the Host header are refused.
+        Names by which the service is called, besides loopback's: others in the Host header are refused.
     data_dir
         Directory of the database, the uploaded logs, the results and the compiled kernels.
     database_url

@@ -1,8 +1,8 @@
 """Show that a worker lives, in a way that the system itself takes back when it dies, however it dies.
 
 A worker holds a lock on a file of its name; the system lets go of it even after kill -9. Whoever gets the
-lock of another worker knows that it is gone. On other machines, and of a worker that is frozen, nothing can be
-known this way: there its beats in the database have to stop for a while first.
+lock of another worker knows that it is gone. On other machines, and of a worker that is frozen, nothing can
+be known this way: there its beats in the database have to stop for a while first.
 """
 
 import fcntl

@@ -1,4 +1,4 @@
-"""Keep a worker process alive beside the service: it is started again when it dies, and killed when it freezes.
+"""Keep a worker process alive beside the service: started again when it dies, killed when it freezes.
 
 The worker writes a line a second; silence means that it is frozen. It ends by itself when the pipe to the
 service closes, so that none is left behind when the service is killed.

@@ -49,7 +49,7 @@ async def create_job(
         ),
     ] = None,
 ) -> Response:
-    """Queue a computation, or find the one that asked for the same. What cannot succeed is refused at once."""
+    """Queue a computation, or find one that asks for the same. What cannot succeed is refused at once."""
     require_media_type(request, ("application/json",))
     asked = check(JobRequest, parse_json(await request.body()))
     job = await anyio.to_thread.run_sync(_submit, desk, asked, idempotency_key)

@@ -26,7 +26,6 @@ MOST_TOGETHER = 256
 """Units of work that one commit carries."""
 PATIENCE_S = 10.0
 """How long a writer waits for another process."""
-_INSERTS = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
 Given = TypeVar("Given")
 Work = Callable[[Connection], Given]
 _Unit = tuple[Callable[[Connection], Any], "Future[Any]"]
@@ -136,8 +135,10 @@ class Database:
 
 def insert_if_new(connection: Connection, table: Table, values: Mapping[str, object]) -> None:
     """Insert a row unless one with the same unique values is there, even if that comes at the same time."""
-    insert = _INSERTS[connection.dialect.name](table)
-    connection.execute(insert.values(values).on_conflict_do_nothing())
+    if connection.dialect.name == "postgresql":
+        connection.execute(postgresql.insert(table).values(values).on_conflict_do_nothing())
+    else:
+        connection.execute(sqlite.insert(table).values(values).on_conflict_do_nothing())
 
 
 def take_turns(connection: Connection, about: str) -> None:
@@ -177,7 +178,7 @@ def _engine(url: URL) -> Engine:
 
 def _prepare(connection: DBAPIConnection, _entry: ConnectionPoolEntry) -> None:
     """Let us begin transactions ourselves, and set what SQLite keeps per connection."""
-    connection.isolation_level = None  # type: ignore[attr-defined]  # the DBAPI's own attribute, unknown to the protocol
+    connection.isolation_level = None
     cursor = connection.cursor()
     for pragma in ("journal_mode=WAL", "synchronous=FULL", f"busy_timeout={int(1000 * PATIENCE_S)}"):
         cursor.execute(f"PRAGMA {pragma}")

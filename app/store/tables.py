@@ -78,7 +78,7 @@ REPEATS = Table(
     Column("job_id", String, nullable=False),
     Column("created_at", String, nullable=False),
 )
-"""Requests that carried an Idempotency-Key, by that key, with a hash of what was asked and what came of it."""
+"""Requests that carried an Idempotency-Key, by that key, with a hash of what was asked and the job."""
 
 KEYS = Table(
     "keys",

@@ -1,1 +1,1 @@
-"""Bring the database of an earlier version to the present layout: in comes an engine, out a database of today."""
+"""Bring the database of an earlier version to the present layout: in comes an engine, out the tables."""
