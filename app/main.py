@@ -42,9 +42,9 @@ def create_app(
     settings
         Read from the environment if None.
     executor
-        What computes within this process; None where others compute.
+        What computes; a process per computation if None.
     supervisor
-        Keeps the process alive that does, beside this one.
+        Keeps the process alive that sees to the computing; None to see to it within this one.
     """
     chosen = settings or Settings()
 

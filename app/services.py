@@ -7,7 +7,7 @@ from fastapi import Depends, Request
 
 from app.callers import Caller, caller_of
 from app.catalogue import Catalogue, built_in_robots
-from app.jobs.executor import Executor
+from app.jobs.executor import Executor, ProcessExecutor
 from app.jobs.queue import Queue
 from app.jobs.supervisor import Supervisor
 from app.jobs.worker import Worker
@@ -47,7 +47,9 @@ class Services:
         """Open the store, and begin to work through the queue where there is something to compute with."""
         store = Store(settings.data_dir, settings.database_url)
         built_in = built_in_robots()
-        worker = None if executor is None else worker_of(store, settings, executor, built_in)
+        worker = None
+        if supervisor is None and settings.workers:
+            worker = worker_of(store, settings, executor or ProcessExecutor(), built_in)
         for computing in (worker, supervisor):
             if computing is not None:
                 computing.start()

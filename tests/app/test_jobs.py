@@ -5,6 +5,7 @@ import pytest
 
 from app.documents import json_bytes
 from app.schemas.jobs import Job
+from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import description
 from tests.app.stubs import RESULT, StubExecutor, failing
@@ -31,6 +32,11 @@ def asked(client, log_bytes):
     robot = client.post("/v1/robots", json=description()).json()["id"]
     log = client.post("/v1/logs", content=log_bytes, headers={"Content-Type": "text/csv"}).json()["id"]
     return {"kind": "identify", "robot": robot, "logs": [log], "options": {"essential": True}}
+
+
+def another(body, number=1):
+    """Ask for something else of the same robot and log."""
+    return body | {"options": {"filter": {"cutoff_hz": 5.0 + number}}}
 
 
 def state_of(client, path, until, seconds=5.0):
@@ -105,7 +111,7 @@ def test_dismissing_a_running_job_ends_its_computation(slow, executor, request_b
 def test_a_dismissed_job_that_waited_is_never_computed(slow, executor, request_body):
     first = slow.post("/v1/jobs", json=request_body).headers["location"]
     executor.started.wait(5.0)
-    second = slow.post("/v1/jobs", json=request_body).headers["location"]
+    second = slow.post("/v1/jobs", json=another(request_body)).headers["location"]
     slow.delete(second)
     executor.release.set()
     state_of(slow, first, ("successful",))
@@ -117,10 +123,12 @@ def test_deleting_a_finished_job_removes_it_with_its_result(slow, executor, requ
     executor.release.set()
     job = slow.post("/v1/jobs", json=request_body, headers={"Prefer": "wait=10"}).json()
     store = slow.app.state.services.store
-    result = store.blobs.path(store.jobs.get(job["id"]).result_sha256)
-    assert result.exists()
+    result = store.blobs.path(store.of("local").jobs.get(job["id"]).result_sha256)
+    sweep = Sweep(store)
+    assert sweep.look() == 0
     assert slow.delete(f"/v1/jobs/{job['id']}").status_code == 204
-    assert not result.exists()
+    assert [sweep.look(), result.exists()] == [0, True]
+    assert [sweep.look(), result.exists()] == [1, False]
     assert_problem(slow.get(f"/v1/jobs/{job['id']}"), 404, "not-found")
 
 
@@ -138,10 +146,31 @@ def test_a_failed_job_keeps_its_problem(tmp_path, log_bytes):
 
 
 def test_jobs_are_listed_with_the_newest_first(slow, request_body):
-    ids = [slow.post("/v1/jobs", json=request_body).json()["id"] for _ in range(3)]
+    ids = [slow.post("/v1/jobs", json=another(request_body, n)).json()["id"] for n in range(3)]
     listed = slow.get("/v1/jobs?limit=2").json()
     assert [job["id"] for job in listed["jobs"]] == [ids[2], ids[1]]
-    assert listed["total"] == 3
+    rest = slow.get(f"/v1/jobs?limit=2&cursor={listed['next']}").json()
+    assert ([job["id"] for job in rest["jobs"]], rest["next"]) == ([ids[0]], None)
+    assert_problem(slow.get("/v1/jobs?cursor=-1"), 422, "request")
+
+
+def test_the_same_request_is_the_same_job_and_is_answered_at_once_when_it_is_done(slow, executor, request_body):
+    first, second = (slow.post("/v1/jobs", json=request_body) for _ in range(2))
+    assert (second.status_code, second.json()["id"]) == (202, first.json()["id"])
+    executor.release.set()
+    state_of(slow, first.headers["location"], ("successful",))
+    third = slow.post("/v1/jobs", json=request_body)
+    assert (third.status_code, third.json()["state"]) == (200, "successful")
+    assert len(executor.computations) == 1
+
+
+def test_a_request_with_a_key_may_be_sent_twice_and_is_meant_once(slow, request_body):
+    key = {"Idempotency-Key": "once"}
+    first = slow.post("/v1/jobs", json=request_body, headers=key).json()
+    slow.delete(f"/v1/jobs/{first['id']}")
+    assert slow.post("/v1/jobs", json=request_body, headers=key).json()["id"] == first["id"]
+    assert_problem(slow.post("/v1/jobs", json=another(request_body), headers=key), 422, "key-reused")
+    assert slow.post("/v1/jobs", json=request_body).json()["id"] != first["id"]
 
 
 def test_results_come_as_a_table_for_those_who_prefer_one(slow, executor, request_body):
