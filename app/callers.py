@@ -10,9 +10,9 @@ from starlette.requests import Request
 
 from app.keys import KeyRing
 from app.problems import Problem
-from app.store.keys import SCOPES, KeyRecord
+from app.settings import LOCAL, SCOPES
+from app.store.keys import KeyRecord
 
-LOCAL = "local"
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
 CHALLENGE = {"WWW-Authenticate": 'Bearer realm="veritorque"'}
 

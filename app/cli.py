@@ -5,17 +5,32 @@ Source of the names: `app.settings`.
 
 import json
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from pydantic import ValidationError
 
-from app.settings import PREFIX, Settings
+from app.settings import LOCAL, PREFIX, SCOPES, Settings
 from app.version import VERSION
+
+if TYPE_CHECKING:
+    from app.store.keys import KeyStore
 
 COMPILE_SECONDS = 5
 DEFAULTS = Settings.model_construct()
+
+OPTIONS = ("host", "port", "data_dir", "workers", "max_upload_bytes", "job_timeout_s")
+"""Settings that are options, too."""
+
+
+def _others() -> str:
+    """Name the settings that only stand in the environment."""
+    names = (PREFIX + name.upper() for name in Settings.model_fields if name not in OPTIONS)
+    return "In the environment, besides these: " + ", ".join(names)
+
 
 COMMANDS = typer.Typer(
     name="veritorque",
@@ -30,7 +45,7 @@ def main() -> None:
     COMMANDS()
 
 
-@COMMANDS.command()
+@COMMANDS.command(epilog=_others())
 def serve(
     host: Annotated[str, typer.Option(envvar=PREFIX + "HOST", help="Address to listen on.")] = DEFAULTS.host,
     port: Annotated[int, typer.Option(envvar=PREFIX + "PORT", help="Port to listen on.")] = DEFAULTS.port,
@@ -87,6 +102,58 @@ def work(
     from app.jobs.process import work_until_told
 
     work_until_told(settings, beside=beside)
+
+
+KEYS = typer.Typer(help="Make, list and revoke API keys.", no_args_is_help=True)
+COMMANDS.add_typer(KEYS, name="keys")
+ScopesOption = Annotated[str, typer.Option(help="What it permits: read, write and admin, with commas.")]
+
+
+@KEYS.command()
+def create(
+    name: Annotated[str, typer.Argument(help="Whose key it is, for your own records.")],
+    tenant: Annotated[str, typer.Option(help="Whose robots, logs and jobs it opens.")] = LOCAL,
+    scopes: ScopesOption = "read,write",
+) -> None:
+    """Make a key and print its secret, which is not kept and cannot be shown again."""
+    wanted = tuple(one.strip() for one in scopes.split(",") if one.strip())
+    unknown = sorted(set(wanted) - set(SCOPES))
+    if unknown or not wanted:
+        _stop(f"there is no scope {', '.join(unknown) or '(none)'}; the scopes are {', '.join(SCOPES)}")
+    with _keys() as keys:
+        _, secret = keys.create(tenant=tenant, name=name, scopes=wanted)
+    print(secret)
+
+
+@KEYS.command(name="list")
+def list_keys() -> None:
+    """List all keys: id, tenant, name, scopes, and since when they are valid or were revoked."""
+    with _keys() as keys:
+        for one in keys.all():
+            since = f"revoked {one.revoked_at}" if one.revoked_at else f"since {one.created_at}"
+            print(f"{one.id}  {one.tenant}  {one.name}  {','.join(one.scopes)}  {since}")
+
+
+@KEYS.command()
+def revoke(identity: Annotated[str, typer.Argument(help="The id that `keys list` shows.")]) -> None:
+    """Revoke a key; a running service refuses it within seconds."""
+    with _keys() as keys:
+        if not keys.revoke(identity):
+            _stop(f"there is no valid key {identity}; `veritorque keys list` shows all")
+
+
+@contextmanager
+def _keys() -> Iterator["KeyStore"]:
+    from app.store.keys import KeyStore
+    from app.store.store import Store
+
+    settings = _settings()
+    _require_directory(settings.data_dir)
+    store = Store(settings.data_dir, settings.database_url)
+    try:
+        yield KeyStore(store.database)
+    finally:
+        store.close()
 
 
 @COMMANDS.command()

@@ -13,6 +13,7 @@ from app.jobs.supervisor import Supervisor
 from app.jobs.worker import Worker
 from app.keys import KeyRing
 from app.settings import Settings
+from app.store.lock import DirectoryLock
 from app.store.records import Document, RobotRecord
 from app.store.store import Store, TenantStore
 
@@ -35,6 +36,7 @@ class Services:
     """
 
     settings: Settings
+    lock: DirectoryLock
     store: Store
     keys: KeyRing
     worker: Worker | None
@@ -45,7 +47,9 @@ class Services:
     @classmethod
     def open(cls, settings: Settings, executor: Executor | None, supervisor: Supervisor | None) -> "Services":
         """Open the store, and begin to work through the queue where there is something to compute with."""
+        lock = DirectoryLock(settings.data_dir)
         store = Store(settings.data_dir, settings.database_url)
+        store.blobs.remove_leftovers()
         built_in = built_in_robots()
         worker = None
         if supervisor is None and settings.workers:
@@ -53,7 +57,7 @@ class Services:
         for computing in (worker, supervisor):
             if computing is not None:
                 computing.start()
-        return cls(settings, store, KeyRing(store.database), worker, supervisor, built_in)
+        return cls(settings, lock, store, KeyRing(store.database), worker, supervisor, built_in)
 
     @property
     def ready(self) -> bool:
@@ -72,6 +76,7 @@ class Services:
             if computing is not None:
                 computing.close()
         self.store.close()
+        self.lock.release()
 
 
 def worker_of(

@@ -12,6 +12,10 @@ from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 PREFIX = "VERITORQUE_"
+LOCAL = "local"
+"""The tenant of whoever needs no key."""
+SCOPES = ("read", "write", "admin")
+"""What keys may permit."""
 
 
 class Settings(BaseSettings):

@@ -13,7 +13,6 @@ from sqlalchemy import Row, and_, insert, select, update
 from app.store.database import Database
 from app.store.tables import KEYS, now
 
-SCOPES = ("read", "write", "admin")
 PREFIX = "vt_"
 
 

@@ -59,13 +59,29 @@ def test_every_setting_of_the_command_line_is_documented_with_its_variable():
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.5", "robot.example"])  # noqa: S104  (to be refused)
-def test_an_address_that_others_can_reach_needs_a_decision(listened, tmp_path, host):
-    refused = run("serve", "--host", host, "--data-dir", str(tmp_path))
+def test_an_address_that_others_can_reach_needs_a_key(listened, tmp_path, host):
+    kept = {"VERITORQUE_DATA_DIR": str(tmp_path)}
+    refused = run("serve", "--host", host, **kept)
     assert refused.exit_code == 2
-    assert "VERITORQUE_ALLOW_REMOTE" in refused.output
+    assert "keys create" in refused.output
     assert listened == []
-    allowed = run("serve", "--host", host, "--data-dir", str(tmp_path), VERITORQUE_ALLOW_REMOTE="1")
-    assert (allowed.exit_code, len(listened)) == (0, 1)
+    assert run("keys", "create", "lab", **kept).exit_code == 0
+    assert (run("serve", "--host", host, **kept).exit_code, len(listened)) == (0, 1)
+    identity = run("keys", "list", **kept).stdout.split()[0]
+    assert run("keys", "revoke", identity, **kept).exit_code == 0
+    assert run("serve", "--host", host, **kept).exit_code == 2
+
+
+def test_the_secret_of_a_key_is_printed_once_and_kept_nowhere(tmp_path):
+    kept = {"VERITORQUE_DATA_DIR": str(tmp_path)}
+    secret = run("keys", "create", "lab", "--scopes", "read", **kept).stdout.strip()
+    assert len(secret) > 40
+    listed = run("keys", "list", **kept).stdout
+    assert "lab  read  since" in listed
+    assert secret not in listed
+    stored = b"".join(path.read_bytes() for path in tmp_path.rglob("*") if path.is_file())
+    assert secret.encode() not in stored
+    assert run("keys", "create", "lab", "--scopes", "fly", **kept).exit_code == 2
 
 
 def test_loopback_is_loopback():
@@ -75,11 +91,11 @@ def test_loopback_is_loopback():
 
 
 def test_a_setting_that_makes_no_sense_is_refused_with_its_name(listened):
-    for arguments, name in ((("--port", "70000"), "port"), (("--workers", "0"), "workers")):
+    for arguments, name in ((("--port", "70000"), "port"), (("--workers", "-1"), "workers")):
         refused = run("serve", *arguments)
         assert refused.exit_code == 2
         assert name in refused.output
-    refused = run("serve", VERITORQUE_ALLOW_REMOTE="perhaps")
+    refused = run("serve", VERITORQUE_DISK_RESERVE_BYTES="perhaps")
     assert (refused.exit_code, listened) == (2, [])
 
 

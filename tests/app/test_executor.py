@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs.computation import Computation, Failed, Finished, Stopped
+from app.jobs.computation import Computation, Died, Failed, Finished, Stopped
 from app.jobs.executor import ProcessExecutor
 from tests.app import work
 
@@ -48,19 +48,19 @@ def test_a_computation_that_takes_too_long_is_ended_with_a_reason():
 
 
 @pytest.mark.parametrize(
-    ("kind", "name", "status"),
+    ("kind", "end", "name", "status"),
     [
-        (work.refuse, "excitation", 422),
-        (work.stumble, "internal", 500),
-        (work.not_finite, "internal", 500),
-        (work.exhaust, "computation-stopped", 500),
-        (work.vanish, "computation-stopped", 500),
-        (work.leave, "computation-stopped", 500),
+        (work.refuse, Failed, "excitation", 422),
+        (work.stumble, Failed, "internal", 500),
+        (work.not_finite, Failed, "internal", 500),
+        (work.exhaust, Failed, "computation-stopped", 500),
+        (work.vanish, Died, "computation-stopped", 500),
+        (work.leave, Died, "computation-stopped", 500),
     ],
 )
-def test_whatever_goes_wrong_in_a_computation_is_a_problem(kind, name, status):
+def test_whatever_goes_wrong_in_a_computation_is_a_problem(kind, end, name, status):
     outcome = run(kind)
-    assert isinstance(outcome, Failed)
+    assert isinstance(outcome, end)
     assert outcome.problem["type"] == f"urn:veritorque:problem:{name}"
     assert outcome.problem["status"] == status
     assert "secret" not in json.dumps(outcome.problem)

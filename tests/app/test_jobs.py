@@ -154,7 +154,9 @@ def test_jobs_are_listed_with_the_newest_first(slow, request_body):
     assert_problem(slow.get("/v1/jobs?cursor=-1"), 422, "request")
 
 
-def test_the_same_request_is_the_same_job_and_is_answered_at_once_when_it_is_done(slow, executor, request_body):
+def test_the_same_request_is_the_same_job_and_is_answered_at_once_when_it_is_done(
+    slow, executor, request_body
+):
     first, second = (slow.post("/v1/jobs", json=request_body) for _ in range(2))
     assert (second.status_code, second.json()["id"]) == (202, first.json()["id"])
     executor.release.set()

@@ -8,6 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from app.schemas.logs import LogSummary
+from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns
 
@@ -50,10 +51,14 @@ def test_bytes_that_another_log_needs_outlive_a_deletion(client, log_bytes):
     kept = client.post("/v1/logs?name=kept", content=log_bytes, headers=CSV).json()
     gone = client.post("/v1/logs?name=gone", content=log_bytes, headers=CSV).json()
     path = client.app.state.services.store.blobs.path(kept["sha256"])
+    sweep = Sweep(client.app.state.services.store)
     client.delete(f"/v1/logs/{gone['id']}")
+    assert [sweep.look(), sweep.look()] == [0, 0]
     assert path.read_bytes() == log_bytes
     for log in client.get("/v1/logs").json()["logs"]:
         client.delete(f"/v1/logs/{log['id']}")
+    sweep.look()
+    assert sweep.look() > 0
     assert not path.exists()
 
 

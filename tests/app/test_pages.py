@@ -140,12 +140,15 @@ def test_the_start_page_trusts_no_text(tmp_path, log_bytes):
 def test_an_age_is_counted_from_the_request_to_now():
     now = datetime(2026, 1, 31, 12, tzinfo=UTC)
     job = JobRecord(
+        tenant="local",
         id="job-1",
+        sequence=1,
         request=JobRequestRecord("identify", "yumi", ("a", "b", "c", "d", "e"), {}),
         state="running",
         stage="estimate",
         fraction=0.5,
         attempts=1,
+        token=1,
         version=2,
         problem=None,
         result_sha256=None,

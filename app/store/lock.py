@@ -1,0 +1,35 @@
+"""Let one service at a time use a data directory: two would each remove what the other is receiving.
+
+The system lets go of the lock when the service dies, however it dies.
+"""
+
+import fcntl
+import os
+from pathlib import Path
+
+
+class DirectoryInUse(Exception):  # noqa: N818 - it is what it says
+    """Say that another service uses a data directory."""
+
+
+class DirectoryLock:
+    """Hold a directory until it is released.
+
+    Raises
+    ------
+    DirectoryInUse
+        If another service holds it.
+    """
+
+    def __init__(self, directory: Path) -> None:
+        directory.mkdir(parents=True, exist_ok=True)
+        self._file = os.open(directory / "service.lock", os.O_CREAT | os.O_RDWR, 0o600)
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(self._file)
+            raise DirectoryInUse(str(directory)) from None
+
+    def release(self) -> None:
+        """Let go of it."""
+        os.close(self._file)
