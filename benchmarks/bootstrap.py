@@ -5,7 +5,8 @@ No sample is visited again: every draw is a sum of the blocks' factors and one s
 
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import Figure, processor_seconds
-from core.estimate.estimate import EstimateOptions, estimate
+from core.estimate.estimate import estimate
+from core.estimate.options import EstimateOptions
 from core.precision.bootstrap import bootstrap
 from core.study import IdentifyRequest, identify_in_full
 

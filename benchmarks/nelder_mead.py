@@ -12,8 +12,9 @@ from scipy import optimize
 
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import Figure, processor_seconds
-from core.estimate.estimate import EstimateOptions, estimate
+from core.estimate.estimate import estimate
 from core.estimate.feasibility import feasibility
+from core.estimate.options import EstimateOptions
 from core.report.document import Identification
 from core.study import IdentifyRequest, identify_in_full
 from core.validation.mass_matrix import mass_matrices

@@ -36,3 +36,5 @@ Series = Float[np.ndarray, "entries samples"]
 KeptSeries = Float[np.ndarray, "entries instants"]
 Spectrum = Complex[np.ndarray, " _"]
 Indices = Int[np.ndarray, " _"]
+BlockKey = tuple[int, int]
+"""Number of a log and of one of its blocks, both from 0."""

@@ -11,8 +11,7 @@ from typing import cast
 from core.dynamics.model import STANDARD_TERMS
 from core.errors import OptionError
 from core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid
-from core.estimate.estimate import EstimateOptions
-from core.estimate.programme import PULL
+from core.estimate.options import PULL, EstimateOptions
 from core.signals.recipe import FilterOptions
 from core.validation.holdout import HoldOut
 

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from core.arrays import Indices, JointMask, JointSeries, JointVector, Samples
+from core.arrays import BlockKey, Indices, JointMask, JointSeries, JointVector, Samples
 from core.diagnosis.piece import pieces_of, thinning
 from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
@@ -21,7 +21,6 @@ from core.dynamics.term import Term
 from core.errors import ExcitationError
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import BlockKey
 from core.robot.model import RobotModel
 from core.signals.condition import Motion, condition
 from core.signals.recipe import FilterOptions, choose_recipe

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointSeries
+from core.arrays import BlockKey, JointSeries
 from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
@@ -31,7 +31,6 @@ from core.diagnosis.surprise import surprised, turned
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import BlockKey
 
 Progress = Callable[[str, float], None]
 OPEN = 1e-3

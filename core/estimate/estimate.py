@@ -4,82 +4,17 @@ The default is the semidefinite programme on equations weighted per joint; the u
 same equations is always reported beside it, because the difference is the price of feasibility.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.arrays import BaseParameters, Indices, Parameters
-from core.errors import OptionError
-from core.estimate.constraints import Bounds, Prior, check_links
-from core.estimate.programme import PULL, Programme, Solution
+from core.estimate.constraints import Prior, check_links
+from core.estimate.options import EstimateOptions
+from core.estimate.programme import Programme, Solution
 from core.estimate.system import System
 from core.estimate.with_clarabel import solve_with_clarabel
 from core.reduction.base import BaseModel
-
-ESTIMATORS = ("sdp", "ols", "wls", "irls")
-SOLVERS = ("clarabel", "cvxpy")
-
-
-@dataclass(frozen=True)
-class EstimateOptions:
-    """Choose how to estimate.
-
-    Attributes
-    ----------
-    estimator
-        ``sdp`` feasible and weighted; ``ols`` plain; ``wls`` weighted per joint; ``irls`` weighted per joint
-        and row (Huber).
-    solver
-        ``clarabel`` called directly, or ``cvxpy``.
-    robust
-        Weigh rows with Huber's function under the semidefinite programme too.
-    pull, entropy
-        Weights of the squared and of the entropic distance to the prior.
-    """
-
-    estimator: str = "sdp"
-    solver: str = "clarabel"
-    robust: bool = False
-    pull: float = PULL
-    entropy: float = 0.0
-    bounds: Bounds = field(default_factory=Bounds)
-
-    def __post_init__(self) -> None:
-        """Refuse unknown names and impossible weights."""
-        if self.estimator not in ESTIMATORS or self.solver not in SOLVERS:
-            raise OptionError(
-                "the estimator or solver is not known",
-                evidence={
-                    "estimator": self.estimator,
-                    "known": list(ESTIMATORS),
-                    "solver": self.solver,
-                    "solvers": list(SOLVERS),
-                },
-                remedy="choose one of the known names",
-            )
-        without_effect = [
-            name
-            for name, asked in (("bounds", self.bounds != Bounds()), ("entropy", self.entropy > 0.0))
-            if asked and self.estimator != "sdp"
-        ] + (["robust"] if self.robust and self.estimator == "ols" else [])
-        if without_effect:
-            raise OptionError(
-                f"{' and '.join(without_effect)} would have no effect on this estimator",
-                evidence={"estimator": self.estimator, "without_effect": without_effect},
-                remedy="ask for estimator sdp, or leave these options out",
-            )
-        if not 0.0 < self.pull <= 1e6 or not 0.0 <= self.entropy <= 1e6:
-            raise OptionError(
-                "the weights of the prior make no sense",
-                evidence={"pull": self.pull, "entropy": self.entropy},
-                remedy="give a pull above 0 and up to 1e6, and an entropy from 0 to 1e6",
-            )
-        if self.entropy > 0.0 and self.solver != "cvxpy":
-            raise OptionError(
-                "the entropic prior is stated in cvxpy only",
-                evidence={"entropy": self.entropy, "solver": self.solver},
-                remedy="ask for solver cvxpy together with entropy",
-            )
 
 
 @dataclass(frozen=True, eq=False)

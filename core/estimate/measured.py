@@ -5,15 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.arrays import BlockKey
 from core.dynamics.model import DynamicModel
 from core.errors import ExcitationError
-from core.estimate.estimate import EstimateOptions
+from core.estimate.options import EstimateOptions
 from core.estimate.robust import ROUNDS, huber_weights
 from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
 from core.estimate.system import System, ordinary, stacked, weighted
 from core.reduction.base import base_model
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import BlockKey, Observation, Weigh, observe
+from core.regressor.observe import Observation, Weigh, observe
 from core.signals.condition import Motion
 
 

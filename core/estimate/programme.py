@@ -17,15 +17,9 @@ import numpy as np
 from core.arrays import Matrix, Parameters, Vector
 from core.errors import SolverError
 from core.estimate.constraints import Bounds, Prior
+from core.estimate.options import PULL
 from core.estimate.system import System
 from core.reduction.base import BaseModel
-
-PULL = 0.02
-"""Weight of the pull towards the prior, in units of chi^2 per squared scale.
-
-A parameter that lies one scale from the prior is pulled by a fiftieth of a deviation at most, however long
-the log; what the motion leaves open goes to the prior all the same.
-"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ import numpy as np
 
 from core.arrays import (
     BaseParameters,
+    BlockKey,
     EquationRows,
     Indices,
     JointSeries,
@@ -30,8 +31,6 @@ from core.signals.tile import Tile
 _POSITIONS_PER_TILE = 32
 
 Progress = Callable[[float], None]
-BlockKey = tuple[int, int]
-"""Log and block number, both from 0."""
 Rows = tuple[EquationRows, UsableRows]
 """One joint's filtered rows [w y] of a tile, and which of them may be used."""
 Weigh = Callable[[list[Rows]], list[Weights]]

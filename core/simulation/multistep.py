@@ -12,9 +12,8 @@ from functools import partial
 
 import numpy as np
 
-from core.arrays import JointVector, Matrix
+from core.arrays import BlockKey, JointVector, Matrix
 from core.errors import OptionError
-from core.regressor.observe import BlockKey
 from core.signals.condition import Motion
 from core.simulation.along import driving
 from core.simulation.drive import Drive

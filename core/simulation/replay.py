@@ -14,9 +14,8 @@ from typing import Literal
 
 import numpy as np
 
-from core.arrays import JointSeries, JointVector, Samples
+from core.arrays import BlockKey, JointSeries, JointVector, Samples
 from core.errors import OptionError
-from core.regressor.observe import BlockKey
 from core.signals.condition import Motion
 from core.signals.state import MotionState
 from core.simulation.along import logged_only, remembered

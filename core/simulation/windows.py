@@ -9,9 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
+from core.arrays import BlockKey, JointSeries, Samples
 from core.errors import LogError
-from core.regressor.observe import BlockKey
 from core.signals.condition import Motion, without_standstill_mask
 from core.signals.state import MotionState
 from core.signals.tile import Tile

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from core.errors import OptionError, SolverError
 from core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid, congruence, link_columns
-from core.estimate.estimate import Estimate, EstimateOptions, estimate
-from core.estimate.programme import PULL
+from core.estimate.estimate import Estimate, estimate
+from core.estimate.options import PULL, EstimateOptions
 from core.estimate.system import stacked
 from core.robot.inertia import pseudo_inertia
 from core.robot.model import RobotModel

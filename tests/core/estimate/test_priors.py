@@ -8,7 +8,8 @@ from scipy.linalg import null_space
 
 from core.errors import OptionError
 from core.estimate.constraints import Bounds, Prior, link_columns
-from core.estimate.estimate import EstimateOptions, estimate
+from core.estimate.estimate import estimate
+from core.estimate.options import EstimateOptions
 from core.robot.frames import rotation_rpy
 from core.robot.inertia import moved, pseudo_inertia
 from core.robot.model import Joint, Link, RobotModel

@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import minimize
 
 from core.estimate.constraints import Bounds, congruence, link_columns, lower_bounds
-from core.estimate.estimate import EstimateOptions, estimate
-from core.estimate.programme import PULL
+from core.estimate.estimate import estimate
+from core.estimate.options import PULL, EstimateOptions
 from core.robot.inertia import pseudo_inertia
 from tests.core.estimate.worlds import World, planar_robot, true_parameters, world_of
 

@@ -1,0 +1,80 @@
+"""Say how a robot is to be estimated: which estimator, which solver, how strongly the prior pulls.
+
+Apart from what estimates, so that a wish can be checked where nothing is computed.
+"""
+
+from dataclasses import dataclass, field
+
+from core.errors import OptionError
+from core.estimate.constraints import Bounds
+
+ESTIMATORS = ("sdp", "ols", "wls", "irls")
+SOLVERS = ("clarabel", "cvxpy")
+PULL = 0.02
+"""Weight of the pull towards the prior, in units of chi^2 per squared scale.
+
+A parameter that lies one scale from the prior is pulled by a fiftieth of a deviation at most, however long
+the log; what the motion leaves open goes to the prior all the same.
+"""
+
+
+@dataclass(frozen=True)
+class EstimateOptions:
+    """Choose how to estimate.
+
+    Attributes
+    ----------
+    estimator
+        ``sdp`` feasible and weighted; ``ols`` plain; ``wls`` weighted per joint; ``irls`` weighted per joint
+        and row (Huber).
+    solver
+        ``clarabel`` called directly, or ``cvxpy``.
+    robust
+        Weigh rows with Huber's function under the semidefinite programme too.
+    pull, entropy
+        Weights of the squared and of the entropic distance to the prior.
+    """
+
+    estimator: str = "sdp"
+    solver: str = "clarabel"
+    robust: bool = False
+    pull: float = PULL
+    entropy: float = 0.0
+    bounds: Bounds = field(default_factory=Bounds)
+
+    def __post_init__(self) -> None:
+        """Refuse unknown names and impossible weights."""
+        if self.estimator not in ESTIMATORS or self.solver not in SOLVERS:
+            raise OptionError(
+                "the estimator or solver is not known",
+                evidence={
+                    "estimator": self.estimator,
+                    "known": list(ESTIMATORS),
+                    "solver": self.solver,
+                    "solvers": list(SOLVERS),
+                },
+                remedy="choose one of the known names",
+            )
+        without_effect = [
+            name
+            for name, asked in (("bounds", self.bounds != Bounds()), ("entropy", self.entropy > 0.0))
+            if asked and self.estimator != "sdp"
+        ] + (["robust"] if self.robust and self.estimator == "ols" else [])
+        if without_effect:
+            raise OptionError(
+                f"{' and '.join(without_effect)} would have no effect on this estimator",
+                evidence={"estimator": self.estimator, "without_effect": without_effect},
+                remedy="ask for estimator sdp, or leave these options out",
+            )
+        if not 0.0 < self.pull <= 1e6 or not 0.0 <= self.entropy <= 1e6:
+            raise OptionError(
+                "the weights of the prior make no sense",
+                evidence={"pull": self.pull, "entropy": self.entropy},
+                remedy="give a pull above 0 and up to 1e6, and an entropy from 0 to 1e6",
+            )
+        if self.entropy > 0.0 and self.solver != "cvxpy":
+            raise OptionError(
+                "the entropic prior is stated in cvxpy only",
+                evidence={"entropy": self.entropy, "solver": self.solver},
+                remedy="ask for solver cvxpy together with entropy",
+            )
