@@ -54,12 +54,11 @@ class ProcessExecutor:
         self._context.set_forkserver_preload(["app.jobs.child", *preload])
 
     def prepare(self) -> None:
-        """Let the server process load the solver, then load it here too, where options are checked."""
+        """Let the server process load the solver, and compile the kernels where the disk holds none yet."""
         process = self._context.Process(target=child.nothing, daemon=True)
         process.start()
         process.join()
         process.close()
-        science.load()
 
     def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
         """Run a computation in a new process; see `Executor`."""

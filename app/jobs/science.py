@@ -177,11 +177,6 @@ def compute(computation: Computation, progress: Progress) -> Document:
     return document
 
 
-def load() -> None:
-    """Load the solver and the kernels; compiles them where the disk does not hold them yet."""
-    import core.study  # noqa: F401  (the import is the work)
-
-
 def _result(reference: Path | None) -> Document | None:
     """Read the result of an earlier job."""
     return None if reference is None else cast("Document", json.loads(reference.read_bytes()))
