@@ -1,6 +1,5 @@
-"""The jobs of a worker that is gone or silent are taken back, by a steady clock and not by the time of day."""
+"""Jobs of a worker that is gone or silent are taken back, by a steady clock and not by the time of day."""
 
-import os
 import subprocess
 import sys
 
@@ -12,7 +11,14 @@ from app.store.records import JobRequestRecord
 from app.store.store import Store
 from app.store.work import MOST_ATTEMPTS
 
-HOLDS = "import sys, time; from pathlib import Path; from app.jobs.presence import Presence; print(Presence(Path(sys.argv[1])).name, flush=True); time.sleep(60)"
+HOLDS = """
+import sys, time
+from pathlib import Path
+from app.jobs.presence import Presence
+
+print(Presence(Path(sys.argv[1])).name, flush=True)
+time.sleep(60)
+"""
 
 
 class Clock:
@@ -55,7 +61,7 @@ def test_the_job_of_a_process_that_was_killed_is_taken_back_at_once(store, mine,
         other.kill()
         other.wait()
         assert (lives.look(), job().state) == (1, "accepted")
-    assert name not in os.listdir(tmp_path / "workers")
+    assert not (tmp_path / "workers" / name).exists()
 
 
 def test_the_job_of_a_worker_elsewhere_is_taken_back_when_its_beats_stop(store, mine):

@@ -1,4 +1,4 @@
-"""There is a worker as long as the service runs: one that dies or freezes is replaced, none is left behind."""
+"""There is a worker as long as the service runs: one that dies or freezes is replaced, none left behind."""
 
 import contextlib
 import subprocess
@@ -12,7 +12,11 @@ from app.jobs.supervisor import Supervisor
 from app.settings import Settings
 
 SPEAKS = "import sys, time\nwhile True: print('ready', flush=True); time.sleep(0.05)"
-ENDS_WITH_ITS_INPUT = f"import os, threading, sys\nthreading.Thread(target=lambda: os._exit(len(sys.stdin.read())), daemon=True).start()\n{SPEAKS}"
+ENDS_WITH_ITS_INPUT = f"""
+import os, threading, sys
+threading.Thread(target=lambda: os._exit(len(sys.stdin.read())), daemon=True).start()
+{SPEAKS}
+"""
 DIES = "print('ready', flush=True)"
 FALLS_SILENT = "import time\nprint('ready', flush=True)\ntime.sleep(60)"
 DEAF = f"import signal\nsignal.signal(signal.SIGTERM, signal.SIG_IGN)\n{SPEAKS}"
