@@ -12,7 +12,7 @@ PYTHON ?= $(shell for name in python3.11 python3.12 python3.13 python3; do \
 RUN := .venv/bin/python
 READY := .venv/.ready
 LOCK := docker/requirements-dev.txt
-LOCK_FLAGS := --universal --generate-hashes \
+LOCK_FLAGS := --universal --generate-hashes --extra postgres --extra ros \
 	--no-emit-index-url --no-emit-find-links --no-annotate --no-header
 
 # Matrices are small and many: threads inside the linear algebra only get in each other's way.

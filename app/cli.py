@@ -8,7 +8,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 from pydantic import ValidationError
@@ -18,6 +18,7 @@ from app.version import VERSION
 
 if TYPE_CHECKING:
     from app.store.keys import KeyStore
+    from app.store.store import Store
 
 COMPILE_SECONDS = 5
 DEFAULTS = Settings.model_construct()
@@ -77,9 +78,11 @@ def serve(
         job_timeout_s=job_timeout_s,
     )
     _require_directory(settings.data_dir)
-    if settings.needs_keys:
-        _require_a_key(settings)
     _compute_on_one_thread()
+    _require_to_be_alone(settings.data_dir)
+    with _opened(settings) as store:
+        if settings.needs_keys:
+            _require_a_key(store, settings.host)
     _keep_compiled_kernels(settings.data_dir)
     _listen(settings)
 
@@ -101,7 +104,8 @@ def work(
     _keep_compiled_kernels(settings.data_dir)
     from app.jobs.process import work_until_told
 
-    work_until_told(settings, beside=beside)
+    with _opened(settings) as store:
+        work_until_told(store, settings, beside=beside)
 
 
 KEYS = typer.Typer(help="Make, list and revoke API keys.", no_args_is_help=True)
@@ -145,13 +149,27 @@ def revoke(identity: Annotated[str, typer.Argument(help="The id that `keys list`
 @contextmanager
 def _keys() -> Iterator["KeyStore"]:
     from app.store.keys import KeyStore
-    from app.store.store import Store
 
     settings = _settings()
     _require_directory(settings.data_dir)
-    store = Store(settings.data_dir, settings.database_url)
-    try:
+    with _opened(settings) as store:
         yield KeyStore(store.database)
+
+
+@contextmanager
+def _opened(settings: Settings) -> Iterator["Store"]:
+    """Open what is kept, or say why that cannot be."""
+    from app.store.errors import Unavailable
+    from app.store.store import Store
+
+    try:
+        store = Store(settings.data_dir, settings.database_url)
+    except Unavailable as error:
+        _stop(f"the database does not answer: {error.reason}; start it, or correct {PREFIX}DATABASE_URL")
+    except ModuleNotFoundError as error:
+        _stop(f"PostgreSQL needs the package {error.name}: pip install 'veritorque[postgres]'")
+    try:
+        yield store
     finally:
         store.close()
 
@@ -176,19 +194,14 @@ def _settings(**chosen: object) -> Settings:
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         _stop(f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}")
-        raise
 
 
-def _require_a_key(settings: Settings) -> None:
+def _require_a_key(store: "Store", host: str) -> None:
     from app.keys import KeyRing
-    from app.store.store import Store
 
-    store = Store(settings.data_dir, settings.database_url)
-    known = KeyRing(store.database).any()
-    store.close()
-    if not known:
+    if not KeyRing(store.database).any():
         _stop(
-            f"{settings.host} can be reached from other machines, and there is no key yet; make one with "
+            f"{host} can be reached from other machines, and there is no key yet; make one with "
             "`veritorque keys create NAME`, or keep --host 127.0.0.1"
         )
 
@@ -200,6 +213,15 @@ def _require_directory(data_dir: Path) -> None:
         (data_dir / ".writable").unlink()
     except OSError as error:
         _stop(f"nothing can be kept in {data_dir}: {error.strerror}; choose another --data-dir")
+
+
+def _require_to_be_alone(data_dir: Path) -> None:
+    from app.store.lock import DirectoryInUse, DirectoryLock
+
+    try:
+        DirectoryLock(data_dir).release()
+    except DirectoryInUse:
+        _stop(f"another service uses {data_dir}; stop it, or choose another --data-dir")
 
 
 def _compute_on_one_thread() -> None:
@@ -240,6 +262,6 @@ def _listen(settings: Settings) -> None:
     )
 
 
-def _stop(reason: str) -> None:
+def _stop(reason: str) -> NoReturn:
     typer.echo(reason, err=True)
     raise typer.Exit(2)

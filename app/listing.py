@@ -5,7 +5,7 @@ from typing import Annotated, Protocol
 
 from fastapi import Query
 
-from app.problems import Problem
+from app.reading import invalid
 
 LARGEST = 2**62
 Limit = Annotated[int, Query(ge=1, le=1000)]
@@ -32,12 +32,8 @@ def before(cursor: str | None) -> int | None:
     if cursor is None:
         return None
     if not (cursor.isascii() and cursor.isdigit() and int(cursor) <= LARGEST):
-        raise Problem(
-            "request",
-            "the cursor is none that the service gave",
-            evidence={"parameter": "cursor", "given": cursor},
-            remedy="send `next` of the page before, or leave it out",
-        )
+        complaint = {"loc": ("query", "cursor"), "msg": "it is no `next` of a page", "input": cursor}
+        raise invalid([complaint])
     return int(cursor)
 
 

@@ -18,6 +18,11 @@ from app.schemas.results import ResultDocument
 from app.schemas.robots import RobotDescription
 
 SCHEMAS = "#/components/schemas/"
+KEY = {
+    "type": "http",
+    "scheme": "bearer",
+    "description": "a key that the operator has made; needed unless the service listens on loopback",
+}
 DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultDocument, ProblemDocument)
 DESCRIPTION = """From a robot's log to a robot that can physically exist.
 
@@ -76,10 +81,20 @@ def document(app: FastAPI) -> dict[str, Any]:
     for name in ("HTTPValidationError", "ValidationError"):  # replaced by problem documents
         schemas.pop(name, None)
     contract["components"]["schemas"] = dict(sorted(schemas.items()))
-    for operations in contract["paths"].values():
+    contract["components"]["securitySchemes"] = {"key": KEY}
+    for path, operations in contract["paths"].items():
         for operation in operations.values():
+            if path.startswith("/v1/"):
+                _state_key(operation)
             _state_problems(operation)
     return contract
+
+
+def _state_key(operation: dict[str, Any]) -> None:
+    """Say that a request may have to carry a key, and that the database may be away."""
+    operation["security"] = [{}, {"key": []}]
+    for status, answer in problems(401, 403, 503).items():
+        operation["responses"].setdefault(str(status), answer)
 
 
 def _state_problems(operation: dict[str, Any]) -> None:

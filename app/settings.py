@@ -30,7 +30,7 @@ class Settings(BaseSettings):
     data_dir
         Directory of the database, the uploaded logs, the results and the compiled kernels.
     database_url
-        Where the database is, ``postgresql+psycopg://...``; None for the one in `data_dir`.
+        Where the database is, ``postgresql://user:password@host/name``; None for the one in `data_dir`.
     max_upload_bytes
         Largest log taken.
     disk_reserve_bytes
@@ -55,7 +55,7 @@ class Settings(BaseSettings):
     port: int = Field(default=8000, ge=0, le=65535)
     hosts: tuple[str, ...] = ()
     data_dir: Path = Path("data")
-    database_url: str | None = None
+    database_url: str | None = Field(default=None, pattern=r"^postgresql(\+psycopg)?://", repr=False)
     max_upload_bytes: int = Field(default=2 * 1024**3, ge=1024)
     disk_reserve_bytes: int = Field(default=512 * 1024**2, ge=0)
     workers: int = Field(default=1, ge=0, le=64)

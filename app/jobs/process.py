@@ -19,7 +19,7 @@ from app.store.store import Store
 PULSE_S = 1.0
 
 
-def work_until_told(settings: Settings, *, beside: bool) -> None:
+def work_until_told(store: Store, settings: Settings, *, beside: bool) -> None:
     """Work through the queue; return when told to end and all jobs are handed back."""
     told = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
@@ -27,14 +27,12 @@ def work_until_told(settings: Settings, *, beside: bool) -> None:
     if beside:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service, which then ends this
         threading.Thread(target=_hear_the_end, args=(told,), daemon=True).start()
-    store = Store(settings.data_dir, settings.database_url)
     worker = worker_of(store, settings, ProcessExecutor(), built_in_robots())
     worker.start()
     while not told.wait(PULSE_S):
         if beside:
             _say(READY if worker.ready.is_set() else ALIVE)
     worker.close()
-    store.close()
 
 
 def _hear_the_end(told: threading.Event) -> None:

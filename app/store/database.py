@@ -38,11 +38,19 @@ class Database:
     ----------
     url
         As SQLAlchemy writes it: ``sqlite:///path`` or ``postgresql+psycopg://...``.
+
+    Raises
+    ------
+    Unavailable
+        If the database does not answer.
     """
 
     def __init__(self, url: URL | str) -> None:
         self._engine = _engine(make_url(url))
-        upgrade(self._engine)
+        try:
+            upgrade(self._engine)
+        except OperationalError as error:
+            raise Unavailable(str(error.orig)) from None
         self._waiting: SimpleQueue[_Unit | None] = SimpleQueue()
         self._writer = threading.Thread(target=self._serve, name="writer", daemon=True)
         self.embedded = self._engine.dialect.name == "sqlite"

@@ -371,7 +371,8 @@ def test_an_id_of_odd_characters_is_not_found(client, odd):
 
 
 @pytest.mark.parametrize(
-    "query", ["limit=0", "limit=many", "limit=1001", "offset=-1", "limit=1e3", "offset=1" + "0" * 30]
+    "query",
+    ["limit=0", "limit=many", "limit=1001", "cursor=-1", "limit=1e3", "cursor=1" + "0" * 30, "cursor=x"],
 )
 def test_a_page_that_cannot_be_is_refused(client, query):
     for path in ("robots", "logs", "jobs"):

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 from app import cli
 from app.main import create_app
 from app.settings import Settings, reaches_other_machines
+from app.store.lock import DirectoryLock
 from app.version import VERSION
 
 
@@ -124,3 +125,31 @@ def test_the_first_compilation_is_announced_once(listened, tmp_path, monkeypatch
     (tmp_path / "kernels" / "core").mkdir(parents=True)
     (tmp_path / "kernels" / "core" / "kernel.nbi").touch()
     assert "compiling" not in run("serve", "--data-dir", str(tmp_path)).output
+
+
+def test_a_directory_that_another_service_uses_is_refused_with_a_remedy(listened, tmp_path):
+    lock = DirectoryLock(tmp_path)
+    refused = run("serve", "--data-dir", str(tmp_path))
+    lock.release()
+    assert (refused.exit_code, listened) == (2, [])
+    assert "another service uses" in refused.output
+    assert run("serve", "--data-dir", str(tmp_path)).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("address", "reason"),
+    [
+        ("nonsense", "database_url"),
+        ("mysql://host/name", "database_url"),
+        ("postgresql://nobody:secret@127.0.0.1:1/none", "the database does not answer"),
+    ],
+)
+def test_a_database_that_cannot_be_opened_is_refused_without_giving_its_password_away(
+    listened, tmp_path, address, reason
+):
+    told = {"VERITORQUE_DATA_DIR": str(tmp_path), "VERITORQUE_DATABASE_URL": address}
+    for command in (("serve",), ("work",), ("keys", "list")):
+        refused = run(*command, **told)
+        assert (refused.exit_code, listened) == (2, []), command
+        assert reason in refused.output
+        assert "secret" not in refused.output
