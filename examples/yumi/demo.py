@@ -55,6 +55,8 @@ def compute(client: Client, kind: str, log: Path, robot: str, console: Console) 
         f"{summary['rate_hz']:.0f} Hz, {summary['joints']} joints, {len(summary['defects'])} defects listed"
     )
     job = client.start(kind, robot, [summary["id"]])
+    if job["state"] == "successful":
+        console.print("The service has computed this before and answers with the same job.")
     bar = Progress(
         TextColumn("{task.description:<24}"),
         BarColumn(),

@@ -10,7 +10,7 @@ import pytest
 from app.problems import KINDS, URN
 from app.settings import PREFIX, Settings
 from core.dynamics.model import STANDARD_TERMS
-from core.estimate.estimate import ESTIMATORS
+from core.estimate.options import ESTIMATORS
 from core.log.content import FORMS
 from core.log.mapping import parse_mapping
 from core.log.model import Defect
@@ -29,9 +29,9 @@ from core.robot.urdf import robot_from_urdf
 
 ROOT = Path(__file__).parents[2]
 GUIDES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-ROBOTS, LOGS, OPTIONS, HTTP = (
+ROBOTS, LOGS, OPTIONS, HTTP, OPERATING = (
     (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
-    for name in ("robots", "logs", "options", "http")
+    for name in ("robots", "logs", "options", "http", "operating")
 )
 
 
@@ -115,7 +115,7 @@ def test_every_kind_of_defect_is_explained():
 
 
 def test_every_setting_is_listed():
-    assert {name.lower() for name in re.findall(PREFIX + r"(\w+)`", HTTP)} == set(Settings.model_fields)
+    assert {name.lower() for name in re.findall(PREFIX + r"(\w+)`", OPERATING)} == set(Settings.model_fields)
 
 
 def test_problems_quoted_in_the_guides_are_of_kinds_that_exist():

@@ -76,9 +76,12 @@ def test_there_is_one_lock_to_run_and_one_to_develop():
 
 def test_every_declared_dependency_is_locked():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    declared = [*project["dependencies"], *project["optional-dependencies"]["test"]]
-    locked = {line.split("==")[0] for line in blocks((ROOT / "docker" / "requirements-dev.txt").read_text())}
-    assert {re.match(r"[\w.-]+", requirement).group().lower() for requirement in declared} <= locked
+    extras = project["optional-dependencies"]
+    to_run = [*project["dependencies"], *extras["postgres"], *extras["ros"]]
+    for lock, declared in {"": to_run, "-dev": [*to_run, *extras["test"]]}.items():
+        lines = blocks((ROOT / "docker" / f"requirements{lock}.txt").read_text())
+        locked = {re.match(r"[\w.-]+", line).group() for line in lines}
+        assert {re.match(r"[\w.-]+", requirement).group().lower() for requirement in declared} <= locked
 
 
 def test_no_committed_file_names_a_registry_or_a_path_of_the_machine_it_was_made_on():
