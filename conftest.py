@@ -21,6 +21,8 @@ CHECKED_PACKAGES = (
     "core.validation",
 )
 
+collect_ignore = ["app/store/migrations/env.py"]  # a script, which only Alembic can run
+
 install_import_hook(CHECKED_PACKAGES, "beartype.beartype")
 
 settings.register_profile(
