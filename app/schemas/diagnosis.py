@@ -236,7 +236,7 @@ class Spectrum(Open):
 class SearchStep(Open):
     """One decision on the way to the findings."""
 
-    action: Literal["added", "dropped", "swapped"]
+    action: Literal["added", "dropped", "swapped", "kept"]
     cause: str
     joints: list[int]
     statistic: Annotated[float | None, Field(description="rise of twice the log-likelihood")]

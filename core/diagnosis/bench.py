@@ -30,6 +30,9 @@ from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
 
+NEARLY = 1.96
+"""Deviations of a scalar within which 95 % of its values lie."""
+
 
 class Bench:
     """Try hypotheses on the rows of a look.
@@ -235,6 +238,7 @@ class Bench:
         points = sorted({one.scalars[name] for one in self._grid(candidate)})
         here = candidate.scalars[name]
         low, high = neighbours(points, here)
+        seen: list[tuple[float, float]] = []
         for _ in range(2):
             values = between(low, high)
             trials = [
@@ -244,10 +248,12 @@ class Bench:
             ranks = [(_allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
             best = ranks.index(max(ranks))
             here = trials[best].scalars[name]
+            seen += [(trial.scalars[name], rank[1]) for trial, rank in zip(trials, ranks, strict=True)]
             order = sorted({*values, here})
             low, high = neighbours(order, here)
         settled = replace(candidate, scalars={**candidate.scalars, name: here})
         deviation, slope = self._spread(under, settled, name, (low, high))
+        deviation = max(deviation, _reach(seen, here))
         return replace(
             settled,
             deviations={**candidate.deviations, name: deviation},
@@ -285,6 +291,16 @@ class Bench:
     def _grid(self, candidate: Candidate) -> list[Candidate]:
         same = (candidate.cause, candidate.site)
         return [one for one in self._candidates if (one.cause, one.site) == same] or [candidate]
+
+
+def _reach(seen: Sequence[tuple[float, float]], here: float) -> float:
+    """Give the deviation that the farthest of the values which are nearly as likely stands for.
+
+    The likelihood of an instant has edges, and no curvature that tells how well it is known.
+    """
+    best = max(statistic for _, statistic in seen)
+    likely = [abs(value - here) for value, statistic in seen if best - statistic < NEARLY**2]
+    return max(likely) / NEARLY
 
 
 def _drop(low: Score, middle: Score, high: Score) -> float:

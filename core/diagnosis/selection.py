@@ -66,7 +66,7 @@ def select(
     """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
     none = bench.tried(())
     bench.believe(none)
-    given_up, steps = set[Key](), [Step("taken over", one, 0.0) for one in start]
+    given_up, steps = set[Key](), [Step("kept", one, 0.0) for one in start]
     now = none
     if start:
         now = _defended(bench, _settled(bench, bench.tried(tuple(start))), steps, given_up)

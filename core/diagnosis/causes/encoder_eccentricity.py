@@ -28,6 +28,7 @@ class EncoderEccentricity(OwnJointCause, MendsLog):
     title = "The encoder errs once per turn"
     cure = "signal"
     units = (("amplitude", "rad"), ("phase", "rad"))
+    inexact = 0.1
     confusions = (
         Confusion(
             "torque_ripple",

@@ -118,6 +118,8 @@ def _spans(scalars: Scalars) -> tuple[Span, ...]:
 
 
 def _deviation(solved: Solved, number: int) -> float:
-    """Give the deviation of the size of one contact's force, N: that of the part which is known least."""
+    """Give the deviation of the size of one contact's force, N, to first order: that along the force."""
     place = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
-    return float(np.sqrt(max(np.linalg.eigvalsh(solved.covariance[place, place])[-1], 0.0)))
+    force = solved.values[place]
+    along = force / max(float(np.linalg.norm(force)), 1e-300)
+    return float(np.sqrt(max(along @ solved.covariance[place, place] @ along, 0.0)))

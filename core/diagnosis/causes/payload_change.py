@@ -16,7 +16,7 @@ from core.dynamics.terms.payload import Payload
 from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS
 
-INSTANTS = 12
+INSTANTS = 30
 HEAVIEST = 500.0
 UNKNOWN = 1.0
 """A coordinate of the mass centre, m, that is known worse is not told: a planar arm sees two only."""
