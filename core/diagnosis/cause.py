@@ -116,6 +116,11 @@ class Cause(Protocol):
         ...
 
     @property
+    def excludes(self) -> tuple[str, ...]:
+        """List causes that are not added once it is there: they would share out one effect."""
+        ...
+
+    @property
     def leaves(self) -> tuple[str, ...]:
         """List causes that what it leaves looks like: beside it, they have to be nearly as clear."""
         ...

@@ -5,8 +5,7 @@ others; so after every step each chosen cause has to defend its place against be
 rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
-from collections.abc import Callable, Sequence
-from collections.abc import Set as AbstractSet
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +15,9 @@ from core.diagnosis.cause import Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 
 Key = tuple[str, Site]
-NOTHING: frozenset[Key] = frozenset()
+GivenUp = Mapping[Key, float]
+"""Kinds that were chosen once, and the rise that brings each back: none (inf) what did not stand out."""
+NOTHING: GivenUp = {}
 
 LEVEL = 1e-4
 """Chance of naming anything in a log that hides nothing."""
@@ -66,7 +67,7 @@ def select(
     """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
     none = bench.tried(())
     bench.believe(none)
-    given_up, steps = set[Key](), [Step("kept", one, 0.0) for one in start]
+    given_up, steps = dict[Key, float](), [Step("kept", one, 0.0) for one in start]
     now = none
     if start:
         now = _defended(bench, _settled(bench, bench.tried(tuple(start))), steps, given_up)
@@ -74,9 +75,12 @@ def select(
 
 
 def continued(
-    bench: Bench, so_far: Selection, given_up: set[Key], progress: Callable[[float], None] | None = None
+    bench: Bench,
+    so_far: Selection,
+    given_up: dict[Key, float],
+    progress: Callable[[float], None] | None = None,
 ) -> Selection:
-    """Search for more causes than those found so far, of kinds that were not given up."""
+    """Search for more causes than those found so far."""
     now, steps = so_far.chosen, list(so_far.steps)
     for number in range(len(now.members), MOST):
         if progress is not None:
@@ -111,15 +115,11 @@ def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     return bench.tried((*before.members, bench.refined(before, found.candidate)), now)
 
 
-def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NOTHING) -> Hypothesis | None:
-    """Give the hypothesis with the one more cause that deserves it most; None where none does.
-
-    Parameters
-    ----------
-    given_up
-        Kinds that were chosen once and could not defend their place.
-    """
-    taken = {*now.by_key, *given_up}
+def best_addition(bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING) -> Hypothesis | None:
+    """Give the hypothesis with the one more cause that deserves it most; None where none does."""
+    excluded = {name for one in now.members for name in one.cause.excludes}
+    taken = {*now.by_key, *(key for key, least in given_up.items() if least == np.inf)}
+    taken |= {one.key for one in bench.candidates if one.cause.id in excluded}
     scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
     tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
@@ -135,17 +135,21 @@ def best_addition(bench: Bench, now: Hypothesis, given_up: AbstractSet[Key] = NO
     deserves = (
         trial
         for trial in ranked
-        if trial.possible and holds_unseen(bench, now, trial) and not left_over(bench, now, trial)
+        if trial.possible
+        and rise(now, trial) > given_up.get(trial.members[-1].key, 0.0)
+        and holds_unseen(bench, now, trial)
+        and not left_over(bench, trial, len(now.members), rise(now, trial))
     )
     return next(deserves, None)
 
 
-def left_over(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
-    """Tell whether a last member is what another one leaves, and brings too little to be a cause itself."""
-    for index, member in enumerate(now.members):
-        if trial.members[-1].cause.id in member.cause.leaves:
-            without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
-            if rise(now, trial) < BESIDE_SHARE * rise(without, now):
+def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> bool:
+    """Tell whether a member looks like what another one leaves, and brings too little for a cause."""
+    name = whole.members[index].cause.id
+    for place, other in enumerate(whole.members):
+        if place != index and name in other.cause.leaves:
+            without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
+            if own_rise < BESIDE_SHARE * rise(without, whole):
                 return True
     return False
 
@@ -245,7 +249,7 @@ def _least_share(bench: Bench, trial: Hypothesis) -> float:
     return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in member.site))
 
 
-def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Key]) -> Hypothesis:
+def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
     """Let every member defend its place against being dropped and against its rivals."""
     for _ in range(len(now.members)):
         changed = _challenged(bench, now, steps, given_up)
@@ -256,20 +260,22 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Ke
     return now
 
 
-def _challenged(bench: Bench, now: Hypothesis, steps: list[Step], given_up: set[Key]) -> Hypothesis | None:
+def _challenged(
+    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
+) -> Hypothesis | None:
     for index, member in enumerate(now.members):
         without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
-        if weight(now, index) < -2.0 * np.log(LEVEL):
-            steps.append(Step("dropped", member, rise(without, now)))
-            given_up.add(member.key)
+        own_rise = rise(without, now)
+        if weight(now, index) < -2.0 * np.log(LEVEL) or left_over(bench, now, index, own_rise):
+            steps.append(Step("dropped", member, own_rise))
+            given_up[member.key] = np.inf
             return without
         rival = best_addition(bench, without, given_up)
         if rival is None or rival.members[-1].key == member.key:
             continue
-        if keeps_beside(bench, now, rival.members[-1], rise(without, rival)):
-            continue
         if merit(without, rival) > merit(without, _last(now, index)) + 6.0:
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
+            given_up[member.key] = BESIDE_SHARE * own_rise
             return rival
     return None
 

@@ -118,7 +118,7 @@ def _searched(
     found = select(bench, lambda done: tell("search", 0.1 + 0.5 * done), start)
     tell("weigh rivals", 0.6)
     kept, standings = weighed(bench, found)
-    lost = {*found.chosen.by_key} - {*kept.chosen.by_key}
+    lost = {key: np.inf for key in found.chosen.by_key if key not in kept.chosen.by_key}
     if lost:
         # What stood in for another cause may have kept it out.
         more = continued(bench, kept, lost)

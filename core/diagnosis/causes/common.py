@@ -29,6 +29,7 @@ class OwnJointCause:
     coordinate: ClassVar[str] = "velocity"
     event: ClassVar[bool] = False
     like_position_noise: ClassVar[bool] = False
+    excludes: ClassVar[tuple[str, ...]] = ()
     leaves: ClassVar[tuple[str, ...]] = ()
     settled: ClassVar[tuple[str, ...]] = ()
     inexact: ClassVar[float] = 0.05

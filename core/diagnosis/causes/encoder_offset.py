@@ -26,7 +26,7 @@ class EncoderOffset(OwnJointCause, MendsRobot):
 
     id = "encoder_offset"
     # What a first-order column leaves of a large angle looks like a small error of a length.
-    leaves = ("kinematic_error",)
+    excludes = ("kinematic_error",)
     title = "The joint's zero is off"
     cure = "signal"
     units = (("offset", "rad"),)

@@ -24,7 +24,7 @@ class GravityMisalignment(OwnJointCause, MendsRobot):
 
     id = "gravity_misalignment"
     # What a first-order column leaves of a large angle looks like a small error of a length.
-    leaves = ("kinematic_error",)
+    excludes = ("kinematic_error",)
     title = "The base is tilted against the description"
     cure = "robot"
     units = (("tilt_x", "rad"), ("tilt_y", "rad"))

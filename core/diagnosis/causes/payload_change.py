@@ -40,6 +40,7 @@ class PayloadChange(OwnJointCause):
     throughout: bool = False
 
     id = "payload_change"
+    leaves = ("external_contact",)
     title = "A body was attached to or taken off a link"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))

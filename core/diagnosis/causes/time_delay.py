@@ -25,7 +25,9 @@ class TimeDelay(OwnJointCause, MendsLog):
     """Suspect a delay of the torque channel."""
 
     id = "time_delay"
-    leaves = ("torque_filter_lag",)
+    excludes = ("torque_filter_lag",)
+    # Where the velocity turns, a column of first order is late; what that leaves looks like a bristle.
+    leaves = ("friction_presliding",)
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)

@@ -33,7 +33,9 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
     """Suspect a filter in the torque channel."""
 
     id = "torque_filter_lag"
-    leaves = ("time_delay",)
+    excludes = ("time_delay",)
+    # Where the velocity turns, a column of first order is late; what that leaves looks like a bristle.
+    leaves = ("friction_presliding",)
     title = "The torque channel is low-pass filtered"
     cure = "signal"
     units = (("time_constant", "s"),)

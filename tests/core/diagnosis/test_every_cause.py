@@ -173,13 +173,14 @@ def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
 
 
 @every_torque_cause
-def test_what_a_cause_leaves_looks_like_another_that_a_search_could_add(cause):
-    assert set(cause.leaves) <= {one.id for one in CAUSES} - {cause.id}
+def test_what_a_cause_leaves_or_keeps_out_is_another_that_a_search_could_add(cause):
+    assert set(cause.leaves) | set(cause.excludes) <= {one.id for one in CAUSES} - {cause.id}
 
 
 @every_torque_cause
-def test_causes_that_leave_each_other_are_told_to_be_confused_with_each_other(cause):
-    mutual = {name for name in cause.leaves if cause.id in BY_ID[name].leaves}
+def test_causes_that_keep_each_other_out_are_told_to_be_confused_with_each_other(cause):
+    """What only one of the two keeps out is what its own columns leave."""
+    mutual = {name for name in cause.excludes if cause.id in BY_ID[name].excludes}
     assert mutual <= {one.cause for one in cause.confusions}
 
 

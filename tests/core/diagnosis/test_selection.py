@@ -111,6 +111,14 @@ def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly
     assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
 
 
+@pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
+def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    type(causes[0]).excludes = keeps_out
+    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
+    assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
+
+
 @pytest.mark.parametrize(
     ("like_noise", "share", "named"),
     [(False, 0.5, True), (True, 0.1, True), (True, 0.5, False)],
