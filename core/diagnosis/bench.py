@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import JointSeries, Vector
+from core.arrays import JointSeries
 from core.diagnosis.belief import Belief
-from core.diagnosis.cause import Cause, Solved
+from core.diagnosis.cause import Cause
 from core.diagnosis.equations import (
     TRIAL_ROUNDS,
     Columns,
@@ -22,16 +22,12 @@ from core.diagnosis.equations import (
     refit,
     whitened,
 )
-from core.diagnosis.grid import between, neighbours
-from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allowed
 from core.diagnosis.look import Look
 from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
-
-NEARLY = 1.96
-"""Deviations of a scalar within which 95 % of its values lie."""
 
 
 class Bench:
@@ -104,6 +100,10 @@ class Bench:
         """Give everything that is suspected under the present belief."""
         return self._candidates
 
+    def scored(self, under: Hypothesis, candidates: Sequence[Candidate]) -> list[Score]:
+        """Score candidates on top of a hypothesis."""
+        return score(under.fit, self.base, self.columns(candidates))
+
     @property
     def kinds(self) -> int:
         """Count the pairs of cause and site that are suspected."""
@@ -172,24 +172,17 @@ class Bench:
         Scalars at which nature allows what is found go before those at which it does not.
         """
         asked = self._candidates if candidates is None else tuple(candidates)
-        found = score(under.fit, self.base, self.columns(asked))
+        found = self.scored(under, asked)
         best: dict[object, tuple[bool, Scored]] = {}
         for one, judged in zip(asked, found, strict=True):
             scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
-            possible = _allowed(one, judged)
+            possible = allowed(one, judged)
             if one.key not in best or (possible, scored.statistic) > (
                 best[one.key][0],
                 best[one.key][1].statistic,
             ):
                 best[one.key] = possible, scored
         return sorted((one for _, one in best.values()), key=lambda one: one.log_p)
-
-    def refined(self, under: Hypothesis, candidate: Candidate) -> Candidate:
-        """Settle a candidate's scalars between its grid points, on top of a hypothesis."""
-        for name in candidate.scalars:
-            if name not in candidate.cause.settled:
-                candidate = self._refined(under, candidate, name)
-        return candidate
 
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
         """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N.
@@ -233,80 +226,3 @@ class Bench:
                 total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
             squares.append(total)
         return squares[0] / max(squares[1], 1e-300)
-
-    def _refined(self, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-        points = sorted({one.scalars[name] for one in self._grid(candidate)})
-        here = candidate.scalars[name]
-        low, high = neighbours(points, here)
-        seen: list[tuple[float, float]] = []
-        for _ in range(2):
-            values = between(low, high)
-            trials = [
-                replace(candidate, scalars={**candidate.scalars, name: value}) for value in (*values, here)
-            ]
-            found = score(under.fit, self.base, self.columns(trials))
-            ranks = [(_allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
-            best = ranks.index(max(ranks))
-            here = trials[best].scalars[name]
-            seen += [(trial.scalars[name], rank[1]) for trial, rank in zip(trials, ranks, strict=True)]
-            order = sorted({*values, here})
-            low, high = neighbours(order, here)
-        settled = replace(candidate, scalars={**candidate.scalars, name: here})
-        deviation, slope = self._spread(under, settled, name, (low, high))
-        deviation = max(deviation, _reach(seen, here))
-        return replace(
-            settled,
-            deviations={**candidate.deviations, name: deviation},
-            slopes={**candidate.slopes, name: slope},
-        )
-
-    def _spread(
-        self, under: Hypothesis, candidate: Candidate, name: str, around: tuple[float, float]
-    ) -> tuple[float, Vector]:
-        """Read a scalar's deviation off the curvature of the profile likelihood, and the values' slope."""
-        here = candidate.scalars[name]
-        step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
-        low, middle, high = self._beside(under, candidate, name, step)
-        for _ in range(7):
-            if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
-                break
-            wider = self._beside(under, candidate, name, 2.0 * step)
-            if min(one.clear_share for one in wider) <= 0.0:
-                break
-            step, (low, middle, high) = 2.0 * step, wider
-        slope = (high.values - low.values) / (2.0 * step)
-        drop = _drop(low, middle, high)
-        if drop <= 0.0:
-            return float("inf"), np.zeros_like(slope)
-        return float(step / np.sqrt(drop)), slope
-
-    def _beside(self, under: Hypothesis, candidate: Candidate, name: str, step: float) -> list[Score]:
-        here = candidate.scalars[name]
-        trials = [
-            replace(candidate, scalars={**candidate.scalars, name: here + shift})
-            for shift in (-step, 0.0, step)
-        ]
-        return score(under.fit, self.base, self.columns(trials))
-
-    def _grid(self, candidate: Candidate) -> list[Candidate]:
-        same = (candidate.cause, candidate.site)
-        return [one for one in self._candidates if (one.cause, one.site) == same] or [candidate]
-
-
-def _reach(seen: Sequence[tuple[float, float]], here: float) -> float:
-    """Give the deviation that the farthest of the values which are nearly as likely stands for.
-
-    The likelihood of an instant has edges, and no curvature that tells how well it is known.
-    """
-    best = max(statistic for _, statistic in seen)
-    likely = [abs(value - here) for value, statistic in seen if best - statistic < NEARLY**2]
-    return max(likely) / NEARLY
-
-
-def _drop(low: Score, middle: Score, high: Score) -> float:
-    return middle.statistic - 0.5 * (low.statistic + high.statistic)
-
-
-def _allowed(candidate: Candidate, judged: Score) -> bool:
-    solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
-    return candidate.cause.possible(solved)

@@ -9,6 +9,7 @@ from core.arrays import SquareMatrix, Vector
 from core.diagnosis.cause import Cause, Scalars, Site, Solved
 from core.diagnosis.chance import log_chance
 from core.diagnosis.equations import OPEN_SHARE, Fit
+from core.diagnosis.score import Score
 
 Place = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: what columns are kept under."""
@@ -111,3 +112,9 @@ class Hypothesis:
     def by_key(self) -> Mapping[tuple[str, Site], int]:
         """Find members by kind."""
         return {one.key: index for index, one in enumerate(self.members)}
+
+
+def allowed(candidate: Candidate, judged: Score) -> bool:
+    """Tell whether nature allows what a score says of a candidate."""
+    solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
+    return candidate.cause.possible(solved)

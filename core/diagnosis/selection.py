@@ -13,6 +13,7 @@ import numpy as np
 from core.diagnosis.bench import Bench
 from core.diagnosis.cause import Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+from core.diagnosis.scalars import refined
 
 Key = tuple[str, Site]
 GivenUp = Mapping[Key, float]
@@ -25,6 +26,8 @@ FURTHER_LEVEL = 1e-7
 """The same beside another cause: no columns are exact, and what they leave is not luck."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
+RIVALS = 6
+"""The same where one is to take another's place."""
 FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 MOST = 5
@@ -67,11 +70,9 @@ def select(
     """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
     none = bench.tried(())
     bench.believe(none)
-    given_up, steps = dict[Key, float](), [Step("kept", one, 0.0) for one in start]
-    now = none
-    if start:
-        now = _defended(bench, _settled(bench, bench.tried(tuple(start))), steps, given_up)
-    return continued(bench, Selection(none, now, tuple(steps)), given_up, progress)
+    now = _settled(bench, bench.tried(tuple(start))) if start else none
+    kept = tuple(Step("kept", one, 0.0) for one in start)
+    return continued(bench, Selection(none, now, kept), {}, progress)
 
 
 def continued(
@@ -112,16 +113,18 @@ def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     member, before = now.members[-1], bench.beneath(now)
     same = [one for one in bench.candidates if one.key == member.key]
     found = bench.scanned(before, [*same, member])[0]
-    return bench.tried((*before.members, bench.refined(before, found.candidate)), now)
+    return bench.tried((*before.members, refined(bench, before, found.candidate)), now)
 
 
-def best_addition(bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING) -> Hypothesis | None:
-    """Give the hypothesis with the one more cause that deserves it most; None where none does."""
+def best_addition(
+    bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING, most: int = TRIED
+) -> Hypothesis | None:
+    """Give the hypothesis with the one more cause that deserves it best, of `most`; None where none does."""
     excluded = {name for one in now.members for name in one.cause.excludes}
     taken = {*now.by_key, *(key for key, least in given_up.items() if least == np.inf)}
     taken |= {one.key for one in bench.candidates if one.cause.id in excluded}
     scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
-    tried = scans[:TRIED] + [one for one in scans[TRIED:] if one.candidate.cause.event]
+    tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
     likely = sorted(
@@ -177,7 +180,7 @@ def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
     """Add a candidate with refined scalars, and fit everything anew."""
-    candidate = bench.refined(now, scored.candidate)
+    candidate = refined(bench, now, scored.candidate)
     return bench.added(now, candidate)
 
 
@@ -270,7 +273,7 @@ def _challenged(
             steps.append(Step("dropped", member, own_rise))
             given_up[member.key] = np.inf
             return without
-        rival = best_addition(bench, without, given_up)
+        rival = best_addition(bench, without, given_up, RIVALS)
         if rival is None or rival.members[-1].key == member.key:
             continue
         if merit(without, rival) > merit(without, _last(now, index)) + 6.0:

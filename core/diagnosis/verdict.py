@@ -13,19 +13,15 @@ from core.arrays import BlockKey, JointSeries
 from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
-from core.diagnosis.confidence import confidence
-from core.diagnosis.curve import curve
-from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding, NotIdentifiable, Stranger, Verdict
-from core.diagnosis.gain import gain
-from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
+from core.diagnosis.findings import finding, raw_finding
 from core.diagnosis.levels import level_keeper
 from core.diagnosis.look import Look, look_at
-from core.diagnosis.raw import RawCause, RawFinding
 from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
 from core.diagnosis.rivals import Standing, weighed
-from core.diagnosis.selection import Selection, continued, log_p, log_p_of, rise, select
+from core.diagnosis.selection import Selection, continued, log_p, rise, select
 from core.diagnosis.strangers import best_stranger, strangers
 from core.diagnosis.surprise import surprised, turned
 from core.dynamics.model import DynamicModel
@@ -76,19 +72,14 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     tell = progress or _say_nothing
     raw, look = _looked(question)
     refuse_too_little(look.clear)
-    bench, selection, standings = _searched(_bench(question, look), tell)
-    if surprised(bench, selection.chosen) and (other_look := turned(look)) is not None:
-        other = _searched(_bench(question, other_look), tell, selection.chosen.members)
-        if other[1].chosen.members and not surprised(other[0], other[1].chosen):
-            look, (bench, selection, standings) = other_look, other
+    bench, searched = _searched(question, look, tell)
+    look = bench.look
+    tell("weigh rivals", 0.6)
+    selection, standings = _weighed(bench, searched)
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
     after = bench.residual(chosen)
     before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
-    found = [
-        _finding(bench, selection, place, one, (_without(bench, chosen, place, one), after))
-        for place, one in enumerate(standings)
-    ]
-    found += raw
+    found = [finding(bench, chosen, place, one, after) for place, one in enumerate(standings)] + raw
     stranger = _stranger(bench, selection, after)
     most = max((one.statistic for one in standings), default=0.0)
     tell("learn what is left", 0.8)
@@ -110,21 +101,33 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     )
 
 
-def _searched(
-    bench: Bench, tell: Progress, start: Sequence[Candidate] = ()
-) -> tuple[Bench, Selection, list[Standing]]:
-    """Search for causes, from those known already if any, and keep those that stand up to their rivals."""
-    tell("search", 0.1)
-    found = select(bench, lambda done: tell("search", 0.1 + 0.5 * done), start)
-    tell("weigh rivals", 0.6)
+def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Selection]:
+    """Search for causes, and on with other blocks held out where one hides what no other shows."""
+
+    def progress(done: float) -> None:
+        tell("search", 0.1 + 0.5 * done)
+
+    progress(0.0)
+    bench = _bench(question, look)
+    found = select(bench, progress)
+    other_look = turned(look) if surprised(bench, found.chosen) else None
+    if other_look is not None:
+        other = _bench(question, other_look)
+        more = select(other, progress, found.chosen.members)
+        if more.chosen.members and not surprised(other, more.chosen):
+            return other, more
+    return bench, found
+
+
+def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]:
+    """Keep the causes that stand up to their rivals, and look for what the others kept out."""
     kept, standings = weighed(bench, found)
     lost = {key: np.inf for key in found.chosen.by_key if key not in kept.chosen.by_key}
     if lost:
-        # What stood in for another cause may have kept it out.
         more = continued(bench, kept, lost)
         if len(more.chosen.members) > len(kept.chosen.members):
-            return bench, *weighed(bench, more)
-    return bench, kept, standings
+            return weighed(bench, more)
+    return kept, standings
 
 
 def _bench(question: Question, look: Look) -> Bench:
@@ -151,91 +154,8 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
 
     look, _, _ = narrowed(look_again)
     wide, believed, _ = looks[0]
-    raw = [_raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
+    raw = [raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
     return raw, look
-
-
-def _without(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> JointSeries:
-    """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
-    return bench.residual(own.without) if bench.belief is None else bench.residual(chosen, (place,))
-
-
-def _finding(
-    bench: Bench, selection: Selection, place: int, own: Standing, left: tuple[JointSeries, JointSeries]
-) -> Finding:
-    look, chosen = bench.look, selection.chosen
-    member, solved = chosen.members[place], chosen.solved(place)
-    cause = member.cause
-    columns = bench.columns([member])[0]
-    joints = tuple(sorted(columns))
-    mask = look.usable & look.held_out[:, None]
-    measured = gain(left[0], left[1], mask, look.block_of_all, joints)
-    log_p = log_p_of(bench, chosen, place, own.statistic)
-    return Finding(
-        cause=cause.id,
-        title=cause.title,
-        joints=member.site or tuple(joint + 1 for joint in joints),
-        cure=cause.cure,
-        statement=cause.statement(solved),
-        quantities=cause.quantities(solved),
-        confidence=confidence(own.statistic, own.margin, measured),
-        p_value=float(np.exp(log_p)),
-        explained_fraction=_explained(left, look.usable & ~look.held_out[:, None], joints),
-        evidence=_evidence(own, log_p, member.trials),
-        ambiguous_with=own.ambiguous,
-        refuted=own.refuted,
-        gain=measured,
-        curve=curve(look, bench.believed, chosen, place, columns, left),
-        member=member,
-    )
-
-
-def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...]:
-    return (
-        Evidence(
-            "Rise of twice the log-likelihood when it joins the model, the noise learned anew",
-            "likelihood ratio",
-            own.statistic,
-        ),
-        Evidence(
-            f"Logarithm of the chance of so large a rise by luck, corrected for {trials:.3g} scanned values "
-            "and all other candidates",
-            "log10 p",
-            log_p / float(np.log(10.0)),
-        ),
-        Evidence(
-            "Lead of its criterion over the best rival's; below 6 the two cannot be told apart",
-            "criterion difference",
-            own.margin,
-        ),
-    )
-
-
-def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
-    """Give the share of the residual's mean square that a finding takes from the joint it helps most."""
-    sums = [(one**2 * mask).sum(axis=0)[list(joints)] for one in left]
-    return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
-
-
-def _raw_finding(cause: RawCause, found: RawFinding, look: Look) -> Finding:
-    sure = 1.0 - found.p_value
-    return Finding(
-        cause=cause.id,
-        title=cause.title,
-        joints=found.site or tuple(range(1, look.joints + 1)),
-        cure=cause.cure,
-        statement=found.statement,
-        quantities=found.quantities,
-        confidence=float(min(sure, 0.99)),
-        p_value=found.p_value,
-        explained_fraction=float(np.clip(np.max(found.residual_share), 0.0, 1.0)),
-        evidence=(Evidence("Statistic of the check on the raw samples", "raw check", found.statistic),),
-        ambiguous_with=(),
-        refuted=(),
-        gain=None,
-        curve=None,
-        member=None,
-    )
 
 
 def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiable, ...]:

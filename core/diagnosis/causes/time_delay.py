@@ -26,8 +26,8 @@ class TimeDelay(OwnJointCause, MendsLog):
 
     id = "time_delay"
     excludes = ("torque_filter_lag",)
-    # Where the velocity turns, a column of first order is late; what that leaves looks like a bristle.
-    leaves = ("friction_presliding",)
+    # A column of first order is late where velocities turn, and lacks what grows with frequency squared.
+    leaves = ("friction_presliding", "joint_elasticity")
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)

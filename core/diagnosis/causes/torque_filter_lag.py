@@ -34,8 +34,8 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
 
     id = "torque_filter_lag"
     excludes = ("time_delay",)
-    # Where the velocity turns, a column of first order is late; what that leaves looks like a bristle.
-    leaves = ("friction_presliding",)
+    # A column of first order is late where velocities turn, and lacks what grows with frequency squared.
+    leaves = ("friction_presliding", "joint_elasticity")
     title = "The torque channel is low-pass filtered"
     cure = "signal"
     units = (("time_constant", "s"),)
