@@ -5,6 +5,7 @@ Everything here may take a while and is called from worker threads, never on the
 
 from pathlib import PurePath
 
+from app.inspection.inspector import Inspector
 from app.jobs import science
 from app.jobs.computation import LogFile
 from app.problems import Problem
@@ -23,6 +24,8 @@ class Catalogue:
     ----------
     store
         What belongs to the tenant.
+    inspector
+        Reads uploaded logs.
     built_in
         The built-in robots by id.
     base_parameters
@@ -30,9 +33,14 @@ class Catalogue:
     """
 
     def __init__(
-        self, store: TenantStore, built_in: dict[str, RobotRecord], base_parameters: dict[str, Document]
+        self,
+        store: TenantStore,
+        inspector: Inspector,
+        built_in: dict[str, RobotRecord],
+        base_parameters: dict[str, Document],
     ) -> None:
-        self._store, self.built_in, self._base_parameters = store, built_in, base_parameters
+        self._store, self._inspector = store, inspector
+        self.built_in, self._base_parameters = built_in, base_parameters
 
     def add_description(self, description: object) -> RobotRecord:
         """Keep a robot that is described by the service's own document.
@@ -121,13 +129,13 @@ class Catalogue:
 
         Raises
         ------
-        LogError
+        Problem
             If the log cannot be used; nothing is kept then.
         """
         incoming.finish()
         log = LogFile(incoming.path, log_name(name), mapping, incoming.sha256)
-        summary = science.summarise_log(log, media_type=media_type) | {"bytes": incoming.size}
-        return self._store.keep_log(incoming, mapping=mapping, summary=summary)
+        summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
+        return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})
 
     def log(self, identity: str, *, named_in_body: bool = False) -> LogRecord:
         """Find a log.

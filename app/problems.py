@@ -108,6 +108,24 @@ class Problem(HTTPException):
             "remedy": self.remedy,
         }
 
+    @classmethod
+    def from_document(cls, document: Mapping[str, object]) -> "Problem":
+        """Read a problem back that was written as a document.
+
+        Examples
+        --------
+        >>> Problem.from_document(Problem("not-found", "there is no log abc").document()).kind
+        'not-found'
+        """
+        kind = str(document["type"]).removeprefix(URN)
+        evidence = document["evidence"]
+        return cls(
+            kind if kind in KINDS else "internal",
+            str(document["cause"]),
+            evidence=evidence if isinstance(evidence, Mapping) else {},
+            remedy=str(document["remedy"]),
+        )
+
 
 def problem_of(error: VeritorqueError) -> Problem:
     """Turn an error of the science into a problem.

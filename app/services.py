@@ -3,10 +3,12 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
+import anyio
 from fastapi import Depends, Request
 
 from app.callers import Caller, caller_of
 from app.catalogue import Catalogue, built_in_robots
+from app.inspection.inspector import Inspector
 from app.jobs.executor import Executor, ProcessExecutor
 from app.jobs.queue import Queue
 from app.jobs.supervisor import Supervisor
@@ -20,12 +22,13 @@ from app.store.store import Store, TenantStore
 
 @dataclass(frozen=True)
 class Desk:
-    """Carry what belongs to the tenant of one request."""
+    """Carry what belongs to the tenant of one request; `readers` bounds how many read logs at a time."""
 
     caller: Caller
     store: TenantStore
     catalogue: Catalogue
     queue: Queue
+    readers: anyio.CapacityLimiter
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,7 @@ class Services:
     keys: KeyRing
     worker: Worker | None
     supervisor: Supervisor | None
+    inspector: Inspector
     built_in: dict[str, RobotRecord]
     base_parameters: dict[str, Document] = field(default_factory=dict)
 
@@ -50,6 +54,7 @@ class Services:
         lock = DirectoryLock(settings.data_dir)
         store = Store(settings.data_dir, settings.database_url)
         store.blobs.remove_leftovers()
+        inspector = Inspector()
         built_in = built_in_robots()
         worker = None
         if supervisor is None and settings.workers:
@@ -57,7 +62,8 @@ class Services:
         for computing in (worker, supervisor):
             if computing is not None:
                 computing.start()
-        return cls(settings, lock, store, KeyRing(store.database), worker, supervisor, built_in)
+        inspector.prepare()
+        return cls(settings, lock, store, KeyRing(store.database), worker, supervisor, inspector, built_in)
 
     @property
     def ready(self) -> bool:
@@ -68,7 +74,8 @@ class Services:
     def desk(self, caller: Caller) -> Desk:
         """Open what belongs to the tenant of a request."""
         store = self.store.of(caller.tenant)
-        return Desk(caller, store, Catalogue(store, self.built_in, self.base_parameters), Queue(store))
+        catalogue = Catalogue(store, self.inspector, self.built_in, self.base_parameters)
+        return Desk(caller, store, catalogue, Queue(store), self.inspector.limiter)
 
     def close(self) -> None:
         """Stop the computations, hand their jobs back, and close the store."""

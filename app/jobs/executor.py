@@ -7,7 +7,6 @@ nothing else.
 
 import json
 import logging
-import multiprocessing
 import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
@@ -15,6 +14,7 @@ from multiprocessing.process import BaseProcess
 from threading import Event
 from typing import Protocol
 
+from app.forks import fork_server
 from app.jobs import child, science
 from app.jobs.computation import Computation, Died, Failed, Finished, Outcome, Progress, Stopped, Work
 from app.problems import Problem
@@ -50,8 +50,7 @@ class ProcessExecutor:
 
     def __init__(self, work: Work = science.compute, *, preload: tuple[str, ...] = ("core.study",)) -> None:
         self._work = work
-        self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(["app.jobs.child", *preload])
+        self._context = fork_server("app.jobs.child", *preload)
 
     def prepare(self) -> None:
         """Let the server process load the solver, and compile the kernels where the disk holds none yet."""

@@ -10,7 +10,7 @@ from starlette.datastructures import FormData, UploadFile
 from app.handlers import problem_response
 from app.negotiation import LONGEST_WAIT_S, wait_seconds
 from app.openapi import body, file_part, problems, text_part
-from app.problems import KINDS, URN, Problem
+from app.problems import Problem
 from app.reading import parse_json, parse_object, require_media_type
 from app.schemas.examples import MAPPING
 from app.schemas.jobs import Job
@@ -113,7 +113,8 @@ async def _log(desk: Desk, part: UploadFile, mapping: dict[str, object] | None) 
         return await anyio.to_thread.run_sync(
             lambda: desk.catalogue.add_log(
                 incoming, name=part.filename or "log", mapping=mapping, media_type=claimed_type(part)
-            )
+            ),
+            limiter=desk.readers,
         )
 
 
@@ -127,17 +128,5 @@ def _answer(desk: Desk, job: JobRecord) -> Response:
     if job.state == "dismissed":
         return problem_response(Problem("job-dismissed", "the job was dismissed", remedy="ask for it again"))
     if job.problem is not None:
-        return problem_response(_of_document(job.problem))
+        return problem_response(Problem.from_document(job.problem))
     return JSONResponse(job_document(job), 202, headers={"Location": path, "Retry-After": "1"})
-
-
-def _of_document(problem: dict[str, object]) -> Problem:
-    """Read a stored problem back."""
-    kind = str(problem["type"]).removeprefix(URN)
-    evidence = problem["evidence"]
-    return Problem(
-        kind if kind in KINDS else "internal",
-        str(problem["cause"]),
-        evidence=evidence if isinstance(evidence, dict) else {},
-        remedy=str(problem["remedy"]),
-    )

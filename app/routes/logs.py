@@ -118,5 +118,6 @@ async def _add(
 ) -> LogRecord:
     columns = parse_object(mapping, what="the mapping")
     return await anyio.to_thread.run_sync(
-        lambda: desk.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind)
+        lambda: desk.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind),
+        limiter=desk.readers,
     )

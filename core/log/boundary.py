@@ -13,7 +13,7 @@ from core.errors import LogError, VeritorqueError
 
 @contextmanager
 def reading(form: str, path: Path) -> Iterator[None]:
-    """Guard the reading of a file: our own errors pass, every other becomes "cannot be read".
+    """Guard the reading of a file: our own errors and want of memory pass, every other is "cannot be read".
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def reading(form: str, path: Path) -> Iterator[None]:
     """
     try:
         yield
-    except VeritorqueError:
+    except (VeritorqueError, MemoryError):
         raise
     except Exception as error:
         size = path.stat().st_size if path.exists() else 0

@@ -1,0 +1,46 @@
+"""Read one uploaded file in a process of its own, and tell the service over a pipe what is in it.
+
+A message is one letter and its content: ``r`` the summary, ``f`` the problem document, ``t`` the trace of a
+mistake of ours. This module loads everything that reads, so that the server it is loaded into forks quickly.
+"""
+
+import signal
+import traceback
+from multiprocessing.connection import Connection
+
+from app.documents import json_bytes
+from app.inspection.budget import Budget
+from app.inspection.confinement import confine
+from app.jobs import science
+from app.jobs.computation import LogFile
+from app.problems import problem_of
+from core.errors import LogError, VeritorqueError
+
+RESULT, FAILURE, TRACE = b"r", b"f", b"t"
+
+
+def inspect(pipe: Connection, log: LogFile, media_type: str | None, budget: Budget) -> None:
+    """Read the file and send what was found; the entry point of the process."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
+    confine(log.path, budget)
+    pipe.send_bytes(_inspected(log, media_type, budget))
+
+
+def _inspected(log: LogFile, media_type: str | None, budget: Budget) -> bytes:
+    try:
+        return RESULT + json_bytes(science.summarise_log(log, media_type=media_type))
+    except VeritorqueError as error:
+        return FAILURE + json_bytes(problem_of(error).document())
+    except MemoryError:
+        return FAILURE + json_bytes(problem_of(too_much_memory(budget)).document())
+    except Exception:  # noqa: BLE001  (the boundary of the process: the service decides what its client hears)
+        return TRACE + traceback.format_exc().encode(errors="replace")
+
+
+def too_much_memory(budget: Budget) -> LogError:
+    """Say that the memory did not suffice."""
+    return LogError(
+        "reading the file takes more memory than a file of its size may ask for",
+        evidence={"at_most_bytes": budget.memory_bytes},
+        remedy="save the log as Parquet, which is read piece by piece, or upload several shorter logs",
+    )

@@ -1,0 +1,110 @@
+"""Have uploaded files read by processes that can be killed; the service's own process never reads one.
+
+A file may make its reader crash, loop or swallow memory: that ends a process which held nothing else, and is
+answered with a problem.
+"""
+
+import json
+import logging
+import os
+import signal
+from multiprocessing import forkserver
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+
+import anyio
+
+from app.forks import fork_server
+from app.inspection import child
+from app.inspection.budget import Budget, budget_for
+from app.jobs.computation import LogFile
+from app.problems import Problem, problem_of
+from app.store.records import Document
+from core.errors import LogError
+
+LOGGER = logging.getLogger(__name__)
+READERS = ("app.inspection.child", "h5py", "pyarrow.csv", "pyarrow.parquet", "scipy.io.matlab")
+LONGEST_ANSWER = 16 * 1024**2
+
+
+class Inspector:
+    """Read uploaded files, as many at the same time as there are processors.
+
+    Attributes
+    ----------
+    limiter
+        Whoever calls from a coroutine passes this to the thread that waits, so that uploads which wait for
+        their turn hold no thread.
+    """
+
+    def __init__(self) -> None:
+        self._context = fork_server(*READERS)
+        self.limiter = anyio.CapacityLimiter(os.cpu_count() or 1)
+
+    def prepare(self) -> None:
+        """Let the server process load what reads, without waiting for it."""
+        forkserver.ensure_running()
+
+    def summarise(self, log: LogFile, *, size: int, media_type: str | None) -> Document:
+        """Say what is in a log of so many bytes.
+
+        Raises
+        ------
+        Problem
+            If the log cannot be used, or reading it costs more than it may.
+        """
+        budget = budget_for(size)
+        ours, theirs = self._context.Pipe(duplex=False)
+        process = self._context.Process(
+            target=child.inspect, args=(theirs, log, media_type, budget), daemon=True
+        )
+        try:
+            process.start()
+            theirs.close()
+            return _answer(process, ours, budget)
+        finally:
+            if process.pid is not None:
+                process.kill()
+                process.join()
+            process.close()
+            theirs.close()
+            ours.close()
+
+
+def _answer(process: BaseProcess, pipe: Connection, budget: Budget) -> Document:
+    if not pipe.poll(budget.wall_s):
+        raise problem_of(_too_slow(budget.wall_s, "time"))
+    try:
+        message = pipe.recv_bytes(LONGEST_ANSWER)
+    except (EOFError, OSError):
+        process.join()
+        raise problem_of(_ended(process.exitcode, budget)) from None
+    letter, content = message[:1], message[1:]
+    if letter == child.TRACE:
+        LOGGER.error("reading a log met a mistake of ours:\n%s", content.decode(errors="replace"))
+        raise Problem("internal", "reading the log met a mistake of the service", remedy="report it")
+    document: Document = json.loads(content)
+    if letter == child.FAILURE:
+        raise Problem.from_document(document)
+    return document
+
+
+def _ended(exit_code: int | None, budget: Budget) -> LogError:
+    """Say why the process ended without a word; a negative exit code is a signal's number."""
+    if exit_code == -signal.SIGPROF:
+        return _too_slow(budget.processor_s, "processor time")
+    if exit_code == -signal.SIGKILL:  # the kernel's, where the machine itself is out of memory
+        return child.too_much_memory(budget)
+    return LogError(
+        "the file is so damaged that its reader crashed",
+        evidence={"exit_code": exit_code},
+        remedy="write the file again and upload it whole",
+    )
+
+
+def _too_slow(seconds: float, what: str) -> LogError:
+    return LogError(
+        f"reading the file takes more {what} than a file of its size may ask for",
+        evidence={"at_most_s": seconds},
+        remedy="write the file again with the columns of the log only, or upload several shorter logs",
+    )
