@@ -90,21 +90,36 @@ def open_delimited(path: Path) -> DelimitedTable:
     lines = re.split("\r\n|\r|\n", _decoded(head))
     header_index, header, first_row = _header(lines)
     delimiter = max(DELIMITERS, key=header.count)
-    names = _names(header, delimiter)
+    names = _names(path, header, delimiter)
     skip = next(
         (i for i in range(header_index + 1, len(lines)) if not _is_comment(lines[i])), header_index + 1
     )
     decimal = "," if delimiter == ";" and "," in first_row and "." not in first_row else "."
+    _check_text(path)
     return DelimitedTable(path, names, delimiter, decimal, skip)
 
 
+def _check_text(path: Path) -> None:
+    """Refuse NUL bytes and lines of a megabyte, wherever they are, before the rows are parsed."""
+    begin = 0
+    with path.open("rb") as stream:
+        while piece := stream.read(HEAD_BYTES):
+            if b"\x00" in piece:
+                raise LogError(
+                    "the text holds NUL bytes",
+                    evidence={"first_at_byte": begin + piece.index(b"\x00")},
+                    remedy="save the table again as plain UTF-8 text",
+                )
+            begin += len(piece)
+            if len(piece) == HEAD_BYTES and b"\n" not in piece and b"\r" not in piece:
+                raise LogError(
+                    "a line is longer than 1 MB, which no row of a log is",
+                    evidence={"before_byte": begin},
+                    remedy="write one row per line",
+                )
+
+
 def _decoded(head: bytes) -> str:
-    if b"\x00" in head:
-        raise LogError(
-            "the text holds NUL bytes",
-            evidence={"first_at_byte": head.index(b"\x00")},
-            remedy="save the table again as plain UTF-8 text",
-        )
     if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
         raise LogError(
             "the first line is longer than 1 MB, which no header of a log is",
@@ -154,10 +169,11 @@ def _is_numbers(line: str) -> bool:
     return True
 
 
-def _names(header: str, delimiter: str) -> tuple[str, ...]:
+def _names(path: Path, header: str, delimiter: str) -> tuple[str, ...]:
     if header.count(delimiter) >= MAX_COLUMNS:
         check_columns([f"column_{index}" for index in range(header.count(delimiter) + 1)])
-    cells = next(csv.reader([header], delimiter=delimiter))
+    with reading(FORM, path):
+        cells = next(csv.reader([header], delimiter=delimiter))
     names = tuple(cell.strip() or f"column_{index + 1}" for index, cell in enumerate(cells))
     check_columns(names)
     return names

@@ -1,7 +1,8 @@
 """Read MAT files of version 5 (saved by -v6 or -v7); structures of arrays flatten to `structure.field`.
 
-The size that each compressed variable unpacks to stands in its own first tag, so that it can be refused
-before it is unpacked. Source: MathWorks, MAT-File Format (version 5), data element tags.
+The size that each compressed variable unpacks to stands in its own first tag, and its shape in the header
+behind, so that it can be refused before it is unpacked. Cells, objects and other things which hold no log are
+never unpacked at all. Source: MathWorks, MAT-File Format (version 5), data element tags.
 """
 
 import struct
@@ -15,12 +16,16 @@ import numpy as np
 
 from core.errors import LogError
 from core.log.boundary import reading
-from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_values, expand
+from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, check_values, expand
 
 FORM = "MATLAB v5"
 HEADER_BYTES = 128
 COMPRESSED = 15
 MAX_DEPTH = 4
+MAX_VARIABLES = 4 * MAX_COLUMNS
+INTEGERS = (f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64))
+NUMERIC = frozenset({"double", "single", *INTEGERS})
+STRUCTURE = "struct"
 
 
 def open_matlab5(path: Path) -> MemoryTable:
@@ -31,15 +36,18 @@ def open_matlab5(path: Path) -> MemoryTable:
     LogError
         If the file is damaged, cut short or too large.
     """
-    from scipy.io.matlab import loadmat
+    from scipy.io.matlab import loadmat, whosmat
 
     with reading(FORM, path), warnings.catch_warnings():
         warnings.simplefilter("error")  # scipy warns of variables that occur twice
         check_values(sum(_unpacked_sizes(path)) // 8)
-        contents = loadmat(path, appendmat=False, verify_compressed_data_integrity=True)
-        variables = dict(
-            _flat((name, value, 0) for name, value in contents.items() if not name.startswith("__"))
+        declared = whosmat(path, appendmat=False)
+        check_shapes([shape for _, shape, kind in declared if kind in NUMERIC])
+        wanted = [name for name, _, kind in declared if kind in NUMERIC or kind == STRUCTURE]
+        contents = loadmat(
+            path, appendmat=False, variable_names=wanted, verify_compressed_data_integrity=True
         )
+        variables = dict(_flat((name, contents.get(name), 0) for name, _, _ in declared))
     return expand(variables)
 
 
@@ -48,8 +56,15 @@ def _unpacked_sizes(path: Path) -> Iterator[int]:
     with path.open("rb") as stream:
         header = stream.read(HEADER_BYTES)
         order = "<" if header[126:128] == b"IM" else ">"
-        end = path.stat().st_size
+        end, variables = path.stat().st_size, 0
         while (place := stream.tell()) < end:
+            variables += 1
+            if variables > MAX_VARIABLES:
+                raise LogError(
+                    "the MATLAB file holds more variables than a log has",
+                    evidence={"at_most": MAX_VARIABLES},
+                    remedy="save the variables of the log only",
+                )
             kind, size = struct.unpack(order + "II", stream.read(8))
             if place + 8 + size > end:
                 raise LogError(

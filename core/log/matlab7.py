@@ -17,6 +17,12 @@ from core.log.boundary import reading
 from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, expand
 
 FORM = "MATLAB v7.3"
+MAX_MEMBERS = 4 * MAX_COLUMNS
+MAX_DEPTH = 16
+LONGEST_CLASS = 64
+TEXT = (b"char", b"cell")
+FILTERS = frozenset({1, 2, 3})
+"""Deflate, shuffle and checksum, by HDF5's numbers: what MATLAB writes, and no plug-in."""
 
 
 def open_matlab7(path: Path) -> MemoryTable:
@@ -42,6 +48,8 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
     """Walk the datasets by hard links only; None stands for what is no array of numbers."""
     import h5py
 
+    if len(group) > MAX_MEMBERS or len(seen) > MAX_MEMBERS or prefix.count(".") > MAX_DEPTH:
+        raise _overgrown(prefix)
     for key in group:
         name = f"{prefix}{key}"
         if key.startswith("#"):  # MATLAB's own bookkeeping of cells
@@ -60,7 +68,10 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
 
 def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # untyped
     """Tell MATLAB's text, which is stored as 16-bit numbers."""
-    return bytes(dataset.attrs.get("MATLAB_class", b"")) in (b"char", b"cell")
+    if "MATLAB_class" not in dataset.attrs:
+        return False
+    named = dataset.attrs.get_id("MATLAB_class")
+    return named.get_storage_size() <= LONGEST_CLASS and bytes(dataset.attrs["MATLAB_class"]) in TEXT
 
 
 def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # untyped
@@ -68,6 +79,22 @@ def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # untyped
         raise _refers_outside(name, "a virtual dataset")
     if dataset.external:
         raise _refers_outside(name, "external storage")
+    properties = dataset.id.get_create_plist()
+    filters = {properties.get_filter(index)[0] for index in range(properties.get_nfilters())}
+    if not filters <= FILTERS or properties.get_nfilters() > len(FILTERS):
+        raise LogError(
+            "a dataset is packed in a way that is not read here",
+            evidence={"dataset": name, "filters": sorted(filters), "known": sorted(FILTERS)},
+            remedy="save it with gzip or unpacked",
+        )
+
+
+def _overgrown(place: str) -> LogError:
+    return LogError(
+        "the file holds more groups than a log has",
+        evidence={"in": place[:100], "at_most": MAX_MEMBERS, "deepest": MAX_DEPTH},
+        remedy="save the datasets of the log only",
+    )
 
 
 def _refers_outside(name: str, what: str) -> LogError:

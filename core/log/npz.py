@@ -1,9 +1,11 @@
 """Read NumPy's NPZ archives without ever unpickling: an array's header says what it is before it is read.
 
 An archive is checked as a whole first, since a member that unpacks to terabytes or holds Python objects costs
-a few bytes.
+a few bytes: its directory's own size, then the headers of all arrays, then the arrays.
+Source: PKWARE, APPNOTE.TXT 6.3.10, 4.3.16 (end of central directory record).
 """
 
+import struct
 import zipfile
 from math import prod
 from pathlib import Path
@@ -12,10 +14,15 @@ import numpy as np
 
 from core.errors import LogError
 from core.log.boundary import reading
-from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_values, expand
+from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, expand
 
 FORM = "NPZ"
 MAX_HEADER_BYTES = 10_000
+MAX_MEMBERS = 2 * MAX_COLUMNS
+MAX_DIRECTORY_BYTES = 1 << 19
+LONGEST_COMMENT = (1 << 16) - 1
+END_SIGNATURE = b"PK\x05\x06"
+END_RECORD = struct.Struct("<10sHI6x")  # signature and disks; members; bytes of the directory; place, comment
 
 
 def open_npz(path: Path) -> MemoryTable:
@@ -26,6 +33,7 @@ def open_npz(path: Path) -> MemoryTable:
     LogError
         If the archive is damaged, encrypted or too large, or one of its members is a pickled object.
     """
+    _check_directory(path)
     with reading(FORM, path), zipfile.ZipFile(path) as archive:
         members = [item for item in archive.infolist() if item.filename.endswith(".npy")]
         if not members:
@@ -35,13 +43,46 @@ def open_npz(path: Path) -> MemoryTable:
                 remedy="write it by numpy.savez, or upload the table itself",
             )
         check_columns([item.filename for item in members[: MAX_COLUMNS + 1]])
-        check_values(sum(item.file_size for item in members) // 8)
-        variables = {item.filename.removesuffix(".npy"): _array(archive, item) for item in members}
+        numeric = {item.filename: _numeric_shape(archive, item) for item in members}
+        check_shapes([shape for shape in numeric.values() if shape is not None])
+        variables = {
+            item.filename.removesuffix(".npy"): (
+                None if numeric[item.filename] is None else _array(archive, item)
+            )
+            for item in members
+        }
     return expand(variables)
 
 
-def _array(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> np.ndarray | None:
-    """Read one member; None where it is not made of real numbers."""
+def _check_directory(path: Path) -> None:
+    """Refuse a directory that is longer than that of any log, before it is read."""
+    with path.open("rb") as stream:
+        stream.seek(max(path.stat().st_size - END_RECORD.size - LONGEST_COMMENT, 0))
+        tail = stream.read()
+    at = tail.rfind(END_SIGNATURE)
+    if at < 0 or len(tail) - at < END_RECORD.size:
+        raise LogError(
+            "the archive has no directory: it is cut short",
+            evidence={"bytes": path.stat().st_size},
+            remedy="write the file again and upload it whole",
+        )
+    _, members, size = END_RECORD.unpack_from(tail, at)
+    if members > MAX_MEMBERS or size > MAX_DIRECTORY_BYTES:
+        raise LogError(
+            "the archive has more members than a log has arrays",
+            evidence={"members": members, "at_most": MAX_MEMBERS, "directory_bytes": size},
+            remedy="save the arrays of the log only, by numpy.savez",
+        )
+
+
+def _array(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> np.ndarray:
+    with archive.open(item) as stream:
+        values: np.ndarray = np.lib.format.read_array(stream, allow_pickle=False)
+    return values
+
+
+def _numeric_shape(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> tuple[int, ...] | None:
+    """Give what the header of one member says; None where it is not made of real numbers."""
     shape, dtype = _header(archive, item)
     if dtype.hasobject:
         raise LogError(
@@ -61,9 +102,7 @@ def _array(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> np.ndarray | None
             },
             remedy="write the archive again",
         )
-    with archive.open(item) as stream:
-        values: np.ndarray = np.lib.format.read_array(stream, allow_pickle=False)
-    return values
+    return shape
 
 
 def _header(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> tuple[tuple[int, ...], np.dtype]:

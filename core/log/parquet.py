@@ -22,6 +22,9 @@ from core.log.table import BATCH_ROWS, check_columns, check_rows, not_numeric
 
 FORM = "Parquet"
 BUFFER_BYTES = 1 << 18
+MAX_FOOTER_TEXT = 1 << 24
+MAX_FOOTER_ITEMS = 1 << 20
+MAX_ROWS_PER_BYTE = 4
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,7 @@ def open_parquet(path: Path) -> ParquetTable:
     with reading(FORM, path), _opened(path) as file:
         metadata = file.metadata
         check_rows(metadata.num_rows)
+        _check_density(metadata.num_rows, path.stat().st_size)
         fields = list(file.schema_arrow)
         check_columns([field.name for field in fields])
         lengths = [metadata.row_group(group).num_rows for group in range(metadata.num_row_groups)]
@@ -87,7 +91,24 @@ def open_parquet(path: Path) -> ParquetTable:
 
 def _opened(path: Path) -> pq.ParquetFile:
     """Open without prefetching: it would hold a whole row group in memory."""
-    return pq.ParquetFile(path, pre_buffer=False, buffer_size=BUFFER_BYTES, memory_map=False)
+    return pq.ParquetFile(
+        path,
+        pre_buffer=False,
+        buffer_size=BUFFER_BYTES,
+        memory_map=False,
+        thrift_string_size_limit=MAX_FOOTER_TEXT,
+        thrift_container_size_limit=MAX_FOOTER_ITEMS,
+    )
+
+
+def _check_density(rows: int, size: int) -> None:
+    """Refuse rows that take no room: no measured motion does, and decoding them takes hours."""
+    if rows > MAX_ROWS_PER_BYTE * size:
+        raise LogError(
+            "the Parquet file declares more rows than its bytes can hold of a measured motion",
+            evidence={"rows": rows, "bytes": size, "at_most": MAX_ROWS_PER_BYTE * size},
+            remedy="upload the log as it was measured",
+        )
 
 
 def _decoded(batch: pa.RecordBatch, names: Sequence[str]) -> Series:

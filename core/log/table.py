@@ -16,6 +16,7 @@ from core.arrays import Series
 from core.errors import LogError
 
 MAX_COLUMNS = 512
+LONGEST_NAME = 256
 MAX_ROWS = 50_000_000
 MAX_VALUES_IN_MEMORY = 40_000_000
 """Numbers which a format that cannot be streamed may hold: 320 MB as float64."""
@@ -115,12 +116,12 @@ def _split(name: str, values: np.ndarray | None) -> Iterator[tuple[str, np.ndarr
 
 
 def check_columns(names: Sequence[str]) -> None:
-    """Refuse too many columns and columns of the same name.
+    """Refuse too many columns, columns of the same name, and names that no table would print.
 
     Raises
     ------
     LogError
-        If there are none, more than `MAX_COLUMNS`, or two of one name.
+        If there are none, more than `MAX_COLUMNS`, two of one name, or one longer than `LONGEST_NAME`.
     """
     if not names:
         raise LogError(
@@ -131,6 +132,13 @@ def check_columns(names: Sequence[str]) -> None:
             "the file has more columns than a log can have",
             evidence={"columns": len(names), "at_most": MAX_COLUMNS},
             remedy="keep the columns of time, position, torque or current and drop the others",
+        )
+    longest = max(names, key=len)
+    if len(longest) > LONGEST_NAME:
+        raise LogError(
+            "a column's name is longer than any name is",
+            evidence={"begins": longest[:50], "characters": len(longest), "at_most": LONGEST_NAME},
+            remedy="put the names of the columns on the first line, each a few words long",
         )
     repeated = [name for name, count in Counter(names).items() if count > 1]
     if repeated:
