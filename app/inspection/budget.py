@@ -34,7 +34,7 @@ def budget_for(size: int) -> Budget:
     Examples
     --------
     >>> budget_for(0).processor_s, budget_for(20 * MEGABYTE).processor_s
-    (1.0, 7.0)
+    (1.0, 4.0)
     """
-    processor_s = 1.0 + 0.3 * size / MEGABYTE
-    return Budget(processor_s, 30.0 + 10.0 * processor_s, 320 * MEGABYTE + 6 * size)
+    processor_s = 1.0 + 0.15 * size / MEGABYTE
+    return Budget(processor_s, 30.0 + 10.0 * processor_s, 160 * MEGABYTE + 6 * size)

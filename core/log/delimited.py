@@ -24,6 +24,7 @@ FORM = "CSV"
 HEAD_BYTES = 1 << 20
 BLOCK_BYTES = 1 << 22
 DELIMITERS = ",;\t"
+MAX_COMMENTS = 100_000
 _BAD_CELL = re.compile(r"column #(?P<column>\d+).*?invalid value '(?P<found>[^']*)'", re.DOTALL)
 
 
@@ -100,8 +101,8 @@ def open_delimited(path: Path) -> DelimitedTable:
 
 
 def _check_text(path: Path) -> None:
-    """Refuse NUL bytes and lines of a megabyte, wherever they are, before the rows are parsed."""
-    begin = 0
+    """Refuse NUL bytes, lines of a megabyte and endless comments before the rows are parsed."""
+    begin = comments = 0
     with path.open("rb") as stream:
         while piece := stream.read(HEAD_BYTES):
             if b"\x00" in piece:
@@ -116,6 +117,13 @@ def _check_text(path: Path) -> None:
                     "a line is longer than 1 MB, which no row of a log is",
                     evidence={"before_byte": begin},
                     remedy="write one row per line",
+                )
+            comments += piece.count(b"\n#")
+            if comments > MAX_COMMENTS:
+                raise LogError(
+                    "the text holds more comments than a log has",
+                    evidence={"comment_lines": comments, "at_most": MAX_COMMENTS},
+                    remedy="save the rows without them",
                 )
 
 

@@ -16,7 +16,15 @@ import numpy as np
 
 from core.errors import LogError
 from core.log.boundary import reading
-from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, check_values, expand
+from core.log.table import (
+    MAX_COLUMNS,
+    MemoryTable,
+    check_columns,
+    check_density,
+    check_shapes,
+    check_values,
+    expand,
+)
 
 FORM = "MATLAB v5"
 HEADER_BYTES = 128
@@ -40,7 +48,9 @@ def open_matlab5(path: Path) -> MemoryTable:
 
     with reading(FORM, path), warnings.catch_warnings():
         warnings.simplefilter("error")  # scipy warns of variables that occur twice
-        check_values(sum(_unpacked_sizes(path)) // 8)
+        unpacked = sum(_unpacked_sizes(path))
+        check_values(unpacked // 8)
+        check_density(unpacked, path.stat().st_size)
         declared = whosmat(path, appendmat=False)
         check_shapes([shape for _, shape, kind in declared if kind in NUMERIC])
         wanted = [name for name, _, kind in declared if kind in NUMERIC or kind == STRUCTURE]

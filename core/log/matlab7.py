@@ -14,7 +14,7 @@ import numpy as np
 
 from core.errors import LogError
 from core.log.boundary import reading
-from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, expand
+from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, expand
 
 FORM = "MATLAB v7.3"
 MAX_MEMBERS = 4 * MAX_COLUMNS
@@ -40,6 +40,7 @@ def open_matlab7(path: Path) -> MemoryTable:
         check_columns(list(datasets))
         readable = {name: dataset for name, dataset in datasets.items() if dataset is not None}
         check_shapes([dataset.shape for dataset in readable.values()])
+        check_density(sum(dataset.nbytes for dataset in readable.values()), path.stat().st_size)
         variables = {name: np.asarray(readable[name][()]) if name in readable else None for name in datasets}
     return expand(variables)
 
@@ -80,12 +81,12 @@ def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # untyped
     if dataset.external:
         raise _refers_outside(name, "external storage")
     properties = dataset.id.get_create_plist()
-    filters = {properties.get_filter(index)[0] for index in range(properties.get_nfilters())}
-    if not filters <= FILTERS or properties.get_nfilters() > len(FILTERS):
+    filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
+    if not FILTERS.issuperset(filters) or len(set(filters)) < len(filters):
         raise LogError(
             "a dataset is packed in a way that is not read here",
-            evidence={"dataset": name, "filters": sorted(filters), "known": sorted(FILTERS)},
-            remedy="save it with gzip or unpacked",
+            evidence={"dataset": name, "filters": filters, "known": sorted(FILTERS)},
+            remedy="save it unpacked, or with gzip, once",
         )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.errors import LogError
 from core.log.boundary import reading
-from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_shapes, expand
+from core.log.table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, expand
 
 FORM = "NPZ"
 MAX_HEADER_BYTES = 10_000
@@ -43,6 +43,7 @@ def open_npz(path: Path) -> MemoryTable:
                 remedy="write it by numpy.savez, or upload the table itself",
             )
         check_columns([item.filename for item in members[: MAX_COLUMNS + 1]])
+        check_density(sum(item.file_size for item in members), path.stat().st_size)
         numeric = {item.filename: _numeric_shape(archive, item) for item in members}
         check_shapes([shape for shape in numeric.values() if shape is not None])
         variables = {

@@ -18,13 +18,12 @@ from core.errors import LogError
 from core.log.boundary import reading
 from core.log.layout import Layout
 from core.log.model import LogRows
-from core.log.table import BATCH_ROWS, check_columns, check_rows, not_numeric
+from core.log.table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric
 
 FORM = "Parquet"
 BUFFER_BYTES = 1 << 18
 MAX_FOOTER_TEXT = 1 << 24
 MAX_FOOTER_ITEMS = 1 << 20
-MAX_ROWS_PER_BYTE = 4
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ def open_parquet(path: Path) -> ParquetTable:
     with reading(FORM, path), _opened(path) as file:
         metadata = file.metadata
         check_rows(metadata.num_rows)
-        _check_density(metadata.num_rows, path.stat().st_size)
+        check_density(8 * metadata.num_rows, path.stat().st_size)
         fields = list(file.schema_arrow)
         check_columns([field.name for field in fields])
         lengths = [metadata.row_group(group).num_rows for group in range(metadata.num_row_groups)]
@@ -99,16 +98,6 @@ def _opened(path: Path) -> pq.ParquetFile:
         thrift_string_size_limit=MAX_FOOTER_TEXT,
         thrift_container_size_limit=MAX_FOOTER_ITEMS,
     )
-
-
-def _check_density(rows: int, size: int) -> None:
-    """Refuse rows that take no room: no measured motion does, and decoding them takes hours."""
-    if rows > MAX_ROWS_PER_BYTE * size:
-        raise LogError(
-            "the Parquet file declares more rows than its bytes can hold of a measured motion",
-            evidence={"rows": rows, "bytes": size, "at_most": MAX_ROWS_PER_BYTE * size},
-            remedy="upload the log as it was measured",
-        )
 
 
 def _decoded(batch: pa.RecordBatch, names: Sequence[str]) -> Series:

@@ -21,6 +21,10 @@ MAX_ROWS = 50_000_000
 MAX_VALUES_IN_MEMORY = 40_000_000
 """Numbers which a format that cannot be streamed may hold: 320 MB as float64."""
 
+MAX_UNPACKING = 64
+FREE_BYTES = 1 << 24
+"""Real logs unpack to five times their bytes, coarse ones to twenty; short ones are not worth a question."""
+
 BATCH_ROWS = 32_768
 
 
@@ -168,6 +172,16 @@ def check_values(values: int) -> None:
 def check_shapes(shapes: Sequence[tuple[int, ...]]) -> None:
     """Refuse arrays by their declared shapes, before any of them is read."""
     check_values(sum(prod(shape) for shape in shapes))
+
+
+def check_density(unpacked: int, packed: int) -> None:
+    """Refuse bytes that unpack to far more than any measured motion does: noise cannot be packed so well."""
+    if unpacked > FREE_BYTES + MAX_UNPACKING * packed:
+        raise LogError(
+            "the file unpacks to far more numbers than its bytes can hold of a measured motion",
+            evidence={"bytes": packed, "unpacked_bytes": unpacked, "at_most_times": MAX_UNPACKING},
+            remedy="upload the log as it was measured",
+        )
 
 
 def duplicate_columns(names: Sequence[str]) -> LogError:

@@ -1,0 +1,1 @@
+"""Hold reading in a process of its own to what it promises."""

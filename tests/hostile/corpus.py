@@ -1,0 +1,67 @@
+"""Send every hostile file to the service and note what came of it."""
+
+import time
+from dataclasses import dataclass
+
+from starlette.testclient import TestClient
+
+from tests.hostile import hdf5, matlab, npz, parquet, text
+from tests.hostile.specimen import SECRET_TEXT, SPECIMENS, Place, Specimen
+from tests.hostile.watch import Memory, Openings
+
+CHAPTERS = (hdf5, matlab, npz, parquet, text)
+"""Importing these fills `SPECIMENS`."""
+MOST_SECONDS, MOST_MB = 2.0, 512.0
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """Hold how the service treated one file."""
+
+    label: str
+    bytes: int
+    status: int
+    cause: str
+    seconds: float
+    peak_mb: float
+    openings: int
+    leaked: bool
+
+    @property
+    def broken(self) -> list[str]:
+        """Name the promises that were not kept."""
+        kept = {
+            "answered by 4xx": 400 <= self.status < 500,
+            f"in {MOST_SECONDS:g} s": self.seconds <= MOST_SECONDS,
+            f"in {MOST_MB:g} MB": self.peak_mb <= MOST_MB,
+            "opened nothing else": self.openings == 0,
+            "told no secret": not self.leaked,
+        }
+        return [promise for promise, holds in kept.items() if not holds]
+
+
+def treat(client: TestClient, specimen: Specimen, place: Place) -> Treatment:
+    """Make a file, upload it, and see what happens."""
+    content = specimen.make(place)
+    openings = Openings(place.secret, place.secret_hdf5)
+    with Memory() as memory:
+        begin = time.perf_counter()
+        answer = client.post(
+            "/v1/logs", content=content, headers={"Content-Type": "application/octet-stream"}
+        )
+        seconds = time.perf_counter() - begin
+    opened = openings.count()
+    openings.close()
+    return Treatment(
+        label=specimen.label,
+        bytes=len(content),
+        status=answer.status_code,
+        cause=answer.json().get("cause", "accepted"),
+        seconds=seconds,
+        peak_mb=memory.peak_mb,
+        openings=opened,
+        leaked=SECRET_TEXT in answer.content,
+    )
+
+
+__all__ = ["CHAPTERS", "SPECIMENS", "Treatment", "treat"]

@@ -1,0 +1,77 @@
+"""Watch what hostile files are not to do: open the files of others, and take memory or time.
+
+Opened files are told by the kernel (inotify), memory is read of the processes that do the reading.
+"""
+
+import ctypes
+import os
+import re
+import threading
+import time
+from multiprocessing import forkserver
+from pathlib import Path
+from typing import Self
+
+OPENED = 0x20  # IN_OPEN
+EVENT_HEAD = 16
+LOOK_EVERY_S = 0.002
+
+
+class Openings:
+    """Count how often files are opened, by whomever."""
+
+    def __init__(self, *paths: Path) -> None:
+        libc = ctypes.CDLL(None, use_errno=True)
+        self._queue = libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
+        for path in paths:
+            if libc.inotify_add_watch(self._queue, os.fsencode(path), OPENED) < 0:
+                raise OSError(ctypes.get_errno(), "cannot be watched", str(path))
+
+    def count(self) -> int:
+        """Give the openings since the last count."""
+        try:
+            return len(os.read(self._queue, 1 << 16)) // EVENT_HEAD
+        except BlockingIOError:
+            return 0
+
+    def close(self) -> None:
+        os.close(self._queue)
+
+
+class Memory:
+    """Follow the largest peak of memory, MB, among the processes that read uploads."""
+
+    def __init__(self) -> None:
+        self.peak_mb = 0.0
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._follow, daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._over.set()
+        self._thread.join()
+
+    def _follow(self) -> None:
+        while not self._over.is_set():
+            for reader in _readers():
+                self.peak_mb = max(self.peak_mb, _peak_mb(reader))
+            time.sleep(LOOK_EVERY_S)
+
+
+def _readers() -> list[str]:
+    server = forkserver._forkserver._forkserver_pid
+    try:
+        return Path(f"/proc/{server}/task/{server}/children").read_text().split()
+    except OSError:
+        return []
+
+
+def _peak_mb(process: str) -> float:
+    try:
+        found = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{process}/status").read_text())
+    except OSError:
+        return 0.0
+    return int(found[1]) / 1024.0 if found else 0.0
