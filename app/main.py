@@ -12,6 +12,7 @@ import anyio
 from fastapi import FastAPI
 
 from app import handlers, openapi
+from app.digests import ContentDigest
 from app.jobs.executor import Executor
 from app.jobs.supervisor import Supervisor
 from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
@@ -72,6 +73,7 @@ def create_app(
     for chapter in (robots, logs, jobs, identify, health, pages):
         app.include_router(chapter.ROUTER)
     handlers.install(app)
+    app.add_middleware(ContentDigest)
     app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes)
     app.add_middleware(HeadAsGet)
     app.add_middleware(SafeHeaders)

@@ -8,6 +8,8 @@ import signal
 import traceback
 from multiprocessing.connection import Connection
 
+import pyarrow as pa
+
 from app.documents import json_bytes
 from app.inspection.budget import Budget
 from app.inspection.confinement import confine
@@ -22,6 +24,7 @@ RESULT, FAILURE, TRACE = b"r", b"f", b"t"
 def inspect(pipe: Connection, log: LogFile, media_type: str | None, budget: Budget) -> None:
     """Read the file and send what was found; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
+    pa.set_memory_pool(pa.system_memory_pool())  # the others reserve far more than they use
     confine(log.path, budget)
     pipe.send_bytes(_inspected(log, media_type, budget))
 

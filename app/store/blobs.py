@@ -4,13 +4,17 @@ Bytes are written aside, synced, then renamed; equal bytes are kept once. A name
 here, never anything that a client sent.
 """
 
+import errno
 import hashlib
 import os
 import secrets
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Self
+
+from app.store.errors import Unavailable
 
 Mark = tuple[int, int]
 """Number of a file and when it was written: both differ where the same bytes were kept again."""
@@ -39,16 +43,30 @@ class Incoming:
         return self._hash.hexdigest()
 
     def write(self, piece: bytes) -> None:
-        """Add bytes."""
-        self._file.write(piece)
+        """Add bytes.
+
+        Raises
+        ------
+        Unavailable
+            If the disk is full.
+        """
+        with _room():
+            self._file.write(piece)
         self._hash.update(piece)
         self.size += len(piece)
 
     def finish(self) -> None:
-        """Put everything on the disk."""
+        """Put everything on the disk.
+
+        Raises
+        ------
+        Unavailable
+            If the disk is full.
+        """
         if not self._file.closed:
-            self._file.flush()
-            os.fsync(self._file.fileno())
+            with _room():
+                self._file.flush()
+                os.fsync(self._file.fileno())
             self._file.close()
 
     def __enter__(self) -> Self:
@@ -57,7 +75,8 @@ class Incoming:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._file.close()
+        with suppress(OSError):  # what could not be written is not wanted any more
+            self._file.close()
         self.path.unlink(missing_ok=True)
 
 
@@ -121,6 +140,17 @@ class BlobStore:
         """Remove what was left half received; only while nobody receives anything."""
         for leftover in self._aside.iterdir():
             leftover.unlink(missing_ok=True)
+
+
+@contextmanager
+def _room() -> Iterator[None]:
+    """Say in the store's own words that there is no room."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+            raise Unavailable("the disk is full") from error
+        raise
 
 
 def _mark(path: Path) -> Mark | None:

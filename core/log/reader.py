@@ -139,8 +139,8 @@ def log_from_arrays(
 def _source(table: Table, layout: Layout) -> LogSource:
     if isinstance(table, ParquetTable):
         return ParquetSource(table, layout)
-    blocks = list(table.batches(layout.columns))
-    whole = np.hstack(blocks) if blocks else np.empty((len(layout.columns), 0))
+    blocks = list(table.batches(layout.columns)) or [np.empty((len(layout.columns), 0))]
+    whole = blocks[0] if len(blocks) == 1 else np.hstack(blocks)
     return ArraySource(layout.convert(whole, 0))
 
 

@@ -1,6 +1,8 @@
 import hashlib
 import io
 import json
+import resource
+import signal
 
 import numpy as np
 import pyarrow as pa
@@ -100,3 +102,18 @@ def test_other_formats_hold_the_same_log(client, write):
 def test_a_path_in_a_file_name_is_a_name_only(client, log_bytes):
     log = client.post("/v1/logs", files={"file": ("../../etc/passwd", log_bytes, "text/csv")}).json()
     assert log["name"] == "passwd"
+
+
+def test_a_full_disk_is_told_and_leaves_nothing_behind(client, log_bytes):
+    """A limit of this process on the size of files stands for the disk: the kernel refuses the same call."""
+    stored = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    incoming = client.app.state.services.store.directory / "blobs" / "incoming"
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(log_bytes) // 2, stored[1]))
+    try:
+        answer = client.post("/v1/logs", content=log_bytes, headers={"Content-Type": "text/csv"})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, stored)
+        signal.signal(signal.SIGXFSZ, before)
+    assert_problem(answer, 507, "disk-full")
+    assert list(incoming.iterdir()) == []
