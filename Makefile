@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden battery bench lock openapi causes
+.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz bench lock openapi causes
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -73,6 +73,12 @@ hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis (S
 
 battery: $(READY) ## the whole examination of the diagnosis: every cause 20 times, 300 clean logs (SEED=n; hours)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --battery
+
+hostile: $(READY) ## send every hostile file to the service and print how each was treated
+	$(RUN) -m tests.hostile
+
+fuzz: $(READY) ## read files spoilt at random, in every format (RUNS=n SEED=s)
+	$(RUN) -m tests.fuzz --runs $(or $(RUNS),20000) --seed $(or $(SEED),1)
 
 bench: $(READY) ## measure speed and accuracy
 	$(RUN) -m benchmarks $(ARGS)

@@ -76,8 +76,9 @@ class Contract:
 
     def _wraps(self, stretch: Stretch) -> None:
         """Count steps of a whole turn between samples that otherwise move by a fraction of one."""
-        steps = np.abs(np.diff(stretch.position[:, stretch.seam :], axis=1))
-        waits = np.diff(stretch.time[stretch.seam :])
+        with np.errstate(invalid="ignore"):  # values that are not finite are refused by name elsewhere
+            steps = np.abs(np.diff(stretch.position[:, stretch.seam :], axis=1))
+            waits = np.diff(stretch.time[stretch.seam :])
         prompt = waits < 3.0 * np.median(waits)
         turns = (np.abs(steps - 2.0 * np.pi) < WHOLE_TURN_TOLERANCE) & prompt
         if not turns.any():

@@ -4,6 +4,7 @@ The delimiter is taken from the header; comment lines start with `#`; with semic
 understood. A header which is itself the last comment line, as numpy.savetxt writes it, is accepted.
 """
 
+import codecs
 import csv
 import re
 from collections.abc import Iterator, Sequence
@@ -101,10 +102,15 @@ def open_delimited(path: Path) -> DelimitedTable:
 
 
 def _check_text(path: Path) -> None:
-    """Refuse NUL bytes, lines of a megabyte and endless comments before the rows are parsed."""
+    """Refuse NUL bytes, other encodings, lines of a megabyte and endless comments before rows are parsed."""
     begin = comments = 0
+    decoder = codecs.getincrementaldecoder("utf-8")()
     with path.open("rb") as stream:
         while piece := stream.read(HEAD_BYTES):
+            try:
+                decoder.decode(piece)
+            except UnicodeDecodeError as error:
+                raise _not_utf8(begin, error) from error
             if b"\x00" in piece:
                 raise LogError(
                     "the text holds NUL bytes",
@@ -137,11 +143,15 @@ def _decoded(head: bytes) -> str:
     try:
         return head[: head.rfind(b"\n") + 1 or None].decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise LogError(
-            "the text is not UTF-8",
-            evidence={"byte": error.start, "value": head[error.start]},
-            remedy="save the file as UTF-8",
-        ) from error
+        raise _not_utf8(0, error) from error
+
+
+def _not_utf8(begin: int, error: UnicodeDecodeError) -> LogError:
+    return LogError(
+        "the text is not UTF-8",
+        evidence={"byte": begin + error.start, "value": error.object[error.start]},
+        remedy="save the file as UTF-8",
+    )
 
 
 def _is_comment(line: str) -> bool:

@@ -6,6 +6,7 @@ Source: PKWARE, APPNOTE.TXT 6.3.10, 4.3.16 (end of central directory record).
 """
 
 import struct
+import warnings
 import zipfile
 from math import prod
 from pathlib import Path
@@ -34,7 +35,8 @@ def open_npz(path: Path) -> MemoryTable:
         If the archive is damaged, encrypted or too large, or one of its members is a pickled object.
     """
     _check_directory(path)
-    with reading(FORM, path), zipfile.ZipFile(path) as archive:
+    with reading(FORM, path), warnings.catch_warnings(), zipfile.ZipFile(path) as archive:
+        warnings.simplefilter("ignore")  # numpy tells when an array was written by Python 2
         members = [item for item in archive.infolist() if item.filename.endswith(".npy")]
         if not members:
             raise LogError(
