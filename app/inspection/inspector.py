@@ -23,7 +23,17 @@ from app.store.records import Document
 from core.errors import LogError
 
 LOGGER = logging.getLogger(__name__)
-READERS = ("app.inspection.child", "h5py", "pyarrow.csv", "pyarrow.parquet", "scipy.io.matlab")
+READERS = (
+    "app.inspection.child",
+    "h5py",
+    "pyarrow.csv",
+    "pyarrow.parquet",
+    "rosbags.rosbag1",
+    "rosbags.rosbag2.storage_mcap",
+    "rosbags.typesys",
+    "scipy.io.matlab",
+)
+"""What is not installed is passed over."""
 LONGEST_ANSWER = 16 * 1024**2
 
 

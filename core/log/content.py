@@ -39,8 +39,18 @@ MATLAB7 = Form(
     ("application/x-matlab-data", "application/matlab-mat", "application/x-hdf5", "application/x-hdf"),
     (".mat", ".h5", ".hdf5"),
 )
-FORMS = (DELIMITED, PARQUET, NPZ, MATLAB5, MATLAB7)
+MCAP = Form("MCAP", ("application/x-mcap", "application/mcap"), (".mcap",))
+BAG = Form("ROS bag", ("application/x-rosbag",), (".bag",))
+FORMS = (DELIMITED, PARQUET, NPZ, MATLAB5, MATLAB7, MCAP, BAG)
 
+_BEGINNINGS: tuple[tuple[bytes, Form], ...] = (
+    (b"PAR1", PARQUET),
+    (b"PK\x03\x04", NPZ),
+    (b"MATLAB 7.3", MATLAB7),
+    (HDF5_SIGNATURE, MATLAB7),
+    (b"\x89MCAP0\r\n", MCAP),
+    (b"#ROSBAG V2.0\n", BAG),
+)
 _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
     (b"\x1f\x8b", "a gzip archive", "unpack it first"),
     (b"BZh", "a bzip2 archive", "unpack it first"),
@@ -48,8 +58,6 @@ _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "unpack it first"),
     (b"\x28\xb5\x2f\xfd", "a Zstandard archive", "unpack it first"),
     (b"ARROW1", "an Arrow (Feather) file", "save the table as Parquet"),
-    (b"\x89MCAP0\r\n", "an MCAP recording", "export its joint states as CSV or Parquet"),
-    (b"#ROSBAG", "a ROS bag", "export its joint states as CSV or Parquet"),
     (b"SQLite format 3\x00", "an SQLite database", "export its joint states as CSV or Parquet"),
     (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "save the sheet as CSV"),
     (b"\x93NUMPY", "a single NPY array", "save the named arrays together as NPZ"),
@@ -90,11 +98,10 @@ def recognise(path: Path, media_type: str | None = None) -> Form:
 
 
 def _form_of(head: bytes) -> Form:
-    if head.startswith(b"PAR1"):
-        return PARQUET
-    if head.startswith(b"PK\x03\x04"):
-        return _zip_form(head)
-    if head.startswith(b"MATLAB 7.3") or HDF5_SIGNATURE in (head[:8], head[512:520]):
+    for magic, form in _BEGINNINGS:
+        if head.startswith(magic):
+            return _zip_form(head) if form is NPZ else form
+    if head[512:520] == HDF5_SIGNATURE:  # behind a block that is the user's own
         return MATLAB7
     if head[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
         return MATLAB5

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from core.errors import LogError
-from core.log.content import DELIMITED, MATLAB5, MATLAB7, NPZ, PARQUET, Form, recognise
+from core.log.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
 from core.log.defects.examine import examine
 from core.log.delimited import open_delimited
 from core.log.layout import Channel, Layout, bind
@@ -21,6 +21,8 @@ from core.log.matlab7 import open_matlab7
 from core.log.model import ArraySource, JointLog, LogRows, LogSource
 from core.log.npz import open_npz
 from core.log.parquet import ParquetSource, ParquetTable, open_parquet
+from core.log.profiles import fill_in
+from core.log.recording import open_bag, open_mcap
 from core.log.table import Table
 from core.log.units import PREFIXES
 
@@ -30,6 +32,8 @@ OPENERS: dict[Form, Callable[[Path], Table]] = {
     NPZ: open_npz,
     MATLAB5: open_matlab5,
     MATLAB7: open_matlab7,
+    MCAP: open_mcap,
+    BAG: open_bag,
 }
 
 
@@ -46,7 +50,7 @@ def read_log(
     Parameters
     ----------
     path
-        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3; its bytes decide which.
+        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3, MCAP or ROS bag; its bytes decide which.
     media_type
         The declared content type, checked against the bytes.
     mapping
@@ -68,7 +72,7 @@ def read_log(
     """
     form = recognise(path, media_type)
     table = OPENERS[form](path)
-    layout = bind(table, parse_mapping(mapping))
+    layout = bind(table, parse_mapping(fill_in(mapping, table.names)))
     source = _source(table, layout)
     return _examined(name or path.stem, source, layout, sha256 or _hash(path))
 

@@ -1,0 +1,75 @@
+import numpy as np
+import pytest
+
+from core.errors import LogError
+from core.log.model import whole_rows
+from core.log.reader import read_log
+from tests.core.log.writers import swing
+
+pytest.importorskip("rosbags", reason="ROS recordings need the extra 'ros'")
+from tests.core.log.recordings import write_bag, write_mcap
+
+COLUMNS = swing(seconds=4.0)
+COLUMNS |= {f"qd_{joint}": np.gradient(COLUMNS[f"q_{joint}"], COLUMNS["time"]) for joint in (1, 2, 3)}
+JOINTS = {"elbow": 3, "shoulder_lift": 2, "shoulder_pan": 1}
+"""In the order of the alphabet, as ROS often publishes them; the robot's order is another."""
+ORDER = ["shoulder_pan", "shoulder_lift", "elbow"]
+WRITERS = pytest.mark.parametrize("write", [write_mcap, write_bag])
+
+
+@WRITERS
+def test_joint_states_become_the_log_that_was_recorded(write, tmp_path):
+    log = read_log(write(tmp_path, COLUMNS, JOINTS), mapping={"profile": "ros-jointstate", "joints": ORDER})
+    rows = whole_rows(log)
+    np.testing.assert_allclose(rows.time, COLUMNS["time"], atol=1e-9)  # stamps are whole nanoseconds
+    for values, prefix in ((rows.position, "q"), (rows.velocity, "qd"), (rows.torque, "tau")):
+        np.testing.assert_array_equal(values, np.column_stack([COLUMNS[f"{prefix}_{j}"] for j in (1, 2, 3)]))
+
+
+@WRITERS
+def test_joints_are_never_taken_in_the_order_in_which_they_were_published(write, tmp_path):
+    path = write(tmp_path, COLUMNS, JOINTS)
+    with pytest.raises(LogError, match="order of the joints is not known"):
+        read_log(path, mapping={"profile": "ros-jointstate"})
+    with pytest.raises(LogError, match="no column for position") as caught:
+        read_log(path)
+    assert "position.elbow" in caught.value.evidence["columns"]
+
+
+@WRITERS
+def test_several_topics_of_joint_states_are_named_and_refused(write, tmp_path):
+    with pytest.raises(LogError, match="several topics") as caught:
+        read_log(write(tmp_path, COLUMNS, JOINTS, topics=("/left", "/right")))
+    assert caught.value.evidence["topics"] == ["/left", "/right"]
+
+
+@WRITERS
+def test_a_recording_without_joint_states_is_refused(write, tmp_path):
+    with pytest.raises(LogError, match=r"no joint states|no messages|cannot be read"):
+        read_log(write(tmp_path, COLUMNS, JOINTS, topics=()))
+
+
+@WRITERS
+def test_a_recording_cut_short_or_spoilt_is_refused_or_still_a_log(write, tmp_path):
+    path = write(tmp_path, COLUMNS, JOINTS)
+    whole, random = path.read_bytes(), np.random.default_rng(1)
+    refused = 0
+    for trial in range(30):
+        spoilt = bytearray(whole[: int(random.integers(20, len(whole)))] if trial % 2 else whole)
+        if trial % 2 == 0:
+            at = int(random.integers(0, len(spoilt) - 64))
+            spoilt[at : at + 64] = random.bytes(64)
+        path.write_bytes(bytes(spoilt))
+        try:
+            read_log(path, mapping={"profile": "ros-jointstate", "joints": ORDER})
+        except LogError:
+            refused += 1
+    assert refused >= 15
+
+
+def test_without_the_library_the_refusal_says_what_to_install(tmp_path, monkeypatch):
+    path = write_mcap(tmp_path, COLUMNS, JOINTS)
+    monkeypatch.setitem(__import__("sys").modules, "rosbags.typesys", None)
+    with pytest.raises(LogError, match="not installed") as caught:
+        read_log(path)
+    assert "veritorque[ros]" in caught.value.remedy
