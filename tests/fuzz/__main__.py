@@ -13,7 +13,7 @@ from rich.table import Table
 from app.inspection.inspector import Inspector
 from app.jobs.computation import LogFile
 from app.problems import Problem
-from tests.fuzz.campaign import Tally, case, run
+from tests.fuzz.campaign import MAPPING, Tally, case, run
 from tests.fuzz.seeds import seeds
 
 MEMORY_DISK = Path("/dev/shm")  # noqa: S108  (a folder of chance name within)
@@ -45,7 +45,7 @@ def _contained(tally: Tally, seed: int, folder: Path) -> int:
         path.write_bytes(case(tally.form, seed, number))
         try:
             inspector.summarise(
-                LogFile(path, "fuzz", None, "0" * 64), size=path.stat().st_size, media_type=None
+                LogFile(path, "fuzz", MAPPING, "0" * 64), size=path.stat().st_size, media_type=None
             )
             answered += 1  # a reader that had read less before survives
         except Problem as problem:

@@ -1,13 +1,18 @@
 """Make small sound logs in every format, in the variants that their writers know; spoilt ones begin here."""
 
 import io
+import tempfile
+from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from scipy.io import savemat
+
+from tests.core.log.recordings import write_bag, write_mcap
 
 ROWS = 120
 
@@ -58,6 +63,11 @@ def hdf5(*, packed: bool, libver: str | None = None) -> bytes:
     return stream.getvalue()
 
 
+def recording(write: Callable[..., Path]) -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        return write(Path(folder), columns() | {"qd_1": columns()["q_1"]}, {"joint1": 1}).read_bytes()
+
+
 @cache
 def seeds() -> dict[str, tuple[bytes, ...]]:
     """Give the sound files by format."""
@@ -70,5 +80,7 @@ def seeds() -> dict[str, tuple[bytes, ...]]:
             parquet(compression="zstd", use_byte_stream_split=["q_1"], use_dictionary=["note"]),
         ),
         "MATLAB v5": (matlab5(packed=False), matlab5(packed=True)),
+        "MCAP": (recording(write_mcap),),
+        "ROS bag": (recording(write_bag),),
         "HDF5": (hdf5(packed=False), hdf5(packed=True), hdf5(packed=True, libver="latest")),
     }

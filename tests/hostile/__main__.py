@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from tests.app.conftest import service
-from tests.hostile.corpus import SPECIMENS, Treatment, treat
+from tests.hostile.corpus import SPECIMENS, Treatment, treat, warm_up
 from tests.hostile.specimen import Place
 
 
@@ -18,6 +18,7 @@ def main() -> int:
         place = Place(Path(folder) / "outside")
         place.lay_out()
         with service(Path(folder) / "data") as client:
+            warm_up(client)
             seen = [treat(client, specimen, place) for specimen in SPECIMENS]
     show(seen)
     return any(one.broken for one in seen)

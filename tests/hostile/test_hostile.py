@@ -5,10 +5,12 @@ import numpy as np
 import pytest
 
 from tests.app.conftest import service
-from tests.hostile.corpus import SPECIMENS, treat
+from tests.core.log.recordings import write_bag, write_mcap
+from tests.hostile.corpus import MAPPING, SPECIMENS, treat, warm_up
 from tests.hostile.hdf5 import written as hdf5
 from tests.hostile.npz import Trap, archive, array_bytes
 from tests.hostile.parquet import constant
+from tests.hostile.recordings import sound as recording
 from tests.hostile.specimen import SECRET_TEXT, Place, motion
 from tests.hostile.text import table
 from tests.hostile.watch import Openings
@@ -27,6 +29,7 @@ def place(tmp_path_factory):
 @pytest.fixture(scope="module")
 def client(tmp_path_factory):
     with service(tmp_path_factory.mktemp("data")) as client:
+        warm_up(client)
         yield client
 
 
@@ -46,9 +49,18 @@ def test_a_hostile_file_is_refused_soon_in_little_memory_and_leads_nowhere(clien
 
 def test_the_same_log_without_the_change_is_taken(client, place):
     arrays = archive({f"{name}.npy": array_bytes(values) for name, values in motion().items()})
-    for content in (hdf5(place, lambda file: None), arrays, table()):
+    for content in (
+        hdf5(place, lambda file: None),
+        arrays,
+        table(),
+        recording(write_mcap),
+        recording(write_bag),
+    ):
         answer = client.post(
-            "/v1/logs", content=content, headers={"Content-Type": "application/octet-stream"}
+            "/v1/logs",
+            params={"mapping": MAPPING},
+            content=content,
+            headers={"Content-Type": "application/octet-stream"},
         )
         assert answer.status_code == 201, answer.text
 

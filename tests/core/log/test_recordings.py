@@ -36,6 +36,15 @@ def test_joints_are_never_taken_in_the_order_in_which_they_were_published(write,
     assert "position.elbow" in caught.value.evidence["columns"]
 
 
+def test_a_definition_that_a_recording_brings_along_is_never_compiled(tmp_path):
+    path = write_mcap(tmp_path, COLUMNS, JOINTS)
+    whole = path.read_bytes()
+    assert b"string[] name\n" in whole
+    path.write_bytes(whole.replace(b"string[] name\n", b"import os;x()\n"))
+    log = read_log(path, mapping={"profile": "ros-jointstate", "joints": ORDER})
+    np.testing.assert_array_equal(whole_rows(log).position[:, 0], COLUMNS["q_1"])
+
+
 @WRITERS
 def test_several_topics_of_joint_states_are_named_and_refused(write, tmp_path):
     with pytest.raises(LogError, match="several topics") as caught:
