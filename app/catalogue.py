@@ -132,7 +132,7 @@ class Catalogue:
         Problem
             If the log cannot be used; nothing is kept then.
         """
-        incoming.finish()
+        incoming.flush()  # what is refused need never be on the disk
         log = LogFile(incoming.path, log_name(name), mapping, incoming.sha256)
         summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
         return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})

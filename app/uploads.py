@@ -1,5 +1,6 @@
 """Receive files: streamed to the disk while they are hashed, never in memory as a whole."""
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -16,7 +17,7 @@ from core.log.content import FORMS, NO_CLAIM
 MULTIPART = "multipart/form-data"
 LOG_MEDIA_TYPES = (*sorted({kind for form in FORMS for kind in form.media_types}), "application/octet-stream")
 MOST_PARTS = 32
-PIECE = 1 << 20
+PIECE = 1 << 19
 
 
 async def receive_body(request: Request, incoming: Incoming) -> None:
@@ -28,15 +29,21 @@ async def receive_body(request: Request, incoming: Incoming) -> None:
         If the client went away meanwhile (400).
     """
     waiting = bytearray()
+    writing: asyncio.Task[None] | None = None  # one piece is hashed and written while the next one arrives
     try:
         async for piece in request.stream():
             waiting += piece
             if len(waiting) >= PIECE:
-                await anyio.to_thread.run_sync(incoming.write, bytes(waiting))
+                if writing is not None:
+                    await writing
+                writing = asyncio.create_task(asyncio.to_thread(incoming.write, bytes(waiting)))
                 waiting.clear()
-        await anyio.to_thread.run_sync(incoming.write, bytes(waiting))
     except ClientDisconnect:
         raise Problem("bad-request", "the upload ended early", remedy="send it again") from None
+    finally:
+        if writing is not None:
+            await writing
+    await anyio.to_thread.run_sync(incoming.write, bytes(waiting))
 
 
 async def receive_part(part: UploadFile, incoming: Incoming) -> None:

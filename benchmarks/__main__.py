@@ -17,6 +17,7 @@ NAMES = (
     "bootstrap",
     "coverage",
     "diagnosis",
+    "uploads",
 )
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 

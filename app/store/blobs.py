@@ -55,6 +55,17 @@ class Incoming:
         self._hash.update(piece)
         self.size += len(piece)
 
+    def flush(self) -> None:
+        """Let others read all bytes so far; they need not be on the disk yet.
+
+        Raises
+        ------
+        Unavailable
+            If the disk is full.
+        """
+        with _room():
+            self._file.flush()
+
     def finish(self) -> None:
         """Put everything on the disk.
 
