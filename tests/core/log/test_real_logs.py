@@ -5,6 +5,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
@@ -102,3 +103,33 @@ def test_half_a_minute_of_seven_joints_is_read_at_once():
     start = time.process_time()
     read_log(path)
     assert time.process_time() - start < 0.2
+
+
+@pytest.mark.parametrize(
+    ("run", "profile", "names"),
+    [
+        (
+            "ur10e_open/runs/fourier_30s_12h.parquet",
+            "ur-rtde",
+            {"time": "timestamp", "q": "actual_q_{}", "qd": "actual_qd_{}", "current": "actual_current_{}"},
+        ),
+        (
+            "franka_panda/runs/traj1.parquet",
+            "franka",
+            {"time": "time", "q": "state.q[{}]", "qd": "state.dq[{}]", "tau": "state.tau_J[{}]"},
+        ),
+    ],
+)
+def test_a_public_log_under_the_names_of_its_recorder_is_the_same_log(run, profile, names, tmp_path):
+    known = read_log(DATA / run)
+    table = pq.read_table(DATA / run)
+    milliseconds = 1e3 if profile == "franka" else 1.0
+    renamed = {names["time"]: milliseconds * table["time"].to_numpy()}
+    for prefix in list(names)[1:]:
+        for joint in range(known.joints, 0, -1):
+            renamed[names[prefix].format(joint - 1)] = table[f"{prefix}_{joint}"].to_numpy()
+    pq.write_table(pa.table(renamed), tmp_path / "log.parquet")
+    found = read_log(tmp_path / "log.parquet", mapping={"profile": profile})
+    np.testing.assert_array_equal(whole_rows(found).position, whole_rows(known).position)
+    np.testing.assert_allclose(whole_rows(found).time, whole_rows(known).time, rtol=1e-12)
+    assert found.rate_hz == pytest.approx(known.rate_hz, rel=1e-9)
