@@ -37,4 +37,4 @@ def budget_for(size: int) -> Budget:
     (1.0, 4.0)
     """
     processor_s = 1.0 + 0.15 * size / MEGABYTE
-    return Budget(processor_s, 30.0 + 10.0 * processor_s, 160 * MEGABYTE + 6 * size)
+    return Budget(processor_s, 120.0 + 10.0 * processor_s, 160 * MEGABYTE + 6 * size)
