@@ -16,6 +16,8 @@ SHORTEST_SECONDS = 1.0
 WHOLE_TURN_TOLERANCE = 0.1
 """Rad that a joint may move between two samples and still be said to have been wrapped by a turn."""
 LARGEST = 1e15
+SHORTEST_STEP = 1e-6
+"""Of time, in s: no drive is sampled at a megahertz."""
 FIRST_ROWS = 5
 
 
@@ -52,6 +54,7 @@ class Contract:
         self._columns = {channel.name: channel.columns for channel in layout.channels}
         self._bad: dict[str, tuple[int, list[int]]] = {}
         self._backwards = self._duplicates = 0
+        self._hurried: float | None = None
         self._first_disorder: tuple[int, float, float] | None = None
         self._wrapped: dict[int, tuple[int, float]] = {}
         self.low: dict[str, JointVector] = {}
@@ -64,7 +67,7 @@ class Contract:
         self._wraps(stretch)
         for name, values in stretch.channels().items():
             self._extremes(name, values, stretch.first + stretch.context)
-        return not (self._bad or self._backwards or self._duplicates)
+        return not (self._bad or self._backwards or self._duplicates or self._hurried)
 
     def _extremes(self, name: str, values: Series, first: int) -> None:
         low, high = values.min(axis=1), values.max(axis=1)
@@ -110,6 +113,9 @@ class Contract:
         self.start = float(time[0]) if np.isnan(self.start) else self.start
         self.stop = float(time[-1])
         disorder = np.flatnonzero(time[1:] <= time[:-1])
+        typical = float(np.median(np.diff(time))) if len(time) > 1 else SHORTEST_STEP
+        if 0.0 < typical < SHORTEST_STEP:
+            self._hurried = typical
         if len(disorder):
             self._duplicates += int(np.count_nonzero(time[1:] == time[:-1]))
             self._backwards += int(np.count_nonzero(time[1:] < time[:-1]))
@@ -137,6 +143,12 @@ class Contract:
         self._check_finite()
         self._check_order()
         self._check_wraps()
+        if self._hurried is not None:
+            raise LogError(
+                "the stamps are closer than those of any log",
+                evidence={"median_step_s": self._hurried, "at_least_s": SHORTEST_STEP},
+                remedy="check the column and the unit of time",
+            )
         if self.stop - self.start < SHORTEST_SECONDS:
             raise LogError(
                 "the log is too short to study",

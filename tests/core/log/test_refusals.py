@@ -64,6 +64,15 @@ def test_stamps_that_occur_twice_are_counted(tmp_path):
     assert error.evidence["first_row"] == 101
 
 
+@pytest.mark.parametrize("step", [1e-7, 1e-300, 5e-324])
+def test_stamps_closer_than_those_of_any_log_are_refused_although_they_span_seconds(step, tmp_path):
+    def change(columns):
+        columns["time"] = np.append(np.arange(1, len(columns["time"])) * step, 20.0)
+
+    error = refusal(spoiled(change), tmp_path)
+    assert error.evidence["median_step_s"] == pytest.approx(step, rel=1e-6)
+
+
 def test_time_that_goes_backwards_is_refused_even_across_stretches(tmp_path):
     columns = swing(seconds=400.0)
     columns["time"][32_768:] -= 50.0
