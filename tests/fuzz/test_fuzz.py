@@ -41,7 +41,7 @@ def test_spoilt_files_end_in_a_log_or_an_error_of_ours(form, tmp_path):
 def test_a_file_spoilt_by_hypothesis_ends_in_a_log_or_an_error_of_ours(form, chance, tmp_path_factory):
     path = tmp_path_factory.getbasetemp() / "upload"
     path.write_bytes(spoilt(form, seeds()[form], chance))
-    assert read(path) in {"accepted", "refused"}
+    assert read(path) in {"accepted", "refused", "out of memory"}  # the reader's own bound, which it tells
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -52,7 +52,8 @@ def test_a_case_is_the_same_file_again(form):
 @pytest.mark.parametrize("form", FORMS)
 def test_spoiling_within_spoils(form):
     content = seeds()[form][-1]
-    assert WITHIN[form](content, random.Random(2)) != content  # noqa: S311  (chance that can be repeated)
+    spoilt_ones = [WITHIN[form](content, random.Random(seed)) for seed in range(8)]  # noqa: S311  (repeatable)
+    assert sum(one != content for one in spoilt_ones) > len(spoilt_ones) // 2
 
 
 def test_an_error_that_is_not_ours_a_crash_and_a_hang_are_told_apart(tmp_path, monkeypatch):
