@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz bench lock openapi causes
+.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz contract bench lock openapi causes
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -79,6 +79,9 @@ hostile: $(READY) ## send every hostile file to the service and print how each w
 
 fuzz: $(READY) ## read files spoilt at random, in every format (RUNS=n SEED=s)
 	$(RUN) -m tests.fuzz --runs $(or $(RUNS),20000) --seed $(or $(SEED),1)
+
+contract: $(READY) ## ask the service all that its contract allows and forbids (CASES=n SEED=m)
+	$(RUN) -m tests.contract --cases $(or $(CASES),5000) --seed $(or $(SEED),1)
 
 bench: $(READY) ## measure speed and accuracy
 	$(RUN) -m benchmarks $(ARGS)

@@ -6,7 +6,7 @@ Source of the names: `app.settings`.
 import json
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
@@ -244,22 +244,15 @@ def _keep_compiled_kernels(data_dir: Path) -> None:
 
 
 def _listen(settings: Settings) -> None:
-    import uvicorn
-
     from app.jobs.supervisor import Supervisor
     from app.main import create_app
+    from app.server import Server
 
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
     print(f"http://{shown}:{settings.port}/docs", flush=True)
     supervisor = Supervisor(settings) if settings.workers else None
-    uvicorn.run(
-        create_app(settings, supervisor=supervisor),
-        host=settings.host,
-        port=settings.port,
-        server_header=False,
-        log_level="info",
-        timeout_graceful_shutdown=5,
-    )
+    with suppress(KeyboardInterrupt):
+        Server(create_app(settings, supervisor=supervisor), settings).run()
 
 
 def _stop(reason: str) -> NoReturn:

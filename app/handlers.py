@@ -1,5 +1,6 @@
 """Turn all that can go wrong into a problem document, whether science, framework or a bug raised it."""
 
+import errno
 import logging
 import secrets
 
@@ -13,11 +14,20 @@ from starlette.routing import Match
 from app.documents import json_bytes
 from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of
 from app.reading import invalid
-from app.store.errors import Unavailable
+from app.store.errors import KeyReused, OverQuota, Unavailable
 from core.errors import VeritorqueError
 
 LOGGER = logging.getLogger(__name__)
+HEADERS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+)
+"""What every answer tells browsers; the middleware adds it, but where the answer does not pass it."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
+DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
+QUOTA_RETRY_S = "5"
 _KIND_OF_STATUS = {400: "bad-request", 404: "not-found", 405: "method-not-allowed", 413: "too-large"}
 
 
@@ -37,6 +47,9 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(VeritorqueError, _on_science)
     app.add_exception_handler(Unavailable, _on_unavailable)
+    app.add_exception_handler(OverQuota, _on_quota)
+    app.add_exception_handler(KeyReused, _on_key)
+    app.add_exception_handler(OSError, _on_system)
     app.add_exception_handler(Exception, _on_mistake)
 
 
@@ -69,23 +82,61 @@ async def _on_unavailable(_request: Request, error: Exception) -> Response:
     return problem_response(_unavailable(str(error)))
 
 
+async def _on_quota(_request: Request, error: Exception) -> Response:
+    if not isinstance(error, OverQuota):
+        raise error
+    problem = Problem(
+        "quota",
+        f"no more than {error.most} {error.what} are kept for one tenant",
+        evidence={error.what: error.most},
+        remedy="wait for jobs to end, delete logs and jobs that are not needed, or let the operator raise "
+        + error.setting,
+        headers={"Retry-After": QUOTA_RETRY_S},
+    )
+    return problem_response(problem)
+
+
+async def _on_key(_request: Request, error: Exception) -> Response:
+    if not isinstance(error, KeyReused):
+        raise error
+    problem = Problem(
+        "key-reused",
+        f"the Idempotency-Key {error.key} came with another request before",
+        evidence={"key": error.key},
+        remedy="send a new key with a new request, and the same key only with the same body",
+    )
+    return problem_response(problem)
+
+
+async def _on_system(_request: Request, error: Exception) -> Response:
+    if isinstance(error, OSError) and error.errno in DISK_FULL:
+        return problem_response(_disk_full())
+    raise error
+
+
 async def _on_mistake(request: Request, error: Exception) -> Response:
     incident = secrets.token_hex(6)
     LOGGER.error("incident %s at %s %s", incident, request.method, request.url.path, exc_info=error)
-    return problem_response(_mistake(incident))
+    response = problem_response(_mistake(incident))
+    response.raw_headers.extend(HEADERS)
+    return response
 
 
 def _unavailable(reason: str) -> Problem:
     if "full" in reason:
-        return Problem(
-            "disk-full", "the disk is full", remedy="delete logs and jobs, or let the operator make room"
-        )
+        return _disk_full()
     return Problem(
         "unavailable",
         "the database does not answer",
         evidence={"reason": reason},
         remedy="send the request again in a few seconds; nothing of it was kept",
         headers={"Retry-After": "2"},
+    )
+
+
+def _disk_full() -> Problem:
+    return Problem(
+        "disk-full", "the disk is full", remedy="delete logs and jobs, or let the operator make room"
     )
 
 

@@ -14,27 +14,33 @@ FRESH_S = 2.0
 
 
 class KeyRing:
-    """Find keys by their secrets."""
+    """Find keys by their secrets among those that were read last."""
 
     def __init__(self, database: Database) -> None:
         self._store = KeyStore(database)
         self._lock = threading.Lock()
         self._known: dict[str, KeyRecord] = {}
         self._until = 0.0
+        self.read()
 
     def find(self, secret: str) -> KeyRecord | None:
         """Give the valid key of a secret; None where there is none."""
         asked = digest(secret)
-        found = self._current().get(asked)
+        found = self._known.get(asked)
         return found if found is not None and hmac.compare_digest(found.sha256, asked) else None
 
     def any(self) -> bool:
         """Tell whether there is a valid key."""
-        return bool(self._current())
+        return bool(self._known)
 
-    def _current(self) -> dict[str, KeyRecord]:
-        if time.monotonic() >= self._until:
-            with self._lock:
+    @property
+    def fresh(self) -> bool:
+        """Tell whether the keys were read lately."""
+        return time.monotonic() < self._until
+
+    def read(self) -> None:
+        """Read the keys again, unless somebody else just did."""
+        with self._lock:
+            if not self.fresh:
                 self._known = {one.sha256: one for one in self._store.all() if one.revoked_at is None}
                 self._until = time.monotonic() + FRESH_S
-        return self._known

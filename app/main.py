@@ -13,10 +13,12 @@ from fastapi import FastAPI
 
 from app import handlers, openapi
 from app.digests import ContentDigest
+from app.disk import DiskReserve
+from app.door import Door
 from app.jobs.executor import Executor
 from app.jobs.supervisor import Supervisor
 from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
-from app.routes import health, identify, jobs, logs, pages, robots
+from app.routes import events, health, identify, jobs, logs, pages, robots
 from app.services import Services
 from app.settings import Settings
 from app.version import VERSION
@@ -55,6 +57,8 @@ def create_app(
         try:
             yield
         finally:
+            await app.state.services.feed.close()
+            await app.state.services.intake.close()
             await anyio.to_thread.run_sync(app.state.services.close)
 
     app = FastAPI(
@@ -66,16 +70,15 @@ def create_app(
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
-        generate_unique_id_function=lambda route: (
-            route.name
-        ),  # short names for clients and for links to /docs
     )
-    for chapter in (robots, logs, jobs, identify, health, pages):
-        app.include_router(chapter.ROUTER)
+    for chapter in (jobs, events, robots, logs, identify, health, pages):
+        app.router.routes.extend(chapter.ROUTER.routes)
     handlers.install(app)
     app.add_middleware(ContentDigest)
-    app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes)
+    disk = DiskReserve(chosen.data_dir, chosen.disk_reserve_bytes)
+    app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes, disk=disk)
     app.add_middleware(HeadAsGet)
+    app.add_middleware(Door, hosts=(chosen.host, *chosen.hosts))
     app.add_middleware(SafeHeaders)
 
     def contract() -> dict[str, Any]:

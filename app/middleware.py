@@ -1,14 +1,23 @@
 """Stand before every request: bodies are bounded, and no answer is guessed at by a browser."""
 
+from collections.abc import Iterable
+
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.handlers import problem_response
+from app.disk import DiskReserve
+from app.handlers import HEADERS, problem_response
 from app.problems import Problem
 
 DOCUMENT_LIMIT = 6 * 1024**2  # a URDF of 5 MB and its envelope
 FORM_OVERHEAD = DOCUMENT_LIMIT
+WITH_BODY = ("POST", "PUT", "PATCH")
 UPLOAD_PATHS = ("/v1/logs", "/v1/identify")
-HEADERS = [(b"x-content-type-options", b"nosniff"), (b"referrer-policy", b"no-referrer")]
+LOOK_AT_DISK_EVERY = 16 * 1024**2
+UNLESS_SAID = (
+    (b"content-security-policy", b"default-src 'none'; frame-ancestors 'none'"),
+    (b"cache-control", b"no-store"),
+)
+"""What stands in an answer that says nothing else about it."""
 
 
 class BodyLimit:
@@ -20,28 +29,37 @@ class BodyLimit:
         What comes next.
     upload_limit
         Largest upload in bytes; other bodies are documents and bounded by `DOCUMENT_LIMIT`.
+    disk
+        Where bodies go.
     """
 
-    def __init__(self, app: ASGIApp, upload_limit: int) -> None:
-        self._app, self._upload_limit = app, upload_limit
+    def __init__(self, app: ASGIApp, upload_limit: int, disk: DiskReserve) -> None:
+        self._app, self._upload_limit, self._disk = app, upload_limit, disk
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
-        if scope["type"] != "http":
+        if scope["type"] != "http" or scope["method"] not in WITH_BODY:
             await self._app(scope, receive, send)
             return
-        limit = self._limit(scope)
-        if _declared_length(scope) > limit:
-            await problem_response(_too_large(limit))(scope, receive, send)
+        limit, declared = self._limit(scope), _declared_length(scope)
+        try:
+            if declared > limit:
+                raise _too_large(limit)
+            self._disk.require(declared)
+        except Problem as problem:
+            await problem_response(problem)(scope, receive, send)
             return
-        seen = 0
+        seen, looked = 0, 0
 
         async def counted() -> Message:
-            nonlocal seen
+            nonlocal seen, looked
             message = await receive()
             seen += len(message.get("body", b""))
             if seen > limit:
                 raise _too_large(limit)
+            if seen - looked > LOOK_AT_DISK_EVERY:
+                looked = seen
+                self._disk.require()
             return message
 
         await self._app(scope, counted, send)
@@ -64,7 +82,7 @@ class SafeHeaders:
 
         async def marked(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = [*message.get("headers", []), *HEADERS]
+                message["headers"] = _completed(message.get("headers", ()))
             await send(message)
 
         await self._app(scope, receive, marked)
@@ -78,16 +96,26 @@ class HeadAsGet:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
+        ended = False
 
         async def bodiless(message: Message) -> None:
-            if message["type"] == "http.response.body":
-                message = {**message, "body": b""}
-            await send(message)
+            nonlocal ended
+            if message["type"] == "http.response.start":
+                await send(message)
+            elif not ended:
+                ended = True  # at once, since a stream of events would not end for long
+                await send({"type": "http.response.body", "body": b""})
 
         if scope["type"] == "http" and scope["method"] == "HEAD":
             await self._app({**scope, "method": "GET"}, receive, bodiless)
         else:
             await self._app(scope, receive, send)
+
+
+def _completed(headers: Iterable[tuple[bytes, bytes]]) -> list[tuple[bytes, bytes]]:
+    given = list(headers)
+    said = {name for name, _ in given}
+    return [*given, *HEADERS, *(header for header in UNLESS_SAID if header[0] not in said)]
 
 
 def _declared_length(scope: Scope) -> int:

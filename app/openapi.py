@@ -18,12 +18,12 @@ from app.schemas.results import ResultDocument
 from app.schemas.robots import RobotDescription
 
 SCHEMAS = "#/components/schemas/"
+DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultDocument, ProblemDocument)
 KEY = {
     "type": "http",
     "scheme": "bearer",
-    "description": "a key that the operator has made; needed unless the service listens on loopback",
+    "description": "A key that the operator makes; none is needed while the service listens on loopback only",
 }
-DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultDocument, ProblemDocument)
 DESCRIPTION = """From a robot's log to a robot that can physically exist.
 
 Create a robot (or use a built-in one), upload a log, ask for a job of kind `identify`, read its results.
@@ -83,18 +83,20 @@ def document(app: FastAPI) -> dict[str, Any]:
     contract["components"]["schemas"] = dict(sorted(schemas.items()))
     contract["components"]["securitySchemes"] = {"key": KEY}
     for path, operations in contract["paths"].items():
-        for operation in operations.values():
+        for method, operation in operations.items():
             if path.startswith("/v1/"):
-                _state_key(operation)
+                operation["security"] = [{"key": []}, {}]
+                operation["responses"] |= _shared_problems(method)
             _state_problems(operation)
     return contract
 
 
-def _state_key(operation: dict[str, Any]) -> None:
-    """Say that a request may have to carry a key, and that the database may be away."""
-    operation["security"] = [{}, {"key": []}]
-    for status, answer in problems(401, 403, 503).items():
-        operation["responses"].setdefault(str(status), answer)
+def _shared_problems(method: str) -> dict[str, Any]:
+    """Document which failures every resource may answer with."""
+    shared = problems(400, 401, 403, 408, 421, 422, 429, 431, 503)
+    if method == "post":
+        shared |= problems(507)
+    return {str(status): answer for status, answer in shared.items()}
 
 
 def _state_problems(operation: dict[str, Any]) -> None:

@@ -12,5 +12,5 @@ FRAMED = "; frame-ancestors 'none'; sandbox"
 
 def report_response(result: bytes) -> HTMLResponse:
     """Draw the report of a stored result document."""
-    headers = {"Content-Security-Policy": POLICY + FRAMED, "Vary": "Accept", "Cache-Control": "no-cache"}
+    headers = {"Content-Security-Policy": POLICY + FRAMED}
     return HTMLResponse(compose_page(json.loads(result)), headers=headers)

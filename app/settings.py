@@ -6,6 +6,7 @@ a terminal are told the same thing.
 
 import ipaddress
 import json
+from functools import cached_property
 from pathlib import Path
 
 from pydantic import Field
@@ -66,7 +67,7 @@ class Settings(BaseSettings):
     job_timeout_s: float = Field(default=600.0, gt=0.0, le=86400.0)
     job_memory_bytes: int = Field(default=4 * 1024**3, ge=256 * 1024**2)
 
-    @property
+    @cached_property
     def needs_keys(self) -> bool:
         """Tell whether requests have to carry a key."""
         return reaches_other_machines(self.host)

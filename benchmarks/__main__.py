@@ -18,6 +18,10 @@ NAMES = (
     "coverage",
     "diagnosis",
     "uploads",
+    "polling",
+    "posting",
+    "half_open",
+    "overhead",
 )
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 

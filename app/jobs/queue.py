@@ -1,9 +1,10 @@
 """Accept jobs and let go of them; what cannot succeed is refused at once, in the words of the science."""
 
+from concurrent.futures import Future
+
 from app.jobs import science
 from app.jobs.references import check_reference
 from app.problems import Problem
-from app.store.errors import KeyReused
 from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
 from app.store.store import TenantStore
 from core.errors import LogError
@@ -23,8 +24,8 @@ class Queue:
         logs: tuple[LogRecord, ...],
         options: Document,
         key: str | None = None,
-    ) -> JobRecord:
-        """Queue a job, or find the one that asks for the same.
+    ) -> "Future[JobRecord]":
+        """Queue a job, or find the one that asks for the same; give it once that is on the disk.
 
         `key` is what the client calls its request, so that it can send it twice and mean it once.
 
@@ -44,10 +45,7 @@ class Queue:
             _check_joints(robot, log)
         check_reference(self._store, kind, robot, options)
         request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
-        try:
-            return self._store.jobs.add(request, key=key)
-        except KeyReused as error:
-            raise _another_request(error.key) from None
+        return self._store.jobs.begin_to_add(request, key=key)
 
     def dismiss(self, job: JobRecord) -> JobRecord:
         """Dismiss an unfinished job; whoever computes it notices."""
@@ -70,15 +68,6 @@ class Queue:
                 evidence={"jobs": len(users), "states": list(UNFINISHED)},
                 remedy="wait for these jobs or dismiss them",
             )
-
-
-def _another_request(key: str) -> Problem:
-    return Problem(
-        "key-reused",
-        f"the Idempotency-Key {key} came with another request before",
-        evidence={"key": key},
-        remedy="send a new key with a new request, and the same key only with the same body",
-    )
 
 
 def _check_joints(robot: RobotRecord, log: LogRecord) -> None:

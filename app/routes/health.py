@@ -3,15 +3,16 @@
 import platform
 from importlib.metadata import version
 
-from fastapi import APIRouter, Response
+from fastapi import Response
 from fastapi.responses import JSONResponse
 
 from app.openapi import problems
 from app.problems import Problem
+from app.routing import chapter
 from app.services import ServicesOf
 from app.version import VERSION
 
-ROUTER = APIRouter(tags=["service"])
+ROUTER = chapter(tag="service")
 PACKAGES = ("clarabel", "cvxpy-base", "fastapi", "numba", "numpy", "pyarrow", "scipy", "sqlalchemy")
 
 

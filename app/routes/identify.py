@@ -3,7 +3,7 @@
 from typing import Annotated
 
 import anyio
-from fastapi import APIRouter, Header, Request, Response
+from fastapi import Header, Request, Response
 from fastapi.responses import JSONResponse
 from starlette.datastructures import FormData, UploadFile
 
@@ -12,6 +12,7 @@ from app.negotiation import LONGEST_WAIT_S, wait_seconds
 from app.openapi import body, file_part, problems, text_part
 from app.problems import Problem
 from app.reading import parse_json, parse_object, require_media_type
+from app.routing import chapter
 from app.schemas.examples import MAPPING
 from app.schemas.jobs import Job
 from app.schemas.results import ResultDocument
@@ -29,7 +30,7 @@ from app.uploads import (
 from app.views import job_document
 from app.waiting import wait_for
 
-ROUTER = APIRouter(prefix="/v1/identify", tags=["identify"])
+ROUTER = chapter("/v1/identify", tag="identify")
 PARTS = ("robot", "log", "mapping", "options")
 LONGEST_ROBOT = 5 * 1024**2
 FORM_SCHEMA = {
@@ -78,10 +79,10 @@ async def identify(
         robot = await _robot(desk, form)
         logs = tuple([await _log(desk, part, mapping) for part in files])
     job = await anyio.to_thread.run_sync(
-        lambda: desk.queue.submit(kind="identify", robot=robot, logs=logs, options=options)
+        lambda: desk.queue.submit(kind="identify", robot=robot, logs=logs, options=options).result()
     )
     seconds = wait_seconds(prefer)
-    job = await wait_for(desk.store, job, LONGEST_WAIT_S if seconds is None else seconds)
+    job = await wait_for(desk.feed, job, LONGEST_WAIT_S if seconds is None else seconds)
     return await anyio.to_thread.run_sync(_answer, desk, job)
 
 

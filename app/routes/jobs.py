@@ -1,18 +1,22 @@
 """Serve jobs: asked for, followed, waited for, dismissed, and read."""
 
 import json
+from concurrent.futures import Future
+from functools import partial
 from typing import Annotated
 
-import anyio
-from fastapi import APIRouter, Header, Request, Response
+from fastapi import Header, Request, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
+from app.feed import no_such_job
 from app.listing import CursorOf, Limit, before, following
 from app.negotiation import matches, preferred, wait_seconds
 from app.openapi import body, problems, reference
 from app.problems import Problem
 from app.reading import check, parse_json, require_media_type
 from app.reports import report_response
+from app.results import UNCHANGED, IfNoneMatch, Result
+from app.routing import chapter
 from app.schemas.examples import JOB_REQUESTS
 from app.schemas.jobs import Job, JobList, JobRequest
 from app.schemas.results import ResultDocument
@@ -22,7 +26,7 @@ from app.tables import ARTIFACTS
 from app.views import job_document
 from app.waiting import wait_for
 
-ROUTER = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+ROUTER = chapter("/v1/jobs", tag="jobs")
 RETRY_AFTER_S = "1"
 RESULT_FORMS = ("application/json", "text/csv", "text/html")
 
@@ -52,10 +56,10 @@ async def create_job(
     """Queue a computation, or find one that asks for the same. What cannot succeed is refused at once."""
     require_media_type(request, ("application/json",))
     asked = check(JobRequest, parse_json(await request.body()))
-    job = await anyio.to_thread.run_sync(_submit, desk, asked, idempotency_key)
+    job = await desk.intake.take(partial(_submit, desk, asked, idempotency_key))
     seconds = wait_seconds(prefer)
     if seconds is not None:
-        job = await wait_for(desk.store, job, seconds)
+        job = await wait_for(desk.feed, job, seconds)
     return _job_response(job, applied=seconds)
 
 
@@ -74,13 +78,13 @@ def list_jobs(
     "/{job_id}",
     response_model=Job,
     summary="Follow a job",
-    responses=problems(404) | {304: {"description": "Nothing has changed since"}},
+    responses=problems(404) | UNCHANGED,
 )
-def read_job(
-    desk: DeskOf, job_id: str, if_none_match: Annotated[str | None, Header(max_length=1000)] = None
-) -> Response:
+async def read_job(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read how far a job is. Send the ETag of the last answer as If-None-Match to hear only of changes."""
-    job = _find(desk, job_id)
+    job = await desk.feed.job((desk.caller.tenant, job_id))
+    if job is None:
+        raise no_such_job(job_id)
     headers = {"ETag": f'"{job.id}-{job.version}"', "Cache-Control": "no-cache"}
     if not job.finished:
         headers["Retry-After"] = RETRY_AFTER_S
@@ -99,10 +103,14 @@ def read_job(
             "content": {form: {"schema": {"type": "string"}} for form in ("text/csv", "text/html")},
             "description": "The result, its base parameters as CSV, or its report",
         }
-    },
+    }
+    | UNCHANGED,
 )
 def read_results(
-    desk: DeskOf, job_id: str, accept: Annotated[str | None, Header(include_in_schema=False)] = None
+    desk: DeskOf,
+    job_id: str,
+    accept: Annotated[str | None, Header(include_in_schema=False)] = None,
+    if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the result document; with Accept: text/csv its base parameters, with text/html its report."""
     form = preferred(accept, RESULT_FORMS)
@@ -113,26 +121,24 @@ def read_results(
             evidence={"accept": accept, "known": list(RESULT_FORMS)},
             remedy="accept one of the known forms",
         )
-    content, etag = _result(desk, job_id)
-    headers = {"ETag": etag, "Vary": "Accept"}
+    result = _result(desk, job_id)
     if form == "text/csv":
-        table = ARTIFACTS["parameters.csv"](json.loads(content))
-        return Response(table, media_type="text/csv", headers={"Vary": "Accept"})
+        return result.unless_known(if_none_match, "parameters.csv", lambda: _table(result, "parameters.csv"))
     if form == "text/html":
-        return report_response(content)
-    return Response(content, media_type=form, headers=headers)
+        return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
+    return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
 
 
 @ROUTER.get(
     "/{job_id}/report",
     response_class=HTMLResponse,
     summary="Read the report",
-    responses=problems(404, 409) | {200: {"description": "One HTML file that opens offline"}},
+    responses=problems(404, 409) | {200: {"description": "One HTML file that opens offline"}} | UNCHANGED,
 )
-def read_report(desk: DeskOf, job_id: str) -> HTMLResponse:
+def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read what came out as a page: figures, tables and sentences, without a script."""
-    content, _ = _result(desk, job_id)
-    return report_response(content)
+    result = _result(desk, job_id)
+    return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
 
 
 @ROUTER.get(
@@ -140,11 +146,12 @@ def read_report(desk: DeskOf, job_id: str) -> HTMLResponse:
     response_class=Response,
     summary="Read a part of the result as a file",
     responses=problems(404, 409)
-    | {200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}},
+    | {200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}}
+    | UNCHANGED,
 )
-def read_artifact(desk: DeskOf, job_id: str, artifact: str) -> Response:
+def read_artifact(desk: DeskOf, job_id: str, artifact: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read parameters.csv or standard_parameters.csv."""
-    content, _ = _result(desk, job_id)
+    result = _result(desk, job_id)
     if artifact not in ARTIFACTS:
         raise Problem(
             "not-found",
@@ -152,8 +159,9 @@ def read_artifact(desk: DeskOf, job_id: str, artifact: str) -> Response:
             evidence={"artifact": artifact, "known": list(ARTIFACTS)},
             remedy="ask for one of the known files",
         )
-    headers = {"Content-Disposition": f'attachment; filename="{artifact}"'}
-    return Response(ARTIFACTS[artifact](json.loads(content)), media_type="text/csv", headers=headers)
+    response = result.unless_known(if_none_match, artifact, lambda: _table(result, artifact))
+    response.headers["Content-Disposition"] = f'attachment; filename="{artifact}"'
+    return response
 
 
 @ROUTER.delete(
@@ -174,7 +182,7 @@ def delete_job(desk: DeskOf, job_id: str) -> Response:
     return JSONResponse(job_document(desk.queue.dismiss(job)))
 
 
-def _submit(desk: Desk, asked: JobRequest, key: str | None) -> JobRecord:
+def _submit(desk: Desk, asked: JobRequest, key: str | None) -> "Future[JobRecord]":
     return desk.queue.submit(
         kind=asked.kind,
         robot=desk.catalogue.robot(asked.robot, named_in_body=True),
@@ -196,19 +204,18 @@ def _job_response(job: JobRecord, *, applied: int | None) -> Response:
 def _find(desk: Desk, job_id: str) -> JobRecord:
     job = desk.store.jobs.get(job_id)
     if job is None:
-        raise Problem(
-            "not-found",
-            f"there is no job {job_id}",
-            evidence={"job": job_id},
-            remedy="GET /v1/jobs lists what there is",
-        )
+        raise no_such_job(job_id)
     return job
 
 
-def _result(desk: Desk, job_id: str) -> tuple[bytes, str]:
+def _table(result: Result, artifact: str) -> Response:
+    return Response(ARTIFACTS[artifact](json.loads(result.content())), media_type="text/csv")
+
+
+def _result(desk: Desk, job_id: str) -> Result:
     job = _find(desk, job_id)
     if job.result_sha256 is not None:
-        return desk.store.blobs.path(job.result_sha256).read_bytes(), f'"{job.result_sha256}"'
+        return Result(job.result_sha256, desk.store.blobs.path(job.result_sha256))
     if job.state == "failed":
         evidence = {"state": job.state, "problem": job.problem}
         cause = str((job.problem or {}).get("cause", "the job failed"))

@@ -3,12 +3,13 @@
 from typing import Annotated
 
 import anyio
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
 from app.listing import CursorOf, Limit, before, following
 from app.openapi import body, file_part, problems, text_part
 from app.reading import media_type_of, parse_object, require_media_type
+from app.routing import chapter
 from app.schemas.examples import CSV_LOG, MAPPING
 from app.schemas.logs import LogList, LogSummary
 from app.services import Desk, DeskOf
@@ -27,7 +28,7 @@ from app.uploads import (
 )
 from app.views import log_document
 
-ROUTER = APIRouter(prefix="/v1/logs", tags=["logs"])
+ROUTER = chapter("/v1/logs", tag="logs")
 LONGEST_MAPPING = 256 * 1024
 FORM_SCHEMA = {
     "type": "object",

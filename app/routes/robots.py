@@ -3,19 +3,20 @@
 from typing import Annotated
 
 import anyio
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
 from app.listing import CursorOf, Limit, before, following
 from app.openapi import body, problems, reference
 from app.problems import Problem
 from app.reading import parse_json, require_media_type
+from app.routing import chapter
 from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
 from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
 from app.services import DeskOf
 from app.views import robot_document, robot_summary
 
-ROUTER = APIRouter(prefix="/v1/robots", tags=["robots"])
+ROUTER = chapter("/v1/robots", tag="robots")
 XML_TYPES = ("application/xml", "text/xml")
 LinkName = Annotated[str | None, Query(max_length=200)]
 

@@ -86,11 +86,19 @@ class Database:
         Unavailable
             If the database cannot be written: locked by another process, its disk full, or gone.
         """
-        if not self.embedded:
-            return self._write_at_once(work)
+        return self.begin(work).result()
+
+    def begin(self, work: Work[Given]) -> "Future[Given]":
+        """Run a unit of work as `write` does, and do not wait for it where others write."""
         outcome: Future[Given] = Future()
-        self._waiting.put((work, outcome))
-        return outcome.result()
+        if self.embedded:
+            self._waiting.put((work, outcome))
+            return outcome
+        try:
+            outcome.set_result(self._write_at_once(work))
+        except Exception as error:  # noqa: BLE001 - it comes out where the outcome is asked for
+            outcome.set_exception(error)
+        return outcome
 
     def close(self) -> None:
         """Finish what waits, and let go of the database."""
@@ -163,15 +171,16 @@ def _no_more() -> _Unit:
 
 def _tried(work: Callable[[Connection], Any], connection: Connection) -> object:
     """Run one unit within a savepoint, and give what it gives or raises."""
-    savepoint = connection.begin_nested()
+    given: object
+    connection.exec_driver_sql("SAVEPOINT unit")
     try:
         given = work(connection)
     except OperationalError:
         raise
     except Exception as error:  # noqa: BLE001 - it is undone and handed to the one who asked
-        savepoint.rollback()
-        return error
-    savepoint.commit()
+        connection.exec_driver_sql("ROLLBACK TO unit")
+        given = error
+    connection.exec_driver_sql("RELEASE unit")
     return given
 
 

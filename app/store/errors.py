@@ -9,6 +9,14 @@ class KeyReused(Exception):  # noqa: N818 - it is what it says
         self.key = key
 
 
+class OverQuota(Exception):  # noqa: N818 - it is what it says
+    """Say that a tenant has as much of something as it may have."""
+
+    def __init__(self, what: str, *, most: int, setting: str) -> None:
+        super().__init__(what, most)
+        self.what, self.most, self.setting = what, most, setting
+
+
 class Unavailable(Exception):  # noqa: N818 - it is what it says
     """Say that the database cannot be reached or written, and why."""
 

@@ -10,28 +10,43 @@ not come back as successful. What workers do to jobs stands in `app.store.work`.
 
 import hashlib
 import secrets
+from concurrent.futures import Future
 
-from sqlalchemy import ColumnElement, Connection, and_, delete, insert, select, update
+from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, insert, select, update
 
 from app.documents import canonical_json
 from app.store.database import Database, take_turns
 from app.store.errors import KeyReused
-from app.store.records import UNFINISHED, JobRecord, JobRequestRecord
+from app.store.quota import refuse_another_job
+from app.store.records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
 from app.store.rows import job_record, request_record
-from app.store.tables import JOBS, REPEATS, now
+from app.store.tables import JOBS, REPEATS, now, one_of
 from app.version import VERSION
 
 ANSWERED = (*UNFINISHED, "successful")
 """States of a job that answers a later request for the same."""
+OURS = JOBS.c.tenant == bindparam("tenant")
+FIND = select(JOBS).where(OURS, JOBS.c.id == bindparam("id"))
+ALIKE = (
+    select(JOBS)
+    .where(OURS, JOBS.c.fingerprint == bindparam("fingerprint"), one_of(JOBS.c.state, ANSWERED))
+    .order_by(JOBS.c.sequence)
+    .limit(1)
+)
+NEW = insert(JOBS).returning(JOBS)
 
 
 class JobStore:
     """Keep one tenant's jobs in the database."""
 
-    def __init__(self, database: Database, tenant: str) -> None:
-        self._database, self._tenant = database, tenant
+    def __init__(self, database: Database, tenant: str, quota: Quota = UNBOUNDED) -> None:
+        self._database, self._tenant, self._quota = database, tenant, quota
 
     def add(self, request: JobRequestRecord, *, key: str | None = None) -> JobRecord:
+        """Queue a job and wait until it is; see `begin_to_add`."""
+        return self.begin_to_add(request, key=key).result()
+
+    def begin_to_add(self, request: JobRequestRecord, *, key: str | None = None) -> "Future[JobRecord]":
         """Queue a job, or find the one that asked for the same.
 
         Parameters
@@ -43,6 +58,8 @@ class JobStore:
         ------
         KeyReused
             If the key came with another request before.
+        OverQuota
+            If the tenant has as many unfinished jobs as it may have.
         """
         asked = canonical_json(request.document())
         fingerprint = hashlib.sha256(canonical_json([VERSION, request.document()])).hexdigest()
@@ -59,7 +76,7 @@ class JobStore:
                 connection.execute(insert(REPEATS).values(values | {"created_at": now()}))
             return found
 
-        return self._database.write(work)
+        return self._database.begin(work)
 
     def get(self, identity: str) -> JobRecord | None:
         """Find a job."""
@@ -103,7 +120,7 @@ class JobStore:
         return and_(JOBS.c.tenant == self._tenant, JOBS.c.id == identity)
 
     def _find(self, connection: Connection, identity: str) -> JobRecord | None:
-        row = connection.execute(select(JOBS).where(self._own(identity))).one_or_none()
+        row = connection.execute(FIND, {"tenant": self._tenant, "id": identity}).one_or_none()
         return None if row is None else job_record(row)
 
     def _repeated(self, connection: Connection, key: str, digest: str) -> JobRecord | None:
@@ -120,12 +137,11 @@ class JobStore:
         return found
 
     def _alike(self, connection: Connection, fingerprint: str) -> JobRecord | None:
-        alike = and_(JOBS.c.tenant == self._tenant, JOBS.c.fingerprint == fingerprint)
-        query = select(JOBS).where(alike, JOBS.c.state.in_(ANSWERED)).order_by(JOBS.c.sequence).limit(1)
-        row = connection.execute(query).one_or_none()
+        row = connection.execute(ALIKE, {"tenant": self._tenant, "fingerprint": fingerprint}).one_or_none()
         return None if row is None else job_record(row)
 
     def _new(self, connection: Connection, asked: bytes, fingerprint: str) -> JobRecord:
+        refuse_another_job(connection, self._tenant, self._quota)
         values = {
             "tenant": self._tenant,
             "id": "job-" + secrets.token_hex(10),
@@ -141,4 +157,4 @@ class JobStore:
             "result_bytes": 0,
             "created_at": now(),
         }
-        return job_record(connection.execute(insert(JOBS).values(values).returning(JOBS)).one())
+        return job_record(connection.execute(NEW, values).one())

@@ -3,13 +3,16 @@
 import hashlib
 import json
 
-from sqlalchemy import ColumnElement, Connection, and_, delete, select
+from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select
 
 from app.documents import canonical_json
 from app.store.database import Database, insert_if_new
-from app.store.records import Document, LogRecord
+from app.store.quota import refuse_beyond
+from app.store.records import UNBOUNDED, Document, LogRecord, Quota
 from app.store.rows import log_record
 from app.store.tables import LOGS, now
+
+FIND = select(LOGS).where(LOGS.c.tenant == bindparam("tenant"), LOGS.c.id == bindparam("id"))
 
 
 def log_id(*, sha256: str, name: str, mapping: Document | None) -> str:
@@ -20,11 +23,17 @@ def log_id(*, sha256: str, name: str, mapping: Document | None) -> str:
 class LogStore:
     """Keep the summaries of one tenant's logs in the database."""
 
-    def __init__(self, database: Database, tenant: str) -> None:
-        self._database, self._tenant = database, tenant
+    def __init__(self, database: Database, tenant: str, quota: Quota = UNBOUNDED) -> None:
+        self._database, self._tenant, self._quota = database, tenant, quota
 
     def add(self, identity: str, *, sha256: str, size: int, summary: Document) -> LogRecord:
-        """Keep a log, or find it where it is known already; its bytes are there before it is."""
+        """Keep a log, or find it where it is known already; its bytes are there before it is.
+
+        Raises
+        ------
+        OverQuota
+            If the tenant would have more bytes than it may.
+        """
         values = {
             "tenant": self._tenant,
             "id": identity,
@@ -36,14 +45,15 @@ class LogStore:
 
         def work(connection: Connection) -> LogRecord:
             insert_if_new(connection, LOGS, values)
+            refuse_beyond(connection, self._tenant, self._quota)
             return log_record(connection.execute(select(LOGS).where(self._own(identity))).one())
 
         return self._database.write(work)
 
     def get(self, identity: str) -> LogRecord | None:
         """Find a log."""
-        query = select(LOGS).where(self._own(identity))
-        row = self._database.read(lambda connection: connection.execute(query).one_or_none())
+        mine = {"tenant": self._tenant, "id": identity}
+        row = self._database.read(lambda connection: connection.execute(FIND, mine).one_or_none())
         return None if row is None else log_record(row)
 
     def page(self, *, limit: int, before: int | None = None) -> list[LogRecord]:

@@ -9,6 +9,17 @@ UNFINISHED: tuple[State, ...] = ("accepted", "running")
 
 
 @dataclass(frozen=True)
+class Quota:
+    """Bound what one tenant may have: unfinished jobs, and bytes of logs and results; None for no bound."""
+
+    queued: int | None = None
+    stored_bytes: int | None = None
+
+
+UNBOUNDED = Quota()
+
+
+@dataclass(frozen=True)
 class RobotRecord:
     """Keep a robot: its description as core writes it, and what is suspicious about it."""
 

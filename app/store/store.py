@@ -12,7 +12,8 @@ from app.store.blobs import BlobStore, Incoming
 from app.store.database import Database
 from app.store.jobs import JobStore
 from app.store.logs import LogStore, log_id
-from app.store.records import Document, LogRecord
+from app.store.many import ManyJobs
+from app.store.records import UNBOUNDED, Document, LogRecord, Quota
 from app.store.robots import RobotStore
 from app.store.tables import JOBS, LOGS
 from app.store.work import Held, WorkStore
@@ -27,22 +28,26 @@ class Store:
         Created where it does not exist; bytes are kept here, and the database where no other is named.
     database_url
         Where the database is; None for the embedded one.
+    quota
+        What each tenant may have.
     """
 
-    def __init__(self, directory: Path, database_url: str | None = None) -> None:
+    def __init__(self, directory: Path, database_url: str | None = None, *, quota: Quota = UNBOUNDED) -> None:
+        self._quota = quota
         directory.mkdir(parents=True, exist_ok=True)
         self.directory = directory
         self.database = Database(database_url) if database_url else Database.in_directory(directory)
         self.blobs = BlobStore(directory / "blobs")
         self.work = WorkStore(self.database)
+        self.many_jobs = ManyJobs(self.database)
 
     def of(self, tenant: str) -> "TenantStore":
         """Open what belongs to one tenant; nothing of another's can be reached through it."""
         return TenantStore(
             blobs=self.blobs,
             robots=RobotStore(self.database, tenant),
-            logs=LogStore(self.database, tenant),
-            jobs=JobStore(self.database, tenant),
+            logs=LogStore(self.database, tenant, self._quota),
+            jobs=JobStore(self.database, tenant, self._quota),
         )
 
     def close(self) -> None:

@@ -4,9 +4,23 @@ Everything but a key belongs to a tenant. Numbers that only ever grow (`sequence
 order what clocks cannot: a clock may be set back an hour.
 """
 
+from collections.abc import Iterable
 from datetime import UTC, datetime
+from typing import Any
 
-from sqlalchemy import Column, Float, Index, Integer, MetaData, String, Table, Text, UniqueConstraint
+from sqlalchemy import (
+    Column,
+    ColumnElement,
+    Float,
+    Index,
+    Integer,
+    MetaData,
+    String,
+    Table,
+    Text,
+    UniqueConstraint,
+    or_,
+)
 
 METADATA = MetaData(
     naming_convention={
@@ -64,6 +78,7 @@ JOBS = Table(
     Column("finished_at", String),
     Index(None, "state", "sequence"),
     Index(None, "tenant", "fingerprint"),
+    Index(None, "tenant", "state"),
     sqlite_autoincrement=True,
 )
 """`token` counts how often a job was taken: who holds an old one changes nothing. `beat` grows while `owner`
@@ -92,6 +107,11 @@ KEYS = Table(
     Column("revoked_at", String),
 )
 """API keys; of a key itself only the hash is kept."""
+
+
+def one_of(column: Column[Any], values: Iterable[str]) -> ColumnElement[bool]:
+    """Compare with a few known values, so that the statement is the same each time."""
+    return or_(*(column == value for value in values))
 
 
 def now() -> str:

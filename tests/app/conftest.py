@@ -1,4 +1,5 @@
 import contextlib
+import os
 
 import pytest
 from starlette.testclient import TestClient
@@ -7,6 +8,8 @@ from app.main import create_app
 from app.settings import Settings
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import StubExecutor
+
+os.environ.setdefault("VERITORQUE_HOSTS", '["testserver"]')  # as the test client calls every service
 
 
 @contextlib.contextmanager

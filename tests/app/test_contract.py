@@ -34,6 +34,7 @@ PROMISED = {
     "/v1/logs/{log_id}": {"GET", "DELETE"},
     "/v1/jobs": {"GET", "POST"},
     "/v1/jobs/{job_id}": {"GET", "DELETE"},
+    "/v1/jobs/{job_id}/events": {"GET"},
     "/v1/jobs/{job_id}/report": {"GET"},
     "/v1/jobs/{job_id}/results": {"GET"},
     "/v1/jobs/{job_id}/results/{artifact}": {"GET"},
@@ -63,6 +64,22 @@ def test_head_is_answered_like_get_without_the_body(client, log_id):
         head, get = client.head(path), client.get(path)
         assert (head.status_code, head.content) == (get.status_code, b"")
         assert head.headers["content-type"] == get.headers["content-type"]
+
+
+@pytest.mark.parametrize("path", sorted(PROMISED))
+def test_a_parameter_that_does_not_exist_is_refused_on_every_path(client, path):
+    real = path.format(robot_id="yumi", log_id="l", job_id="j", artifact="parameters.csv")
+    for method in PROMISED[path]:
+        problem = assert_problem(client.request(method, real + "?nmae=arm"), 422, "request")
+        assert problem["evidence"]["errors"] == [
+            {"parameter": "nmae", "message": "there is no parameter nmae"}
+        ]
+
+
+def test_a_parameter_that_is_given_twice_is_refused(client):
+    assert_problem(client.get("/v1/jobs?limit=1&limit=2"), 422, "request")
+    assert_problem(client.get("/v1/jobs?" + "&".join(f"a{n}=1" for n in range(200))), 422, "request")
+    assert client.get("/v1/jobs?limit=1").status_code == 200
 
 
 def test_an_address_that_does_not_exist_is_a_problem(client):
@@ -183,6 +200,7 @@ def test_a_mistake_of_ours_shows_nothing_of_the_inside(tmp_path, caplog):
     answer = TestClient(app, raise_server_exceptions=False).get("/broken")
     problem = assert_problem(answer, 500, "internal")
     assert "secret" not in answer.text
+    assert answer.headers["x-content-type-options"] == "nosniff"
     assert problem["evidence"]["incident"] in caplog.text
 
 

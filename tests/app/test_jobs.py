@@ -190,6 +190,28 @@ def test_results_come_as_a_table_for_those_who_prefer_one(slow, executor, reques
     assert_problem(slow.get(path + "/robot.docx"), 404, "not-found")
 
 
+def test_whoever_has_a_result_is_not_sent_it_again(slow, executor, request_body):
+    executor.release.set()
+    job = slow.post("/v1/jobs", json=request_body, headers={"Prefer": "wait=60"}).json()
+    forms = [
+        (job["links"]["results"], {}),
+        (job["links"]["results"], {"Accept": "text/csv"}),
+        (job["links"]["results"], {"Accept": "text/html"}),
+        (job["links"]["results"] + "/standard_parameters.csv", {}),
+    ]
+    tags = set()
+    for path, headers in forms:
+        first = slow.get(path, headers=headers)
+        again = slow.get(path, headers=headers | {"If-None-Match": first.headers["etag"]})
+        assert (again.status_code, again.content) == (304, b"")
+        for name in ("etag", "vary", "cache-control"):
+            assert again.headers[name] == first.headers[name]
+        other = slow.get(path, headers=headers | {"If-None-Match": '"other"'})
+        assert (other.status_code, other.content) == (200, first.content)
+        tags.add(first.headers["etag"])
+    assert len(tags) == len(forms)
+
+
 def test_one_request_answers_the_result_document(slow, executor, log_bytes):
     executor.release.set()
     form = {"robot": (None, json.dumps(description())), "log": ("a.csv", log_bytes, "text/csv")}

@@ -56,6 +56,7 @@ def upgrade() -> None:
     )
     op.create_index(op.f("ix_jobs_state_sequence"), "jobs", ["state", "sequence"])
     op.create_index(op.f("ix_jobs_tenant_fingerprint"), "jobs", ["tenant", "fingerprint"])
+    op.create_index(op.f("ix_jobs_tenant_state"), "jobs", ["tenant", "state"])
     op.create_table(
         "repeats",
         sa.Column("tenant", sa.String, primary_key=True),

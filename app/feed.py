@@ -1,0 +1,173 @@
+"""Tell many clients how far jobs are, and ask the database little.
+
+Whoever computes a job may be another process, so the database is asked, never a memory of ours. Questions
+that come while one is being answered are asked together, and all who wait for changes share one look at the
+versions every few milliseconds.
+"""
+
+import asyncio
+import logging
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from app.problems import Problem
+from app.store.errors import Unavailable
+from app.store.many import ManyJobs, Place
+from app.store.records import JobRecord
+
+LOGGER = logging.getLogger(__name__)
+LOOK_EVERY_S = 0.02
+LOOK_SHARE = 0.1
+"""Most of the time that is spent on looking, however much is watched."""
+Given = TypeVar("Given")
+
+
+def _future() -> asyncio.Future[None]:
+    return asyncio.get_running_loop().create_future()
+
+
+@dataclass
+class _Topic:
+    """Carry what is known of a job that somebody waits for, and what ends the waiting."""
+
+    version: int | None = None
+    listeners: int = 0
+    changed: asyncio.Future[None] = field(default_factory=_future)
+
+    def tell(self, version: int | None) -> None:
+        """Wake all listeners."""
+        self.version = version
+        self.changed.set_result(None)
+        self.changed = _future()
+
+
+class JobFeed:
+    """Read jobs for all requests of a service, on its event loop.
+
+    Parameters
+    ----------
+    jobs
+        Where jobs are.
+    """
+
+    def __init__(self, jobs: ManyJobs) -> None:
+        self._jobs = jobs
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="feed")
+        self._asked: dict[Place, asyncio.Future[JobRecord | None]] = {}
+        self._topics: dict[Place, _Topic] = {}
+        self._reading: asyncio.Task[None] | None = None
+        self._looking: asyncio.Task[None] | None = None
+        self._ending = False
+
+    async def job(self, place: Place) -> JobRecord | None:
+        """Read a job as it is now; None where there is none.
+
+        Raises
+        ------
+        Unavailable
+            If the database does not answer.
+        """
+        answer = self._asked.get(place)
+        if answer is None:
+            answer = self._asked[place] = asyncio.get_running_loop().create_future()
+            if self._reading is None:
+                self._reading = asyncio.create_task(self._read())
+        return await asyncio.shield(answer)
+
+    async def change(self, place: Place, *, known: int, seconds: float) -> JobRecord | None:
+        """Read a job once its version is not the known one, when the time is over, or when the service ends.
+
+        Raises
+        ------
+        Unavailable
+            If the database does not answer.
+        """
+        loop = asyncio.get_running_loop()
+        deadline = loop.time() + seconds
+        topic = self._topics.setdefault(place, _Topic())
+        topic.listeners += 1
+        try:
+            while True:
+                changed = topic.changed
+                job = await self.job(place)
+                left = deadline - loop.time()
+                if job is None or job.version != known or left <= 0.0 or self._ending:
+                    return job
+                topic.version = job.version
+                if self._looking is None:
+                    self._looking = asyncio.create_task(self._look())
+                await asyncio.wait((changed,), timeout=left)
+        finally:
+            topic.listeners -= 1
+            if topic.listeners == 0:
+                del self._topics[place]
+
+    @property
+    def ending(self) -> bool:
+        """Tell whether nobody shall wait any longer."""
+        return self._ending
+
+    def end(self) -> None:
+        """Let nobody wait any longer: the service ends."""
+        self._ending = True
+        for topic in self._topics.values():
+            topic.tell(topic.version)
+
+    async def close(self) -> None:
+        """Finish what is asked, and let go of the thread."""
+        self.end()
+        for task in (self._reading, self._looking):
+            if task is not None:
+                await task
+        self._thread.shutdown()
+
+    async def _read(self) -> None:
+        """Answer what is asked until nothing is, and what gathers meanwhile in one question."""
+        while self._asked:
+            asked, self._asked = self._asked, {}
+            try:
+                found = await self._off_the_loop(self._jobs.records, tuple(asked))
+            except Exception as error:  # noqa: BLE001 - it belongs to those who asked
+                for answer in asked.values():
+                    answer.set_exception(error)
+            else:
+                for place, answer in asked.items():
+                    answer.set_result(found.get(place))
+        self._reading = None
+
+    async def _look(self) -> None:
+        """Look for new versions as long as somebody waits for one."""
+        pause, clock = LOOK_EVERY_S, asyncio.get_running_loop()
+        try:
+            while await asyncio.sleep(pause, self._topics) and not self._ending:
+                begun = clock.time()
+                await self._look_once(tuple(self._topics))
+                pause = max(LOOK_EVERY_S, (clock.time() - begun) / LOOK_SHARE)
+        finally:
+            self._looking = None
+
+    async def _look_once(self, watched: tuple[Place, ...]) -> None:
+        try:
+            versions = await self._off_the_loop(self._jobs.versions, watched)
+        except Unavailable as error:
+            LOGGER.warning("changes of jobs cannot be seen: %s", error.reason)
+            versions = {}  # those who wait ask themselves, and are told why they get no answer
+        for place in watched:
+            topic = self._topics.get(place)
+            if topic is not None and versions.get(place) != topic.version:
+                topic.tell(versions.get(place))
+
+    async def _off_the_loop(self, work: Callable[[Sequence[Place]], Given], places: Sequence[Place]) -> Given:
+        return await asyncio.get_running_loop().run_in_executor(self._thread, work, places)
+
+
+def no_such_job(identity: str) -> Problem:
+    """Say that there is no such job."""
+    return Problem(
+        "not-found",
+        f"there is no job {identity}",
+        evidence={"job": identity},
+        remedy="GET /v1/jobs lists what there is",
+    )

@@ -1,0 +1,93 @@
+"""Serve the progress of a job as it happens, as server-sent events.
+
+An event's id is the version of the job, which the database keeps: whoever comes back, even to a service that
+was started anew, hears of what changed since. Source: https://html.spec.whatwg.org/multipage/server-sent-events.html
+"""
+
+from collections.abc import AsyncIterator
+from typing import Annotated
+
+from fastapi import Header, Response
+from fastapi.responses import StreamingResponse
+
+from app.documents import json_bytes
+from app.feed import JobFeed, no_such_job
+from app.openapi import problems
+from app.routing import chapter
+from app.services import DeskOf
+from app.store.errors import Unavailable
+from app.store.records import JobRecord
+from app.views import job_document
+
+ROUTER = chapter("/v1/jobs", tag="jobs")
+MEDIA_TYPE = "text/event-stream"
+HEARTBEAT_S = 15.0
+"""Silence after which a comment says that the connection lives."""
+COME_BACK_MS = 2000
+HEADERS = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
+
+
+class EventStream(StreamingResponse):
+    """Answer with server-sent events."""
+
+    media_type = MEDIA_TYPE
+
+
+@ROUTER.get(
+    "/{job_id}/events",
+    response_class=EventStream,
+    summary="Follow a job as it happens",
+    responses=problems(404)
+    | {
+        200: {
+            "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
+            "description": "An event `progress` at every change and `end` at the last; each holds the job",
+        },
+        204: {"description": "It has ended, and the client knows"},
+    },
+)
+async def follow_job(
+    desk: DeskOf,
+    job_id: str,
+    last_event_id: Annotated[
+        str | None, Header(max_length=200, description="id of the last event that was heard")
+    ] = None,
+) -> Response:
+    """Follow a job until it ends. The first event tells how far it is, unless Last-Event-ID is up to date."""
+    job = await desk.feed.job((desk.caller.tenant, job_id))
+    if job is None:
+        raise no_such_job(job_id)
+    known = _version(last_event_id)
+    if job.finished and job.version == known:
+        return Response(status_code=204)  # tells a browser not to come back
+    return EventStream(_events(desk.feed, job, known), headers=HEADERS)
+
+
+async def _events(feed: JobFeed, job: JobRecord, known: int | None) -> AsyncIterator[bytes]:
+    yield b"retry: %d\n\n" % COME_BACK_MS
+    while True:
+        if job.version != known:
+            known = job.version
+            yield _event(job)
+        if job.finished:
+            return
+        try:
+            now = await feed.change((job.tenant, job.id), known=known, seconds=HEARTBEAT_S)
+        except Unavailable:
+            return  # the client comes back, and is told why if that lasts
+        if now is None or (feed.ending and now.version == known):
+            return
+        if now.version == known:
+            yield b": alive\n\n"
+        job = now
+
+
+def _event(job: JobRecord) -> bytes:
+    name = b"end" if job.finished else b"progress"
+    return b"id: %d\nevent: %s\ndata: %s\n\n" % (job.version, name, json_bytes(job_document(job)))
+
+
+def _version(last_event_id: str | None) -> int | None:
+    """Read the id of an event; what is no id of ours is as if there were none."""
+    known = last_event_id or ""
+    return int(known) if known.isascii() and known.isdigit() and len(known) < 20 else None

@@ -1,0 +1,53 @@
+"""Bound what a tenant may have, within the transaction that would give it more."""
+
+from sqlalchemy import Connection, bindparam, func, literal, select
+
+from app.store.database import take_turns
+from app.store.errors import OverQuota
+from app.store.records import UNFINISHED, Quota
+from app.store.tables import JOBS, LOGS, one_of
+
+UNFINISHED_AFTER = (
+    select(literal(1))
+    .where(JOBS.c.tenant == bindparam("tenant"), one_of(JOBS.c.state, UNFINISHED))
+    .limit(1)
+    .offset(bindparam("before"))
+)
+
+
+def refuse_another_job(connection: Connection, tenant: str, quota: Quota) -> None:
+    """Refuse a job where the tenant has as many unfinished ones as it may have.
+
+    Raises
+    ------
+    OverQuota
+        If it has.
+    """
+    if quota.queued is None:
+        return
+    take_turns(connection, f"jobs of {tenant}")
+    last = {"tenant": tenant, "before": quota.queued - 1}
+    if connection.execute(UNFINISHED_AFTER, last).first() is not None:
+        raise OverQuota("unfinished jobs", most=quota.queued, setting="VERITORQUE_QUEUED_PER_TENANT")
+
+
+def refuse_beyond(connection: Connection, tenant: str, quota: Quota) -> None:
+    """Refuse a log, which is among the others already, where it is too much.
+
+    Raises
+    ------
+    OverQuota
+        If the tenant has more bytes than it may have.
+    """
+    if quota.stored_bytes is None:
+        return
+    take_turns(connection, f"bytes of {tenant}")
+    if stored_bytes(connection, tenant) > quota.stored_bytes:
+        raise OverQuota("bytes", most=quota.stored_bytes, setting="VERITORQUE_STORED_BYTES_PER_TENANT")
+
+
+def stored_bytes(connection: Connection, tenant: str) -> int:
+    """Count the bytes of a tenant's logs and results."""
+    logs = select(func.coalesce(func.sum(LOGS.c.bytes), 0)).where(LOGS.c.tenant == tenant)
+    results = select(func.coalesce(func.sum(JOBS.c.result_bytes), 0)).where(JOBS.c.tenant == tenant)
+    return int(connection.execute(logs).scalar_one()) + int(connection.execute(results).scalar_one())

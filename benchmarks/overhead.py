@@ -1,0 +1,52 @@
+"""What the service adds to a computation: a job that is waited for, and the same by the library, in turns."""
+
+import statistics
+import time
+from collections.abc import Callable
+
+from benchmarks.demo_log import demo_robot
+from benchmarks.figures import Figure
+from benchmarks.running import LOG, running_service
+from core.log.reader import read_log
+from core.study import IdentifyRequest, identify
+
+OPTIONS: dict[str, object] = {"bootstrap": {"draws": 0}}
+
+
+def run(*, quick: bool) -> list[Figure]:
+    """Compute the same log again and again, each time with another cut-off, so that nothing is known yet."""
+    repeats = 3 if quick else 20
+    _by_library(9.0)
+    served, computed = [], []
+    with running_service(workers=1) as service:
+        _seconds(lambda: service.ask("POST", "/v1/jobs", service.job(**_options(9.0)), Prefer="wait=60"))
+        for number in range(repeats):
+            cutoff = 10.0 + 0.01 * number
+            computed.append(_seconds(lambda cutoff=cutoff: _by_library(cutoff)))
+            body = service.job(**_options(cutoff))
+            served.append(_seconds(lambda body=body: service.ask("POST", "/v1/jobs", body, Prefer="wait=60")))
+    library = statistics.median(computed)
+    added = statistics.median(one - other for one, other in zip(served, computed, strict=True))
+    return [
+        Figure(
+            "added to a job, ms",
+            f"{1e3 * added:.0f}",
+            "" if quick else "<= 50",
+            f"library {1e3 * library:.0f}",
+        ),
+        Figure("a job over the library's call", f"{statistics.median(served) / library:.2f}", ratio=True),
+    ]
+
+
+def _options(cutoff_hz: float) -> dict[str, object]:
+    return OPTIONS | {"filter": {"cutoff_hz": cutoff_hz}}
+
+
+def _by_library(cutoff_hz: float) -> None:
+    identify(IdentifyRequest(demo_robot(), (read_log(LOG),), _options(cutoff_hz)))
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    begun = time.perf_counter()
+    work()
+    return time.perf_counter() - begun

@@ -1,0 +1,178 @@
+"""Connections are given up when their clients are too slow, and whatever is no HTTP gets a problem, too."""
+
+import json
+import socket
+import threading
+import time
+from contextlib import contextmanager
+
+import pytest
+
+from app import server as listening
+from app.main import create_app
+from app.server import Server
+from app.settings import Settings
+from tests.app.stubs import StubExecutor
+
+POLL = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+
+
+@contextmanager
+def listening_service(directory, executor=None, **settings):
+    """Run the service on a free port; gives the server and the port."""
+    chosen = Settings(data_dir=directory, port=0, **settings)
+    server = Server(create_app(chosen, executor=executor or StubExecutor()), chosen)
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    while not server.started:
+        time.sleep(0.01)
+    try:
+        yield server, server.servers[0].sockets[0].getsockname()[1]
+    finally:
+        server.should_exit = True
+        thread.join()
+
+
+@pytest.fixture
+def port(tmp_path, monkeypatch):
+    """A service whose patience is a second."""
+    for name in ("HEAD_LOOKS", "BODY_LOOKS", "ANSWER_LOOKS"):
+        monkeypatch.setattr(listening, name, 1)
+    with listening_service(tmp_path) as (_, port):
+        yield port
+
+
+def connected(port):
+    return socket.create_connection(("127.0.0.1", port), timeout=5.0)
+
+
+def all_of(link):
+    """Read until the service closes; fails if it does not within five seconds."""
+    pieces = []
+    while piece := link.recv(65536):
+        pieces.append(piece)
+    return b"".join(pieces)
+
+
+def seconds_until_closed(link, pieces, *, pause=0.0):
+    """Send piece by piece until the service has closed, and give how long that took."""
+    begun = time.monotonic()
+    try:
+        for piece in pieces:
+            link.sendall(piece)
+            time.sleep(pause)
+    except (BrokenPipeError, ConnectionResetError):
+        return time.monotonic() - begun
+    return pytest.fail("the service keeps the connection")
+
+
+def problem_in(answer, status, kind):
+    head, _, body = answer.partition(b"\r\n\r\n")
+    assert head.startswith(b"HTTP/1.1 %d " % status), head
+    assert b"content-type: application/problem+json" in head.lower()
+    assert json.loads(body)["type"] == f"urn:veritorque:problem:{kind}"
+
+
+@pytest.mark.parametrize("said", [b"G", b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n"])
+def test_a_head_that_does_not_end_is_given_up(port, said):
+    with connected(port) as link:
+        link.sendall(said)
+        problem_in(all_of(link), 408, "too-slow")
+
+
+def test_a_head_that_comes_byte_by_byte_is_given_up_all_the_same(port):
+    with connected(port) as link:
+        link.sendall(b"GET /healthz HTTP/1.1\r\nX: ")
+        assert seconds_until_closed(link, [b"x"] * 500, pause=0.02) < 4.0
+
+
+def test_a_connection_on_which_nothing_comes_is_closed_without_a_word(port):
+    with connected(port) as link:
+        assert all_of(link) == b""
+
+
+def test_empty_lines_do_not_keep_a_connection_open(port):
+    with connected(port) as link:
+        link.sendall(POLL)
+        link.recv(65536)
+        assert seconds_until_closed(link, [b"\r\n"] * 200, pause=0.05) < 4.0
+
+
+def test_a_body_that_comes_too_slowly_is_given_up(port):
+    with connected(port) as link:
+        head = b"POST /v1/logs HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/csv\r\n"
+        link.sendall(head + b"Content-Length: 100000\r\n\r\ntime,q_1\n")
+        problem_in(all_of(link), 408, "too-slow")
+
+
+def test_a_body_that_comes_steadily_is_waited_for(port):
+    content = json.dumps({"name": "x" * 20_000}).encode()
+    with connected(port) as link:
+        head = b"POST /v1/robots HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+        link.sendall(head + b"Connection: close\r\nContent-Length: %d\r\n\r\n" % len(content))
+        for begin in range(0, len(content), 1000):
+            link.sendall(content[begin : begin + 1000])
+            time.sleep(0.1)  # two seconds in all, twice the patience
+        problem_in(all_of(link), 422, "robot")
+
+
+def test_a_client_that_waits_for_leave_to_send_is_not_slow(port):
+    with connected(port) as link:
+        head = (
+            b"POST /v1/logs HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/csv\r\nExpect: 100-continue\r\n"
+        )
+        link.sendall(head + b"Content-Length: 9\r\n\r\n")
+        assert link.recv(100).startswith(b"HTTP/1.1 100 ")
+        link.sendall(b"time,q_1\n")
+        assert link.recv(65536).startswith(b"HTTP/1.1 422 ")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        b"hello\r\n\r\n",
+        b"GET /healthz HTTP/9.9\r\n\r\n",
+        b"GET /\xff HTTP/1.1\r\nHost: localhost\r\n\r\n",
+        b"CONNECT localhost:80 HTTP/1.1\r\nHost: localhost\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n",
+        b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nBad Header: 1\r\n\r\n",
+        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",
+    ],
+)
+def test_what_is_not_http_gets_a_problem(port, said):
+    with connected(port) as link:
+        link.sendall(said)
+        problem_in(all_of(link), 400, "bad-request")
+
+
+def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
+    with connected(port) as link:
+        link.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ")
+        assert seconds_until_closed(link, [b"x" * 65536] * 1000) < 4.0
+    with connected(port) as link:
+        link.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: " + b"x" * 140_000)
+        problem_in(all_of(link), 431, "head-too-large")
+
+
+def test_a_client_that_takes_nothing_is_given_up(port):
+    with socket.socket() as link:
+        link.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        link.settimeout(5.0)
+        link.connect(("127.0.0.1", port))
+        request = b"GET /static/swagger-ui-bundle.js HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        assert seconds_until_closed(link, [request] * 100, pause=0.1) < 6.0
+
+
+def test_many_that_stop_in_the_middle_do_not_hold_up_the_others(port):
+    links = [connected(port) for _ in range(100)]
+    try:
+        for link in links:
+            link.sendall(b"GET /healthz HTTP/1.1\r\nHost:")
+        with connected(port) as other:
+            for _ in range(20):
+                other.sendall(POLL)
+                assert other.recv(65536).startswith(b"HTTP/1.1 200 ")
+        assert all(all_of(link).startswith(b"HTTP/1.1 408 ") for link in links)
+    finally:
+        for link in links:
+            link.close()

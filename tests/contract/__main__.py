@@ -1,0 +1,64 @@
+"""Ask the service all its contract allows and much that it forbids: ``python -m tests.contract --cases n``.
+
+The service really listens, and computes nothing: jobs end at once.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from app.main import create_app
+from app.settings import Settings
+from tests.app.stubs import StubExecutor
+from tests.app.test_server import listening_service
+
+CONFIGURATION = Path(__file__).with_name("schemathesis.toml")
+CHECKS = (
+    "not_a_server_error",
+    "status_code_conformance",
+    "content_type_conformance",
+    "response_headers_conformance",
+    "response_schema_conformance",
+    "negative_data_rejection",
+    "positive_data_acceptance",
+    "unsupported_method",
+    "allow_header_conformance",
+    "use_after_free",
+    "ensure_resource_availability",
+)
+
+
+def examine(directory: Path, *, cases: int, seed: int) -> subprocess.CompletedProcess[str]:
+    """Run about so many cases against a service of its own, and give how that ended."""
+    operations = sum(len(methods) for methods in create_app(Settings()).openapi()["paths"].values())
+    executor = StubExecutor()
+    executor.release.set()
+    plenty = {"requests_per_second": 1e6, "queued_per_tenant": 10**6, "disk_reserve_bytes": 0}
+    with listening_service(directory, executor, **plenty) as (_, port):
+        command = [
+            *(sys.executable, "-m", "schemathesis.cli", "--config-file", str(CONFIGURATION)),
+            *("run", f"http://127.0.0.1:{port}/openapi.json"),
+            *("--max-examples", str(max(cases // operations, 1)), "--seed", str(seed)),
+            *("--checks", ",".join(CHECKS), "--continue-on-failure", "--no-color", "--warnings", "off"),
+            *("--generation-database", "none", "--request-timeout", "70", "--workers", "2"),
+            *("--suppress-health-check", "all"),
+        ]
+        return subprocess.run(command, cwd=directory, capture_output=True, text=True, check=False)
+
+
+def main() -> None:
+    """Read the command line, and print what came out."""
+    parser = argparse.ArgumentParser(prog="python -m tests.contract")
+    parser.add_argument("--cases", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=1)
+    asked = parser.parse_args()
+    with tempfile.TemporaryDirectory() as directory:
+        done = examine(Path(directory), cases=asked.cases, seed=asked.seed)
+    print(done.stdout + done.stderr)  # noqa: T201
+    sys.exit(done.returncode)
+
+
+if __name__ == "__main__":
+    main()

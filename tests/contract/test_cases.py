@@ -1,0 +1,18 @@
+"""What the contract allows is answered as it says, what it forbids is refused, and nothing is a 5xx."""
+
+import re
+
+import pytest
+
+from tests.contract.__main__ import examine
+
+CASES = 2000
+
+
+@pytest.mark.slow
+def test_thousands_of_requests_find_no_breach_of_the_contract(tmp_path):
+    done = examine(tmp_path, cases=CASES, seed=1)
+    assert done.returncode == 0, done.stdout[-5000:] + done.stderr
+    generated = re.search(r"(\d+) generated", done.stdout)
+    assert generated is not None
+    assert int(generated[1]) >= CASES
