@@ -20,10 +20,10 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz contract bench lock openapi causes
+.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz contract chaos life image-test bench lock openapi causes
 
 help: ## list the commands
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
 
 setup: $(READY) ## make .venv from the hash-locked requirements
 
@@ -85,6 +85,16 @@ contract: $(READY) ## ask the service all that its contract allows and forbids (
 
 bench: $(READY) ## measure speed and accuracy
 	$(RUN) -m benchmarks $(ARGS)
+
+chaos: $(READY) ## kill and freeze the service 360 times over 1,000 jobs, on SQLite and on PostgreSQL (JOBS=n KILLS=n FREEZES=n)
+	$(RUN) -m tests.chaos --jobs $(or $(JOBS),1000) --kills $(or $(KILLS),300) --freezes $(or $(FREEZES),60) \
+		$(if $(DATABASE),--database $(DATABASE))
+
+life: $(READY) ## lead jobs through every turn of their life, and two tenants past each other (RUNS=n OPERATIONS=n)
+	$(RUN) -m tests.life --runs $(or $(RUNS),2000) --operations $(or $(OPERATIONS),10000)
+
+image-test: ## build the image without a daemon and run the service in it (needs root and buildah)
+	docker/image-test
 
 lock: ## rewrite the locked requirements after a change of dependencies (needs uv)
 	uv pip compile $(LOCK_FLAGS) pyproject.toml --output-file docker/requirements.txt

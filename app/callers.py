@@ -45,15 +45,26 @@ def caller_of(request: Request, keys: KeyRing, *, open_to_all: bool) -> Caller:
     key = keys.find(secret.strip())
     if key is None:
         raise _unknown("the request's key is not known, or was revoked")
-    scope = "read" if request.method in SAFE_METHODS else "write"
-    if scope not in key.scopes:
+    caller = Caller(key.tenant, key.scopes, key)
+    require_scope(caller, "read" if request.method in SAFE_METHODS else "write")
+    return caller
+
+
+def require_scope(caller: Caller, scope: str) -> None:
+    """Return where the caller's key permits it.
+
+    Raises
+    ------
+    Problem
+        If it does not (403).
+    """
+    if scope not in caller.scopes:
         raise Problem(
             "no-scope",
-            f"the key {key.name} does not permit to {scope}",
-            evidence={"needed": scope, "scopes": list(key.scopes)},
-            remedy="use a key with this scope; the operator makes one with: veritorque keys create",
+            f"the key {caller.key.name if caller.key else ''} does not permit to {scope}",
+            evidence={"needed": scope, "scopes": list(caller.scopes)},
+            remedy="use a key with this scope; the operator makes one with: veritorque keys create --scopes",
         )
-    return Caller(key.tenant, key.scopes, key)
 
 
 def _unknown(cause: str) -> Problem:

@@ -43,6 +43,9 @@ COMMANDS = typer.Typer(
 
 def main() -> None:
     """Run the command line."""
+    from app.lifecycle.commands import install
+
+    install(COMMANDS)
     COMMANDS()
 
 
@@ -78,7 +81,7 @@ def serve(
         job_timeout_s=job_timeout_s,
     )
     _require_directory(settings.data_dir)
-    _compute_on_one_thread()
+    _limit_threads(settings.job_cpus)
     _require_to_be_alone(settings.data_dir)
     with _opened(settings) as store:
         if settings.needs_keys:
@@ -100,10 +103,12 @@ def work(
     """
     settings = _settings()
     _require_directory(settings.data_dir)
-    _compute_on_one_thread()
+    _limit_threads(settings.job_cpus)
     _keep_compiled_kernels(settings.data_dir)
     from app.jobs.process import work_until_told
+    from app.journal import open_journal
 
+    open_journal(settings)
     with _opened(settings) as store:
         work_until_told(store, settings, beside=beside)
 
@@ -224,14 +229,16 @@ def _require_to_be_alone(data_dir: Path) -> None:
         _stop(f"another service uses {data_dir}; stop it, or choose another --data-dir")
 
 
-def _compute_on_one_thread() -> None:
-    """Let linear algebra use one thread per computation, unless the operator has decided otherwise.
+def _limit_threads(cpus: int) -> None:
+    """Let linear algebra use a thread per CPU of a computation, unless the operator has decided otherwise.
 
     The matrices are small: more threads double the CPU time of a job, wait for each other on a busy machine,
-    and add numbers in an order that depends on their count. It has to stand before numpy is loaded.
+    and add numbers in an order that depends on their count. Arrow shall not reserve memory that it does not
+    use, because what a computation may use is counted. It has to stand before numpy is loaded.
     """
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
+        os.environ.setdefault(name, str(cpus))
+    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
 
 
 def _keep_compiled_kernels(data_dir: Path) -> None:
@@ -245,14 +252,18 @@ def _keep_compiled_kernels(data_dir: Path) -> None:
 
 def _listen(settings: Settings) -> None:
     from app.jobs.supervisor import Supervisor
+    from app.journal import open_journal
     from app.main import create_app
+    from app.metrics import Metrics
     from app.server import Server
 
+    open_journal(settings)
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
     print(f"http://{shown}:{settings.port}/docs", flush=True)
-    supervisor = Supervisor(settings) if settings.workers else None
+    metrics = Metrics()
+    supervisor = Supervisor(settings, told=metrics.ended) if settings.workers else None
     with suppress(KeyboardInterrupt):
-        Server(create_app(settings, supervisor=supervisor), settings).run()
+        Server(create_app(settings, supervisor=supervisor, metrics=metrics), settings).run()
 
 
 def _stop(reason: str) -> NoReturn:

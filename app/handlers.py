@@ -12,9 +12,9 @@ from starlette.responses import Response
 from starlette.routing import Match
 
 from app.documents import json_bytes
-from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of
+from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of, problem_of_damage
 from app.reading import invalid
-from app.store.errors import KeyReused, OverQuota, Unavailable
+from app.store.errors import Damaged, KeyReused, OverQuota, Unavailable
 from core.errors import VeritorqueError
 
 LOGGER = logging.getLogger(__name__)
@@ -49,6 +49,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(Unavailable, _on_unavailable)
     app.add_exception_handler(OverQuota, _on_quota)
     app.add_exception_handler(KeyReused, _on_key)
+    app.add_exception_handler(Damaged, _on_damage)
     app.add_exception_handler(OSError, _on_system)
     app.add_exception_handler(Exception, _on_mistake)
 
@@ -108,10 +109,16 @@ async def _on_key(_request: Request, error: Exception) -> Response:
     return problem_response(problem)
 
 
-async def _on_system(_request: Request, error: Exception) -> Response:
+async def _on_damage(_request: Request, error: Exception) -> Response:
+    LOGGER.error("what was kept is damaged: %s", error)
+    return problem_response(problem_of_damage(error) if isinstance(error, Damaged) else _mistake(""))
+
+
+async def _on_system(request: Request, error: Exception) -> Response:
     if isinstance(error, OSError) and error.errno in DISK_FULL:
+        LOGGER.error("the disk is full")
         return problem_response(_disk_full())
-    raise error
+    return await _on_mistake(request, error)
 
 
 async def _on_mistake(request: Request, error: Exception) -> Response:

@@ -17,7 +17,9 @@ from app.disk import DiskReserve
 from app.door import Door
 from app.jobs.executor import Executor
 from app.jobs.supervisor import Supervisor
+from app.metrics import Metrics
 from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
+from app.observing import Observe
 from app.routes import events, health, identify, jobs, logs, pages, robots
 from app.services import Services
 from app.settings import Settings
@@ -37,6 +39,7 @@ def create_app(
     *,
     executor: Executor | None = None,
     supervisor: Supervisor | None = None,
+    metrics: Metrics | None = None,
 ) -> FastAPI:
     """Make the application.
 
@@ -48,18 +51,21 @@ def create_app(
         What computes; a process per computation if None.
     supervisor
         Keeps the process alive that sees to the computing; None to see to it within this one.
+    metrics
+        Where requests and jobs are counted; new ones if None.
     """
-    chosen = settings or Settings()
+    chosen, counted = settings or Settings(), metrics or Metrics()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.services = await anyio.to_thread.run_sync(Services.open, chosen, executor, supervisor)
+        opened = await anyio.to_thread.run_sync(Services.open, chosen, counted, executor, supervisor)
+        app.state.services = opened
         try:
             yield
         finally:
-            await app.state.services.feed.close()
-            await app.state.services.intake.close()
-            await anyio.to_thread.run_sync(app.state.services.close)
+            await opened.feed.close()
+            await opened.intake.close()
+            await anyio.to_thread.run_sync(opened.close)
 
     app = FastAPI(
         title="Veritorque",
@@ -80,6 +86,7 @@ def create_app(
     app.add_middleware(HeadAsGet)
     app.add_middleware(Door, hosts=(chosen.host, *chosen.hosts))
     app.add_middleware(SafeHeaders)
+    app.add_middleware(Observe, metrics=counted)
 
     def contract() -> dict[str, Any]:
         if app.openapi_schema is None:

@@ -107,7 +107,11 @@ class HeadAsGet:
                 await send({"type": "http.response.body", "body": b""})
 
         if scope["type"] == "http" and scope["method"] == "HEAD":
-            await self._app({**scope, "method": "GET"}, receive, bodiless)
+            asked = {**scope, "method": "GET"}
+            try:
+                await self._app(asked, receive, bodiless)
+            finally:
+                scope["route"] = asked.get("route")
         else:
             await self._app(scope, receive, send)
 

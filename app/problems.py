@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from starlette.exceptions import HTTPException
 
 from app.documents import plain
+from app.store.errors import Damaged
 from core.errors import ExcitationError, LogError, OptionError, RobotError, SolverError, VeritorqueError
 
 MEDIA_TYPE = "application/problem+json"
@@ -43,10 +44,12 @@ KINDS: dict[str, tuple[int, str]] = {
     "excitation": (422, "The motion cannot tell what was asked of it"),
     "solver": (422, "The optimiser stopped without an optimum"),
     "job-timeout": (422, "The computation took too long"),
+    "job-memory": (422, "The computation needs too much memory"),
     "too-many": (429, "Too many requests"),
     "head-too-large": (431, "The head of the request is too large"),
     "quota": (429, "The key's share is used up"),
     "internal": (500, "The service made a mistake"),
+    "damaged": (500, "What was kept is damaged"),
     "computation-stopped": (500, "The computation stopped unexpectedly"),
     "not-ready": (503, "The service is starting"),
     "unavailable": (503, "The database does not answer"),
@@ -140,3 +143,13 @@ def problem_of(error: VeritorqueError) -> Problem:
     """
     kind = next((kind for known, kind in _KIND_OF_ERROR.items() if isinstance(error, known)), "request")
     return Problem(kind, error.cause, evidence=error.evidence, remedy=error.remedy)
+
+
+def problem_of_damage(error: Damaged) -> Problem:
+    """Say that bytes are not what they were, which is never a client's fault."""
+    return Problem(
+        "damaged",
+        "the disk gave back other bytes than were kept",
+        evidence={"sha256": error.sha256, "seen": error.evidence},
+        remedy="delete what needs them and send it again, or let the operator run: veritorque doctor",
+    )

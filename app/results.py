@@ -12,6 +12,7 @@ from typing import Annotated, Any, Final
 from fastapi import Header, Response
 
 from app.negotiation import matches
+from app.store.blobs import check_file
 from app.version import VERSION
 
 IfNoneMatch = Annotated[str | None, Header(max_length=1000, description="ETags of what is known already")]
@@ -26,7 +27,14 @@ class Result:
     path: Path
 
     def content(self) -> bytes:
-        """Read the document."""
+        """Read the document.
+
+        Raises
+        ------
+        Damaged
+            If the file is missing or not what it was.
+        """
+        check_file(self.path, self.sha256)
         return self.path.read_bytes()
 
     def unless_known(self, if_none_match: str | None, form: str, answer: Callable[[], Response]) -> Response:

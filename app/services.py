@@ -1,5 +1,6 @@
 """Hold what requests need, opened once at the start of the service and closed at its end."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Annotated
 
@@ -12,13 +13,17 @@ from app.feed import JobFeed
 from app.inspection.inspector import Inspector
 from app.intake import Intake
 from app.jobs import science
+from app.jobs.computation import Ended
 from app.jobs.executor import Executor, ProcessExecutor
+from app.jobs.limits import Limits
 from app.jobs.queue import Queue
 from app.jobs.supervisor import Supervisor
-from app.jobs.worker import Worker
+from app.jobs.worker import Capacity, Worker
 from app.keys import KeyRing
+from app.metrics import Metrics
 from app.pace import Pace
 from app.problems import Problem
+from app.readiness import Readiness
 from app.settings import Settings
 from app.store.lock import DirectoryLock
 from app.store.records import Document, JobRecord, Quota, RobotRecord
@@ -42,7 +47,7 @@ class Desk:
 class Services:
     """Carry the settings and the parts of the service that requests use.
 
-    `worker` computes within this process, `supervisor` keeps one beside it; None where others do.
+    `computing` is a worker within this process, or keeps one beside it; None where others compute.
     """
 
     settings: Settings
@@ -52,14 +57,17 @@ class Services:
     feed: JobFeed
     intake: Intake[JobRecord]
     pace: Pace
-    worker: Worker | None
-    supervisor: Supervisor | None
     inspector: Inspector
+    computing: Worker | Supervisor | None
+    metrics: Metrics
+    readiness: Readiness
     built_in: dict[str, RobotRecord]
     base_parameters: dict[str, Document] = field(default_factory=dict)
 
     @classmethod
-    def open(cls, settings: Settings, executor: Executor | None, supervisor: Supervisor | None) -> "Services":
+    def open(
+        cls, settings: Settings, metrics: Metrics, executor: Executor | None, supervisor: Supervisor | None
+    ) -> "Services":
         """Open the store, and begin to work through the queue where there is something to compute with."""
         lock = DirectoryLock(settings.data_dir)
         quota = Quota(queued=settings.queued_per_tenant, stored_bytes=settings.stored_bytes_per_tenant)
@@ -67,14 +75,23 @@ class Services:
         store.blobs.remove_leftovers()
         inspector = Inspector()
         built_in = built_in_robots()
-        worker = None
-        if supervisor is None and settings.workers:
-            worker = worker_of(store, settings, executor or ProcessExecutor(), built_in)
-        for computing in (worker, supervisor):
-            if computing is not None:
-                computing.start()
+        computing: Worker | Supervisor | None = supervisor
+        if computing is None and settings.workers:
+            chosen = executor or executor_of(settings)
+            computing = worker_of(store, settings, chosen, built_in, metrics.ended)
+        if computing is not None:
+            computing.start()
         inspector.prepare()
         science.check_options("identify", {})  # loads what that needs, so that no request waits for it
+
+        def alive() -> bool:
+            return computing is None or computing.alive
+
+        def ready() -> bool:
+            return computing is None or computing.ready.is_set()
+
+        metrics.watch(store, settings, alive)
+        readiness = Readiness(store, settings, worker_alive=alive, worker_ready=ready)
         return cls(
             settings=settings,
             lock=lock,
@@ -83,45 +100,52 @@ class Services:
             feed=JobFeed(store.many_jobs),
             intake=Intake(),
             pace=Pace(settings.requests_per_second),
-            worker=worker,
-            supervisor=supervisor,
             inspector=inspector,
+            computing=computing,
+            metrics=metrics,
+            readiness=readiness,
             built_in=built_in,
         )
 
-    @property
-    def ready(self) -> bool:
-        """Tell whether whoever computes has loaded the solver."""
-        computing = self.worker or self.supervisor
-        return computing is None or computing.ready.is_set()
-
-    def desk(self, caller: Caller) -> Desk:
-        """Open what belongs to the tenant of a request."""
+    def desk(self, caller: Caller, trace: str | None = None) -> Desk:
+        """Open what belongs to the tenant of a request, which belongs to a trace."""
         store = self.store.of(caller.tenant)
         catalogue = Catalogue(store, self.inspector, self.built_in, self.base_parameters)
-        queue, readers = Queue(store), self.inspector.limiter
+        queue, readers = Queue(store, trace), self.inspector.limiter
         return Desk(caller, store, catalogue, queue, readers, self.feed, self.intake)
 
     def close(self) -> None:
         """Stop the computations, hand their jobs back, and close the store."""
-        for computing in (self.worker, self.supervisor):
-            if computing is not None:
-                computing.close()
+        if self.computing is not None:
+            self.computing.close()
         self.store.close()
         self.lock.release()
 
 
+def executor_of(settings: Settings) -> Executor:
+    """Make what computes as the settings limit it."""
+    return ProcessExecutor(limits=Limits(settings.job_memory_bytes, settings.job_cpus))
+
+
 def worker_of(
-    store: Store, settings: Settings, executor: Executor, built_in: dict[str, RobotRecord]
+    store: Store,
+    settings: Settings,
+    executor: Executor,
+    built_in: dict[str, RobotRecord],
+    told: Callable[[Ended], None] | None,
 ) -> Worker:
-    """Make a worker as the settings ask for it."""
+    """Make a worker as the settings ask for it; `told` hears how every computation went."""
     return Worker(
         store,
         executor,
         robots={identity: robot.description for identity, robot in built_in.items()},
-        slots=settings.workers,
-        most_per_tenant=settings.running_per_tenant,
-        timeout_s=settings.job_timeout_s,
+        capacity=Capacity(
+            slots=settings.workers,
+            most_per_tenant=settings.running_per_tenant,
+            timeout_s=settings.job_timeout_s,
+            retention_days=settings.retention_days,
+        ),
+        told=told,
     )
 
 
@@ -130,8 +154,8 @@ async def _services(request: Request) -> Services:
     return services
 
 
-async def desk_of(request: Request) -> Desk:
-    """Open what belongs to whoever asks.
+async def known_caller(request: Request) -> Caller:
+    """Find out who asks.
 
     Raises
     ------
@@ -148,8 +172,21 @@ async def desk_of(request: Request) -> Desk:
         services.pace.keep(address)  # whoever guesses keys is held up, too
         raise
     services.pace.keep(caller.key.id if caller.key else address)
-    return services.desk(caller)
+    return caller
+
+
+async def desk_of(request: Request) -> Desk:
+    """Open what belongs to whoever asks.
+
+    Raises
+    ------
+    Problem
+        As `known_caller`.
+    """
+    services: Services = request.app.state.services
+    return services.desk(await known_caller(request), request.state.trace)
 
 
 ServicesOf = Annotated[Services, Depends(_services)]
+CallerOf = Annotated[Caller, Depends(known_caller)]
 DeskOf = Annotated[Desk, Depends(desk_of)]

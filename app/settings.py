@@ -8,6 +8,7 @@ import ipaddress
 import json
 from functools import cached_property
 from pathlib import Path
+from typing import Annotated, Literal
 
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
@@ -17,6 +18,10 @@ LOCAL = "local"
 """The tenant of whoever needs no key."""
 SCOPES = ("read", "write", "admin")
 """What keys may permit."""
+
+
+Kept = Literal["successful", "failed", "dismissed", "logs", "repeats"]
+"""Finished jobs by state, logs that no job names, and requests that carried an Idempotency-Key."""
 
 
 class Settings(BaseSettings):
@@ -47,7 +52,13 @@ class Settings(BaseSettings):
     job_timeout_s
         Longest a computation may take, s.
     job_memory_bytes
-        Most memory that a computation may use.
+        Most memory that a computation may use; with the solver loaded a quarter of a gibibyte is in use.
+    job_cpus
+        CPUs that a computation uses.
+    log_level
+        What the service's own log holds; with ``debug`` also every read.
+    retention_days
+        How long each of `Kept` is kept, d; what is not named is kept for ever.
     """
 
     model_config = SettingsConfigDict(env_prefix=PREFIX, frozen=True, allow_inf_nan=False)
@@ -65,7 +76,11 @@ class Settings(BaseSettings):
     stored_bytes_per_tenant: int = Field(default=100 * 1024**3, ge=1024)
     requests_per_second: float = Field(default=1000.0, gt=0.0)
     job_timeout_s: float = Field(default=600.0, gt=0.0, le=86400.0)
-    job_memory_bytes: int = Field(default=4 * 1024**3, ge=256 * 1024**2)
+    job_memory_bytes: int = Field(default=4 * 1024**3, ge=512 * 1024**2)
+    job_cpus: int = Field(default=1, ge=1, le=64)
+    log_level: Literal["debug", "info", "warning", "error"] = "info"
+
+    retention_days: dict[Kept, Annotated[float, Field(gt=0.0)]] = {"repeats": 7.0}
 
     @cached_property
     def needs_keys(self) -> bool:

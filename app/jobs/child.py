@@ -14,18 +14,21 @@ from multiprocessing.connection import Connection
 
 from app.documents import json_bytes
 from app.jobs.computation import Computation, Work
-from app.problems import Problem, problem_of
+from app.jobs.limits import Limits
+from app.problems import Problem, problem_of, problem_of_damage
+from app.store.errors import Damaged
 from core.errors import VeritorqueError
 
 PROGRESS, RESULT, FAILURE, TRACE = b"p", b"r", b"f", b"t"
 
 
-def compute(pipe: Connection, work: Work, computation: Computation) -> None:
-    """Do the work and send its outcome; the entry point of the process."""
+def compute(pipe: Connection, work: Work, computation: Computation, limits: Limits, timeout_s: float) -> None:
+    """Do the work within its limits and send its outcome; the entry point of the process."""
     signal.signal(
         signal.SIGINT, signal.SIG_IGN
     )  # Ctrl-C is for the service, which then stops its computations
     threading.Thread(target=_end_with_the_service, args=(pipe,), daemon=True).start()
+    limits.hold(seconds=timeout_s)
     sending = threading.Lock()
 
     def send(letter: bytes, content: bytes) -> None:
@@ -39,8 +42,11 @@ def compute(pipe: Connection, work: Work, computation: Computation) -> None:
         send(RESULT, json_bytes(work(computation, progress)))
     except VeritorqueError as error:
         send(FAILURE, json_bytes(problem_of(error).document()))
+    except Damaged as error:
+        send(FAILURE, json_bytes(problem_of_damage(error).document()))
     except MemoryError:
-        send(FAILURE, json_bytes(out_of_memory().document()))
+        limits.lift_memory()
+        send(FAILURE, json_bytes(out_of_memory(limits).document()))
     except Exception:  # noqa: BLE001  (the boundary of the process: what is not ours becomes a problem without internals)
         send(TRACE, traceback.format_exc().encode(errors="replace"))
         send(FAILURE, json_bytes(mistake().document()))
@@ -50,12 +56,15 @@ def nothing() -> None:
     """Do nothing; the work of the process that is started to load the solver."""
 
 
-def out_of_memory() -> Problem:
+def out_of_memory(limits: Limits) -> Problem:
     """Say that the memory did not suffice."""
     return Problem(
-        "computation-stopped",
-        "the computation ran out of memory",
-        remedy="shorten the log or raise the decimation",
+        "job-memory",
+        f"the computation needs more memory than the {limits.memory_bytes} bytes that it may use",
+        evidence={"limit_bytes": limits.memory_bytes},
+        remedy=(
+            "shorten the log, raise the decimation, or let the operator raise VERITORQUE_JOB_MEMORY_BYTES"
+        ),
     )
 
 

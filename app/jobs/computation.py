@@ -75,3 +75,25 @@ class Stopped:
 
 
 Outcome = Finished | Failed | Died | Stopped
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Say how a computation went, for whoever counts.
+
+    Attributes
+    ----------
+    kind
+        What was computed.
+    outcome
+        ``successful``, ``failed``, ``died`` or ``stopped``.
+    seconds
+        How long it took.
+    problem
+        Kind of the problem, where there is one.
+    """
+
+    kind: str
+    outcome: str
+    seconds: float
+    problem: str | None = None

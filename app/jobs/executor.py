@@ -7,6 +7,7 @@ nothing else.
 
 import json
 import logging
+import signal
 import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
@@ -17,6 +18,7 @@ from typing import Protocol
 from app.forks import fork_server
 from app.jobs import child, science
 from app.jobs.computation import Computation, Died, Failed, Finished, Outcome, Progress, Stopped, Work
+from app.jobs.limits import Limits
 from app.problems import Problem
 
 LOGGER = logging.getLogger(__name__)
@@ -44,13 +46,21 @@ class ProcessExecutor:
     ----------
     work
         What is computed; a function that the process can import.
+    limits
+        What a computation may use.
     preload
         Modules that the server process loads before it forks.
     """
 
-    def __init__(self, work: Work = science.compute, *, preload: tuple[str, ...] = ("core.study",)) -> None:
-        self._work = work
-        self._context = fork_server("app.jobs.child", *preload)
+    def __init__(
+        self,
+        work: Work = science.compute,
+        *,
+        limits: Limits = Limits(),  # noqa: B008 - it never changes
+        preload: tuple[str, ...] = ("core.study",),
+    ) -> None:
+        self._work, self._limits = work, limits
+        self._context = fork_server("app.jobs.undisturbed", "app.jobs.child", *preload)
 
     def prepare(self) -> None:
         """Let the server process load the solver, and compile the kernels where the disk holds none yet."""
@@ -62,13 +72,15 @@ class ProcessExecutor:
     def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
         """Run a computation in a new process; see `Executor`."""
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(
-            target=child.compute, args=(theirs, self._work, computation), daemon=True
-        )
+        arguments = (theirs, self._work, computation, self._limits, timeout_s)
+        process = self._context.Process(target=child.compute, args=arguments, daemon=True)
         try:
             process.start()
             theirs.close()
             return _follow(process, ours, progress=progress, stop=stop, timeout_s=timeout_s)
+        except (EOFError, OSError) as error:  # the server that forks is gone; it is started again by itself
+            LOGGER.warning("no process could be had: %r", error)
+            return Died(_vanished(None).document())
         finally:
             if process.pid is not None:
                 process.kill()
@@ -91,6 +103,8 @@ def _follow(
             message = pipe.recv_bytes()
         except (EOFError, OSError):
             process.join()
+            if process.exitcode == -signal.SIGXCPU:
+                return Failed(_too_slow(timeout_s).document())
             return Died(_vanished(process.exitcode).document())
         outcome = _read(message, progress)
         if outcome is not None:

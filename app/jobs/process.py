@@ -8,11 +8,13 @@ import os
 import signal
 import sys
 import threading
+from dataclasses import asdict
 
 from app.catalogue import built_in_robots
-from app.jobs.executor import ProcessExecutor
-from app.jobs.supervisor import ALIVE, READY
-from app.services import worker_of
+from app.documents import json_bytes
+from app.jobs.computation import Ended
+from app.jobs.supervisor import ALIVE, ENDED, READY
+from app.services import executor_of, worker_of
 from app.settings import Settings
 from app.store.store import Store
 
@@ -27,7 +29,8 @@ def work_until_told(store: Store, settings: Settings, *, beside: bool) -> None:
     if beside:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service, which then ends this
         threading.Thread(target=_hear_the_end, args=(told,), daemon=True).start()
-    worker = worker_of(store, settings, ProcessExecutor(), built_in_robots())
+    tell = _tell if beside else None
+    worker = worker_of(store, settings, executor_of(settings), built_in_robots(), tell)
     worker.start()
     while not told.wait(PULSE_S):
         if beside:
@@ -38,6 +41,10 @@ def work_until_told(store: Store, settings: Settings, *, beside: bool) -> None:
 def _hear_the_end(told: threading.Event) -> None:
     os.read(sys.stdin.fileno(), 1)  # nothing is ever sent: it returns when the service is gone
     told.set()
+
+
+def _tell(ended: Ended) -> None:
+    _say(ENDED + b" " + json_bytes(asdict(ended)))
 
 
 def _say(word: bytes) -> None:

@@ -11,10 +11,10 @@ from core.errors import LogError
 
 
 class Queue:
-    """Accept and dismiss the jobs of a tenant."""
+    """Accept and dismiss the jobs of a tenant; new ones belong to a trace."""
 
-    def __init__(self, store: TenantStore) -> None:
-        self._store = store
+    def __init__(self, store: TenantStore, trace: str | None = None) -> None:
+        self._store, self._trace = store, trace
 
     def submit(
         self,
@@ -45,7 +45,7 @@ class Queue:
             _check_joints(robot, log)
         check_reference(self._store, kind, robot, options)
         request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
-        return self._store.jobs.begin_to_add(request, key=key)
+        return self._store.jobs.begin_to_add(request, key=key, trace=self._trace)
 
     def dismiss(self, job: JobRecord) -> JobRecord:
         """Dismiss an unfinished job; whoever computes it notices."""

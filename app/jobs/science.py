@@ -11,6 +11,7 @@ from typing import cast
 
 from app.documents import plain
 from app.jobs.computation import Computation, LogFile, Progress
+from app.store.blobs import check_file
 from app.store.records import Document
 from core.errors import OptionError
 from core.log.reader import read_log
@@ -163,9 +164,13 @@ def compute(computation: Computation, progress: Progress) -> Document:
     ------
     VeritorqueError
         If the robot, the logs or the options do not allow it.
+    Damaged
+        If a log or the result to compare with is not what it was.
     """
     from core import study
 
+    for log in computation.logs:
+        check_file(log.path, log.sha256)
     robot = robot_from_description(computation.robot)
     logs = tuple(
         read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256) for log in computation.logs
@@ -179,4 +184,7 @@ def compute(computation: Computation, progress: Progress) -> Document:
 
 def _result(reference: Path | None) -> Document | None:
     """Read the result of an earlier job."""
-    return None if reference is None else cast("Document", json.loads(reference.read_bytes()))
+    if reference is None:
+        return None
+    check_file(reference, reference.name)
+    return cast("Document", json.loads(reference.read_bytes()))

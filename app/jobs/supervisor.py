@@ -4,6 +4,7 @@ The worker writes a line a second; silence means that it is frozen. It ends by i
 service closes, so that none is left behind when the service is killed.
 """
 
+import json
 import logging
 import os
 import subprocess
@@ -12,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable
 
+from app.jobs.computation import Ended
 from app.settings import Settings
 
 LOGGER = logging.getLogger(__name__)
@@ -22,7 +24,8 @@ PAUSES_S = (0.0, 0.5, 2.0, 5.0)
 """Before a worker is started again, by how often in a row that failed at once."""
 LIVED_S = 10.0
 PARTING_S = 15.0
-READY, ALIVE = b"ready", b"alive"
+READY, ALIVE, ENDED = b"ready", b"alive", b"ended"
+"""What a worker says; after the last comes how the computation went, as JSON."""
 
 Start = Callable[[Settings], "subprocess.Popen[bytes]"]
 
@@ -35,10 +38,18 @@ class Supervisor:
     start
         Starts the process; its standard output says that it lives, and the end of its standard input that it
         shall end.
+    told
+        Hears how every computation went.
     """
 
-    def __init__(self, settings: Settings, start: Start | None = None) -> None:
-        self._settings, self._start = settings, start or start_worker
+    def __init__(
+        self,
+        settings: Settings,
+        start: Start | None = None,
+        *,
+        told: Callable[[Ended], None] | None = None,
+    ) -> None:
+        self._settings, self._start, self._told = settings, start or start_worker, told
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="supervisor")
         self._heard = 0.0
@@ -81,8 +92,11 @@ class Supervisor:
     def _listen(self, process: "subprocess.Popen[bytes]") -> None:
         for line in process.stdout or ():
             self._heard = time.monotonic()
-            if line.strip() == READY:
+            word, _, content = line.strip().partition(b" ")
+            if word == READY:
                 self.ready.set()
+            elif word == ENDED and self._told is not None:
+                self._told(Ended(**json.loads(content)))
 
 
 def start_worker(settings: Settings) -> "subprocess.Popen[bytes]":

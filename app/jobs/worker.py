@@ -8,18 +8,24 @@ worker runs within the service or in a process of its own, as many of them as on
 import logging
 import threading
 import time
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 
+from app import journal
 from app.jobs.child import mistake
-from app.jobs.computation import Computation, Died, Failed, Finished, LogFile, Outcome
+from app.jobs.computation import Computation, Died, Ended, Failed, Finished, LogFile, Outcome, Stopped
 from app.jobs.executor import Executor
 from app.jobs.lives import Lives
 from app.jobs.presence import Presence
 from app.jobs.references import reference_file
-from app.problems import Problem, problem_of
+from app.lifecycle.retention import expire
+from app.problems import URN, Problem, problem_of
+from app.settings import Kept
 from app.store.errors import Unavailable
 from app.store.records import Document, JobRecord
 from app.store.store import Store
 from app.store.sweep import Sweep
+from app.store.work import Held
 from core.errors import VeritorqueError
 
 LOGGER = logging.getLogger(__name__)
@@ -29,7 +35,30 @@ BEAT_EVERY_S = 2.0
 SWEEP_EVERY_S = 60.0
 REPORT_EVERY_S = 0.2
 PAUSE_S = 1.0
-"""Time to wait where the database does not answer."""
+"""Time to wait where the database does not answer, or the disk is full."""
+OUTCOMES = {Finished: "successful", Failed: "failed", Died: "died", Stopped: "stopped"}
+
+
+@dataclass(frozen=True)
+class Capacity:
+    """Say how much a worker takes on.
+
+    Attributes
+    ----------
+    slots
+        Jobs at the same time.
+    most_per_tenant
+        Of these, jobs of one tenant.
+    timeout_s
+        Longest a job may compute, s.
+    retention_days
+        How long finished jobs and the like are kept; see `app.lifecycle.retention`.
+    """
+
+    slots: int
+    most_per_tenant: int
+    timeout_s: float
+    retention_days: Mapping[Kept, float]
 
 
 class Worker:
@@ -43,12 +72,10 @@ class Worker:
         What computes.
     robots
         Descriptions of the built-in robots by id.
-    slots
-        Jobs at the same time.
-    most_per_tenant
-        Of these, jobs of one tenant.
-    timeout_s
-        Longest a job may compute, s.
+    capacity
+        How much it takes on.
+    told
+        Hears how every computation went.
     """
 
     def __init__(
@@ -57,19 +84,24 @@ class Worker:
         executor: Executor,
         *,
         robots: dict[str, Document],
-        slots: int,
-        most_per_tenant: int,
-        timeout_s: float,
+        capacity: Capacity,
+        told: Callable[[Ended], None] | None = None,
     ) -> None:
         self._store, self._executor, self._robots = store, executor, robots
-        self._timeout_s, self._most_per_tenant = timeout_s, most_per_tenant
+        self._capacity, self._told = capacity, told
         self._presence = Presence(store.directory / "workers")
         self._lives, self._sweep = Lives(store, self._presence), Sweep(store)
         self._closing = threading.Event()
-        self._stops: dict[tuple[str, int], threading.Event] = {}
-        self._threads = [threading.Thread(target=self._serve, name=f"job-{n}") for n in range(slots)]
+        self._stops: dict[Held, threading.Event] = {}
+        self._forgotten: set[Held] = set()
+        self._threads = [threading.Thread(target=self._serve, name=f"job-{n}") for n in range(capacity.slots)]
         self._threads.append(threading.Thread(target=self._watch, name="watch"))
         self.ready = threading.Event()
+
+    @property
+    def alive(self) -> bool:
+        """Tell whether all that belongs to it works."""
+        return all(thread.is_alive() for thread in self._threads)
 
     def start(self) -> None:
         """Begin to work."""
@@ -95,7 +127,7 @@ class Worker:
     def _serve(self) -> None:
         while not self._closing.is_set():
             try:
-                job = self._store.work.claim(self._presence.name, most_per_tenant=self._most_per_tenant)
+                job = self._claim()
                 if job is None:
                     self._closing.wait(LOOK_EVERY_S)
                 else:
@@ -103,6 +135,13 @@ class Worker:
             except Unavailable as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
                 self._closing.wait(PAUSE_S)
+            except Exception:
+                LOGGER.exception("taking a job met a mistake of ours")
+                self._closing.wait(PAUSE_S)
+
+    def _claim(self) -> JobRecord | None:
+        most = self._capacity.most_per_tenant
+        return self._store.work.claim(self._presence.name, most_per_tenant=most)
 
     def _watch(self) -> None:
         beat = sweep = time.monotonic()
@@ -113,8 +152,10 @@ class Worker:
                 if now >= beat:
                     self._store.work.beat(self._presence.name)
                     self._lives.look()
+                    self._hand_back_what_is_forgotten()
                     beat = now + BEAT_EVERY_S
                 if now >= sweep:
+                    expire(self._store.database, self._capacity.retention_days)
                     self._sweep.look()
                     sweep = now + SWEEP_EVERY_S
             except Unavailable as error:
@@ -131,42 +172,70 @@ class Worker:
         for lost in running.keys() - held:
             running[lost].set()
 
+    def _hand_back_what_is_forgotten(self) -> None:
+        """Let go of jobs that this worker holds and does not know of, twice in a row.
+
+        The database had given them when the answer was cut off.
+        """
+        forgotten = self._store.work.held(self._presence.name) - self._stops.keys()
+        for held in forgotten & self._forgotten:
+            self._store.work.hand_back(held)
+        self._forgotten = forgotten
+
     def _see_through(self, job: JobRecord) -> None:
         held = (job.id, job.token)
         stop = self._stops[held] = threading.Event()
+        begun = time.monotonic()
         try:
-            outcome = self._outcome(job, stop)
-        except VeritorqueError as error:
-            outcome = Failed(problem_of(error).document())
-        except Problem as problem:
-            outcome = Failed(problem.document())
-        except Unavailable:
-            raise
-        except Exception:
-            LOGGER.exception("job %s met a mistake of ours", job.id)
-            outcome = Failed(mistake().document())
+            with journal.bound(job=job.id, trace=job.trace):
+                outcome = self._computed(job, stop)
+                self._settle(held, outcome)
+                self._tell(job, outcome, time.monotonic() - begun)
         finally:
             del self._stops[held]
-        self._settle(held, outcome)
+
+    def _computed(self, job: JobRecord, stop: threading.Event) -> Outcome:
+        """Compute a job, and give how that went, whatever happened."""
+        try:
+            return self._outcome(job, stop)
+        except VeritorqueError as error:
+            return Failed(problem_of(error).document())
+        except Problem as problem:
+            return Failed(problem.document())
+        except Unavailable as error:
+            LOGGER.warning("the job is handed back, for the database does not answer: %s", error.reason)
+            self._closing.wait(PAUSE_S)
+            return Stopped()
+        except Exception:
+            LOGGER.exception("the job met a mistake of ours")
+            return Failed(mistake().document())
 
     def _outcome(self, job: JobRecord, stop: threading.Event) -> Outcome:
         computation = self._computation(job)
         if self._closing.is_set():
             stop.set()
-        progress = _Reporter(self._store, (job.id, job.token))
-        return self._executor.run(computation, progress=progress, stop=stop, timeout_s=self._timeout_s)
+        progress, timeout_s = _Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
+        return self._executor.run(computation, progress=progress, stop=stop, timeout_s=timeout_s)
 
-    def _settle(self, held: tuple[str, int], outcome: Outcome) -> None:
-        """Write the outcome down, however long the database takes to answer."""
+    def _tell(self, job: JobRecord, outcome: Outcome, seconds: float) -> None:
+        problem = outcome.problem if isinstance(outcome, Failed | Died) else None
+        kind = None if problem is None else str(problem["type"]).removeprefix(URN)
+        ended = Ended(job.request.kind, OUTCOMES[type(outcome)], round(seconds, 6), kind)
+        LOGGER.info("computed", extra=asdict(ended))
+        if self._told is not None:
+            self._told(ended)
+
+    def _settle(self, held: Held, outcome: Outcome) -> None:
+        """Write the outcome down, however long the database or room on the disk takes to come."""
         while True:
             try:
                 return self._settled(held, outcome)
-            except Unavailable as error:
-                LOGGER.warning("the outcome of %s waits for the database: %s", held[0], error.reason)
+            except (Unavailable, OSError) as error:
+                LOGGER.warning("the outcome waits to be written: %s", error)
                 if self._closing.wait(PAUSE_S):
                     return None
 
-    def _settled(self, held: tuple[str, int], outcome: Outcome) -> None:
+    def _settled(self, held: Held, outcome: Outcome) -> None:
         if isinstance(outcome, Finished):
             self._store.keep_result(held, outcome.result)
         elif isinstance(outcome, Failed):
@@ -202,7 +271,7 @@ class Worker:
 class _Reporter:
     """Write progress to the store: every new stage, and fractions a few times a second."""
 
-    def __init__(self, store: Store, held: tuple[str, int]) -> None:
+    def __init__(self, store: Store, held: Held) -> None:
         self._store, self._held = store, held
         self._stage, self._next = "", 0.0
 
@@ -213,7 +282,7 @@ class _Reporter:
         try:
             self._store.work.report(self._held, stage=stage, fraction=fraction)
         except Unavailable as error:
-            LOGGER.warning("progress of %s is not written: %s", self._held[0], error.reason)
+            LOGGER.warning("progress is not written: %s", error.reason)
 
 
 def _gone(what: str, identity: str) -> Problem:

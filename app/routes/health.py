@@ -1,15 +1,15 @@
-"""Serve what an operator asks: does it live, is it ready, which version is it."""
+"""Serve what an operator asks: does it live, is it ready, how is it doing, which version is it."""
 
 import platform
 from importlib.metadata import version
 
-from fastapi import Response
+from fastapi import Request, Response
 from fastapi.responses import JSONResponse
 
+from app.callers import require_scope
 from app.openapi import problems
-from app.problems import Problem
 from app.routing import chapter
-from app.services import ServicesOf
+from app.services import CallerOf, ServicesOf
 from app.version import VERSION
 
 ROUTER = chapter(tag="service")
@@ -23,16 +23,24 @@ async def healthz() -> Response:
 
 
 @ROUTER.get("/readyz", response_model=dict[str, str], summary="Is it ready?", responses=problems(503))
-async def readyz(services: ServicesOf) -> Response:
-    """Answer once the solver is loaded; jobs are accepted before and wait for it."""
-    if not services.ready:
-        raise Problem(
-            "not-ready",
-            "the solver is being loaded; at the very first start it is compiled",
-            remedy="jobs may be sent and will wait; ask again in a few seconds",
-            headers={"Retry-After": "2"},
-        )
+def readyz(services: ServicesOf) -> Response:
+    """Answer while the database takes writes, a worker has the solver loaded, and the disk has room."""
+    services.readiness.require()
     return JSONResponse({"status": "ready"})
+
+
+@ROUTER.get(
+    "/metrics",
+    response_class=Response,
+    summary="Read the figures",
+    responses=problems(401, 403)
+    | {200: {"content": {"text/plain": {"schema": {"type": "string"}}}, "description": "For Prometheus"}},
+)
+def metrics(services: ServicesOf, caller: CallerOf, request: Request) -> Response:
+    """Give counts and times in Prometheus' form; where keys are needed, with one of scope admin."""
+    require_scope(caller, "admin")
+    content, media_type = services.metrics.written(request.headers.get("accept", ""))
+    return Response(content, media_type=media_type)
 
 
 @ROUTER.get("/version", response_model=dict[str, str | dict[str, str]], summary="Which version is it?")

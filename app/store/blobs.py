@@ -14,8 +14,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from app.store.errors import Unavailable
+from app.store.errors import Damaged, Unavailable
 
+PIECE = 1 << 20
 Mark = tuple[int, int]
 """Number of a file and when it was written: both differ where the same bytes were kept again."""
 
@@ -133,6 +134,27 @@ class BlobStore:
         """Say where the bytes of a hash are kept."""
         return self._kept / sha256[:2] / sha256
 
+    def read(self, sha256: str) -> bytes:
+        """Give the bytes of a hash.
+
+        Raises
+        ------
+        Damaged
+            If they are missing or not what they were.
+        """
+        self.check(sha256)
+        return self.path(sha256).read_bytes()
+
+    def check(self, sha256: str) -> None:
+        """Return where the bytes of a hash are what they were.
+
+        Raises
+        ------
+        Damaged
+            If they are missing or not what they were.
+        """
+        check_file(self.path(sha256), sha256)
+
     def marks(self) -> dict[str, Mark]:
         """List all bytes that are kept, with what tells whether they were kept again meanwhile."""
         return {path.name: mark for path in self._kept.glob("??/*") for mark in [_mark(path)] if mark}
@@ -162,6 +184,23 @@ def _room() -> Iterator[None]:
         if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             raise Unavailable("the disk is full") from error
         raise
+
+
+def check_file(path: Path, sha256: str) -> None:
+    """Return where the bytes of a file have a hash.
+
+    Raises
+    ------
+    Damaged
+        If they have another one, or cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            found = hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise Damaged(sha256, f"it cannot be read: {error.strerror}") from None
+    if found != sha256:
+        raise Damaged(sha256, f"its hash is {found}")
 
 
 def _mark(path: Path) -> Mark | None:

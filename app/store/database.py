@@ -76,6 +76,21 @@ class Database:
         except OperationalError as error:
             raise Unavailable(str(error.orig)) from None
 
+    def snapshot(self, work: Work[Given]) -> Given:
+        """Run a unit of work that reads all as it is at one instant, however long it takes.
+
+        Raises
+        ------
+        Unavailable
+            If the database does not answer.
+        """
+        level = {} if self.embedded else {"isolation_level": "REPEATABLE READ"}  # SQLite reads so anyway
+        try:
+            with self._engine.connect().execution_options(**level) as connection:
+                return work(connection)
+        except OperationalError as error:
+            raise Unavailable(str(error.orig)) from None
+
     def write(self, work: Work[Given]) -> Given:
         """Run a unit of work, and give what it gives once that is on the disk.
 

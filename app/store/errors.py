@@ -17,6 +17,14 @@ class OverQuota(Exception):  # noqa: N818 - it is what it says
         self.what, self.most, self.setting = what, most, setting
 
 
+class Damaged(Exception):  # noqa: N818 - it is what it says
+    """Say that bytes are not what they were when they were kept."""
+
+    def __init__(self, sha256: str, evidence: str) -> None:
+        super().__init__(sha256, evidence)
+        self.sha256, self.evidence = sha256, evidence
+
+
 class Unavailable(Exception):  # noqa: N818 - it is what it says
     """Say that the database cannot be reached or written, and why."""
 

@@ -42,17 +42,23 @@ class JobStore:
     def __init__(self, database: Database, tenant: str, quota: Quota = UNBOUNDED) -> None:
         self._database, self._tenant, self._quota = database, tenant, quota
 
-    def add(self, request: JobRequestRecord, *, key: str | None = None) -> JobRecord:
+    def add(
+        self, request: JobRequestRecord, *, key: str | None = None, trace: str | None = None
+    ) -> JobRecord:
         """Queue a job and wait until it is; see `begin_to_add`."""
-        return self.begin_to_add(request, key=key).result()
+        return self.begin_to_add(request, key=key, trace=trace).result()
 
-    def begin_to_add(self, request: JobRequestRecord, *, key: str | None = None) -> "Future[JobRecord]":
+    def begin_to_add(
+        self, request: JobRequestRecord, *, key: str | None = None, trace: str | None = None
+    ) -> "Future[JobRecord]":
         """Queue a job, or find the one that asked for the same.
 
         Parameters
         ----------
         key
             What a client calls its request, so that it can send it twice and mean it once.
+        trace
+            Id of the trace that the request belongs to; a job keeps that of the first one.
 
         Raises
         ------
@@ -70,7 +76,8 @@ class JobStore:
                 take_turns(connection, f"{self._tenant} {key}")
             take_turns(connection, fingerprint)
             known = None if key is None else self._repeated(connection, key, digest)
-            found = known or self._alike(connection, fingerprint) or self._new(connection, asked, fingerprint)
+            found = known or self._alike(connection, fingerprint)
+            found = found or self._new(connection, asked, fingerprint, trace)
             if key is not None and known is None:
                 values = {"tenant": self._tenant, "key": key, "digest": digest, "job_id": found.id}
                 connection.execute(insert(REPEATS).values(values | {"created_at": now()}))
@@ -140,13 +147,14 @@ class JobStore:
         row = connection.execute(ALIKE, {"tenant": self._tenant, "fingerprint": fingerprint}).one_or_none()
         return None if row is None else job_record(row)
 
-    def _new(self, connection: Connection, asked: bytes, fingerprint: str) -> JobRecord:
+    def _new(self, connection: Connection, asked: bytes, fingerprint: str, trace: str | None) -> JobRecord:
         refuse_another_job(connection, self._tenant, self._quota)
         values = {
             "tenant": self._tenant,
             "id": "job-" + secrets.token_hex(10),
             "fingerprint": fingerprint,
             "request": asked.decode(),
+            "trace": trace,
             "state": "accepted",
             "stage": "",
             "fraction": 0.0,

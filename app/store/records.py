@@ -1,9 +1,10 @@
 """Hold what the store gives back: plain frozen records, which know nothing of tables or of HTTP."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 State = Literal["accepted", "running", "successful", "failed", "dismissed"]
+STATES: tuple[State, ...] = get_args(State)
 Document = dict[str, object]
 UNFINISHED: tuple[State, ...] = ("accepted", "running")
 
@@ -69,6 +70,8 @@ class JobRecord:
 
     Attributes
     ----------
+    trace
+        Id of the trace that the request belonged to.
     token
         How often it was taken; who took it earlier no longer has a say.
     version
@@ -79,6 +82,7 @@ class JobRecord:
     id: str
     sequence: int
     request: JobRequestRecord
+    trace: str | None
     state: State
     stage: str
     fraction: float

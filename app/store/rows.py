@@ -21,6 +21,7 @@ def job_record(row: Row[Any]) -> JobRecord:
         id=row.id,
         sequence=row.sequence,
         request=request_record(row.request),
+        trace=row.trace,
         state=row.state,
         stage=row.stage,
         fraction=row.fraction,

@@ -13,6 +13,7 @@ from app.store.database import Database
 from app.store.jobs import JobStore
 from app.store.logs import LogStore, log_id
 from app.store.many import ManyJobs
+from app.store.migrations.upgrade import touch
 from app.store.records import UNBOUNDED, Document, LogRecord, Quota
 from app.store.robots import RobotStore
 from app.store.tables import JOBS, LOGS
@@ -59,12 +60,30 @@ class Store:
         sha256 = self.blobs.put(result)
         return self.work.succeed(held, result_sha256=sha256, result_bytes=len(result))
 
+    def prove_writable(self) -> None:
+        """Write to the database what it holds already.
+
+        Raises
+        ------
+        Unavailable
+            If it cannot be written.
+        """
+        self.database.write(touch)
+
     def needed(self) -> set[str]:
         """List the hashes of all bytes that a record needs."""
         query = union_all(
             select(LOGS.c.sha256), select(JOBS.c.result_sha256).where(JOBS.c.result_sha256.is_not(None))
         )
         return self.database.read(lambda connection: set(connection.execute(query).scalars()))
+
+    def users(self, hashes: list[str]) -> list[str]:
+        """List the ids of the logs and jobs of all tenants that need bytes."""
+        query = union_all(
+            select(LOGS.c.id).where(LOGS.c.sha256.in_(hashes)),
+            select(JOBS.c.id).where(JOBS.c.result_sha256.in_(hashes)),
+        )
+        return self.database.read(lambda connection: list(connection.execute(query).scalars()))
 
     def needs(self, sha256: str) -> bool:
         """Tell whether a record needs the bytes of a hash."""

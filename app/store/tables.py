@@ -62,6 +62,7 @@ JOBS = Table(
     Column("id", String, nullable=False, unique=True),
     Column("fingerprint", String, nullable=False),
     Column("request", Text, nullable=False),
+    Column("trace", String),
     Column("state", String, nullable=False),
     Column("stage", String, nullable=False),
     Column("fraction", Float, nullable=False),
@@ -116,4 +117,9 @@ def one_of(column: Column[Any], values: Iterable[str]) -> ColumnElement[bool]:
 
 def now() -> str:
     """Give the time as ISO 8601 in UTC with milliseconds."""
-    return datetime.now(UTC).isoformat(timespec="milliseconds")
+    return written(datetime.now(UTC))
+
+
+def written(time: datetime) -> str:
+    """Write a time in UTC such that later times sort after earlier ones."""
+    return time.isoformat(timespec="milliseconds")

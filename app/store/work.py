@@ -122,6 +122,11 @@ class WorkStore:
 
         return self._database.write(work)
 
+    def count(self) -> dict[str, int]:
+        """Count the jobs of all tenants by state."""
+        query = select(JOBS.c.state, func.count().label("jobs")).group_by(JOBS.c.state)
+        return self._database.read(lambda c: {row.state: row.jobs for row in c.execute(query)})
+
     def _any_waits(self) -> bool:
         query = select(JOBS.c.sequence).where(JOBS.c.state == "accepted").limit(1)
         return self._database.read(lambda connection: connection.execute(query).first() is not None)

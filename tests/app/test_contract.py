@@ -41,6 +41,7 @@ PROMISED = {
     "/v1/identify": {"POST"},
     "/healthz": {"GET"},
     "/readyz": {"GET"},
+    "/metrics": {"GET"},
     "/version": {"GET"},
 }
 
@@ -221,5 +222,5 @@ def test_a_service_that_still_loads_the_solver_is_alive_but_not_ready(tmp_path):
         assert_problem(client.get("/readyz"), 503, "not-ready")
         assert client.post("/v1/robots", json=description()).status_code == 201
         Loading.gate.set()
-        client.app.state.services.worker.ready.wait(5.0)
+        client.app.state.services.computing.ready.wait(5.0)
         assert client.get("/readyz").json() == {"status": "ready"}

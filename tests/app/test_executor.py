@@ -53,7 +53,6 @@ def test_a_computation_that_takes_too_long_is_ended_with_a_reason():
         (work.refuse, Failed, "excitation", 422),
         (work.stumble, Failed, "internal", 500),
         (work.not_finite, Failed, "internal", 500),
-        (work.exhaust, Failed, "computation-stopped", 500),
         (work.vanish, Died, "computation-stopped", 500),
         (work.leave, Died, "computation-stopped", 500),
     ],

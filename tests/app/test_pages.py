@@ -143,6 +143,7 @@ def test_an_age_is_counted_from_the_request_to_now():
         id="job-1",
         sequence=1,
         request=JobRequestRecord("identify", "yumi", ("a", "b", "c", "d", "e"), {}),
+        trace=None,
         state="running",
         stage="estimate",
         fraction=0.5,

@@ -32,8 +32,20 @@ def stumble(computation, progress):
     raise KeyError("a secret of ours")
 
 
-def exhaust(computation, progress):
-    raise MemoryError
+def hoard(computation, progress):
+    kept = [np.ones(2**24) for _ in range(64)]  # 128 MiB each
+    return {"kept": len(kept)}
+
+
+def spin(computation, progress):
+    signal.signal(signal.SIGALRM, lambda *_: progress("spun", 1.0))
+    while True:
+        pass
+
+
+def name_your_cpus(computation, progress):
+    progress(" ".join(map(str, os.sched_getaffinity(0))), 0.0)
+    time.sleep(60.0)
 
 
 def vanish(computation, progress):

@@ -56,7 +56,7 @@ def main() -> None:
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as directory:
         done = examine(Path(directory), cases=asked.cases, seed=asked.seed)
-    print(done.stdout + done.stderr)  # noqa: T201
+    print(done.stdout + done.stderr)
     sys.exit(done.returncode)
 
 

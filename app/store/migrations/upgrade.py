@@ -37,6 +37,11 @@ def revision(connection: Connection) -> str | None:
     return str(connection.execute(text("SELECT version_num FROM alembic_version")).scalar_one())
 
 
+def touch(connection: Connection) -> None:
+    """Note again which step the database is at, which takes a write."""
+    connection.execute(text("UPDATE alembic_version SET version_num = version_num"))
+
+
 def create(connection: Connection) -> None:
     """Lay out an empty database as the last step leaves it."""
     METADATA.create_all(connection)

@@ -38,6 +38,7 @@ def upgrade() -> None:
         sa.Column("id", sa.String, nullable=False, unique=True),
         sa.Column("fingerprint", sa.String, nullable=False),
         sa.Column("request", sa.Text, nullable=False),
+        sa.Column("trace", sa.String),
         sa.Column("state", sa.String, nullable=False),
         sa.Column("stage", sa.String, nullable=False),
         sa.Column("fraction", sa.Float, nullable=False),

@@ -1,0 +1,151 @@
+"""Examine what is kept, and say of each thing that is wrong what to do about it.
+
+It changes nothing but for a probe that it takes back, and may run while the service does.
+"""
+
+import os
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from sqlalchemy import func, select, text
+from sqlalchemy.exc import SQLAlchemyError
+
+from app.settings import Settings
+from app.store.errors import Damaged, Unavailable
+from app.store.store import Store
+from app.store.tables import METADATA
+
+OTHERS_MAY = 0o077
+SHOWN = 5
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Say what was looked at and seen.
+
+    Attributes
+    ----------
+    subject
+        What was looked at.
+    seen
+        What is the case.
+    remedy
+        What to do; empty where all is well.
+    harm
+        Whether something is lost, wrong or will stop; otherwise a remedy is advice.
+    """
+
+    subject: str
+    seen: str
+    remedy: str = ""
+    harm: bool = False
+
+
+def examine(settings: Settings) -> Iterator[Finding]:
+    """Look at everything, and give what was found as it is found."""
+    directory = settings.data_dir
+    if not directory.is_dir():
+        remedy = "set VERITORQUE_DATA_DIR, or start the service once"
+        yield _wrong("directory", f"{directory} does not exist", remedy)
+        return
+    yield from _directory(directory)
+    yield _disk(settings)
+    try:
+        store = Store(directory, settings.database_url)
+    except (SQLAlchemyError, Unavailable, OSError) as error:
+        yield _unreachable(settings, error)
+        return
+    try:
+        yield from _database(store)
+        yield from _blobs(store)
+    except (SQLAlchemyError, Unavailable) as error:
+        yield _unreachable(settings, error)
+    finally:
+        store.close()
+
+
+def _directory(directory: Path) -> Iterator[Finding]:
+    foreign = [path for path in _all(directory) if path.stat().st_uid != os.getuid()]
+    closed = [path for path in _all(directory) if not os.access(path, os.R_OK | os.W_OK)]
+    if closed:
+        remedy = f"as the owner: chmod --recursive u+rwX {directory}"
+        yield _wrong("permissions", f"may not be read and written: {_some(closed)}", remedy)
+    elif foreign:
+        remedy = f"chown --recursive {os.getuid()} {directory}, and run this as the service's user"
+        yield Finding("permissions", f"belong to another user: {_some(foreign)}", remedy)
+    elif directory.stat().st_mode & OTHERS_MAY:
+        yield Finding("permissions", "other users may look into the directory", f"chmod 700 {directory}")
+    else:
+        yield Finding("permissions", "everything belongs to this user and nobody else may look")
+
+
+def _disk(settings: Settings) -> Finding:
+    free, reserve = shutil.disk_usage(settings.data_dir).free, settings.disk_reserve_bytes
+    if free < reserve:
+        remedy = "make room, delete logs and jobs, run: veritorque gc, or lower VERITORQUE_DISK_RESERVE_BYTES"
+        return _wrong("disk", f"{free} bytes are free, the reserve is {reserve}", remedy)
+    return Finding("disk", f"{free} bytes are free, the reserve is {reserve}")
+
+
+def _unreachable(settings: Settings, error: Exception) -> Finding:
+    reason = str(getattr(error, "orig", None) or error).strip().splitlines()[0]
+    if settings.database_url is None:
+        remedy = "stop the service, move the data directory aside, and restore a backup into a new one"
+    else:
+        remedy = "see that PostgreSQL runs, and that VERITORQUE_DATABASE_URL names it with user and password"
+    return _wrong("database", reason, remedy)
+
+
+def _database(store: Store) -> Iterator[Finding]:
+    if store.database.embedded:
+        told = store.database.read(lambda c: c.execute(text("PRAGMA integrity_check")).scalars().all())
+        if list(told) != ["ok"]:
+            remedy = "stop the service, move the data directory aside, and restore a backup into a new one"
+            yield _wrong("database", f"SQLite finds: {'; '.join(told[:SHOWN])}", remedy)
+            return
+    store.prove_writable()
+    counts = store.database.read(
+        lambda c: {
+            table.name: c.execute(select(func.count()).select_from(table)).scalar_one()
+            for table in METADATA.sorted_tables
+        }
+    )
+    yield Finding("database", "whole and writable: " + ", ".join(f"{n} {name}" for name, n in counts.items()))
+
+
+def _blobs(store: Store) -> Iterator[Finding]:
+    kept = store.blobs.marks().keys()
+    needed = store.needed()  # after the look at the files: bytes come before what needs them
+    damaged = []
+    for sha256 in sorted(kept & needed):
+        try:
+            store.blobs.check(sha256)
+        except Damaged as error:
+            damaged.append(f"{sha256} ({error.evidence})")
+    missing = [sha256 for sha256 in sorted(needed - kept) if not store.blobs.path(sha256).exists()]
+    lost = "restore them from a backup, or delete the logs and jobs that need them: "
+    for subject, found in (("damaged bytes", damaged), ("missing bytes", missing)):
+        if found:
+            users = store.users([one.split()[0] for one in found[:SHOWN]])
+            yield _wrong(subject, f"{len(found)}: {_some(found)}", lost + _some(users))
+    if not damaged and not missing:
+        yield Finding("bytes", f"{len(needed)} files that logs and jobs need are there and have their hashes")
+    orphans = kept - needed
+    if orphans:
+        yield Finding("bytes", f"{len(orphans)} files are not needed by anything", "run: veritorque gc")
+
+
+def _all(directory: Path) -> Iterator[Path]:
+    yield directory
+    yield from directory.rglob("*")
+
+
+def _wrong(subject: str, seen: str, remedy: str) -> Finding:
+    return Finding(subject, seen, remedy, harm=True)
+
+
+def _some(of_them: list[str] | list[Path]) -> str:
+    shown = ", ".join(str(one) for one in of_them[:SHOWN])
+    return shown + (" ..." if len(of_them) > SHOWN else "")

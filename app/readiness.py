@@ -1,0 +1,114 @@
+"""Find out whether the service can do its work: the database takes writes, a worker lives, the disk has room.
+
+Probes may come often and from anybody, so that the database is asked once a second at most.
+"""
+
+import shutil
+import threading
+import time
+from collections.abc import Callable
+
+from app.problems import Problem
+from app.settings import Settings
+from app.store.errors import Unavailable
+from app.store.store import Store
+
+FRESH_S = 1.0
+PATIENCE_S = 1.0
+"""How long a probe waits for the one before it."""
+
+
+class Readiness:
+    """Look at what the service needs.
+
+    Parameters
+    ----------
+    worker_alive
+        Whether somebody computes, as far as this service knows.
+    worker_ready
+        Whether whoever computes has loaded the solver.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        settings: Settings,
+        *,
+        worker_alive: Callable[[], bool],
+        worker_ready: Callable[[], bool],
+    ) -> None:
+        self._store, self._settings = store, settings
+        self._worker_alive, self._worker_ready = worker_alive, worker_ready
+        self._looking = threading.Lock()
+        self._refused: str | None = None
+        self._until = 0.0
+
+    def require(self) -> None:
+        """Return where the service can do its work.
+
+        Raises
+        ------
+        Problem
+            If it cannot, with the first of the reasons and the remedy (503).
+        """
+        for problem in (self._database(), self._disk(), self._worker()):
+            if problem is not None:
+                raise problem
+
+    def _database(self) -> Problem | None:
+        refused = self._refusal()
+        if refused is None:
+            return None
+        return _not_ready(
+            "the database cannot be written",
+            {"reason": refused},
+            "see whether its disk is full, its files are writable, and its server runs",
+        )
+
+    def _refusal(self) -> str | None:
+        """Say why the database takes no writes; None where it does."""
+        if not self._looking.acquire(timeout=PATIENCE_S):
+            return f"it has not answered for {PATIENCE_S:g} s"
+        try:
+            if time.monotonic() >= self._until:
+                self._refused = self._write()
+                self._until = time.monotonic() + FRESH_S
+            return self._refused
+        finally:
+            self._looking.release()
+
+    def _write(self) -> str | None:
+        try:
+            self._store.prove_writable()
+        except Unavailable as error:
+            return error.reason
+        return None
+
+    def _disk(self) -> Problem | None:
+        free, reserve = shutil.disk_usage(self._settings.data_dir).free, self._settings.disk_reserve_bytes
+        if free >= reserve:
+            return None
+        return _not_ready(
+            "the disk has less room than its reserve",
+            {"free_bytes": free, "reserve_bytes": reserve},
+            "make room, delete logs and jobs, or run: veritorque gc",
+        )
+
+    def _worker(self) -> Problem | None:
+        if not self._worker_ready():
+            return _not_ready(
+                "the solver is being loaded; at the very first start it is compiled",
+                {},
+                "jobs may be sent and will wait; ask again in a few seconds",
+            )
+        if not self._worker_alive():
+            return _not_ready(
+                "the worker is not heard; another is started in its place",
+                {},
+                "jobs may be sent and will wait; the service's own log says why it ended",
+            )
+        return None
+
+
+def _not_ready(cause: str, evidence: dict[str, object], remedy: str) -> Problem:
+    return Problem("not-ready", cause, evidence=evidence, remedy=remedy, headers={"Retry-After": "2"})

@@ -1,0 +1,58 @@
+"""Count what went wrong: nothing else may differ from a service that nobody ever touched."""
+
+from dataclasses import dataclass
+
+from app.documents import json_bytes
+from app.jobs.computation import Computation, LogFile
+from app.settings import LOCAL
+from app.store.store import Store
+from tests.chaos.work import compute
+
+
+@dataclass
+class Figures:
+    """Count jobs and what went wrong with them; all but the first two have to be zero."""
+
+    jobs: int = 0
+    asked_again: int = 0
+    lost: int = 0
+    double: int = 0
+    wrong: int = 0
+    changed: int = 0
+    orphans: int = 0
+    harm: int = 0
+
+    @property
+    def clean(self):
+        return (
+            self.jobs > 0
+            and self.lost + self.double + self.wrong + self.changed + self.orphans + self.harm == 0
+        )
+
+
+def compare(customer, store):
+    """Hold every answer against what the customer was promised and against a computation in peace."""
+    figures = Figures(len(customer.jobs), customer.asked_again)
+    for number in customer.jobs:
+        job, result = customer.read(number)
+        figures.lost += job["state"] != "successful"
+        figures.changed += job != customer.finished[number]
+        figures.wrong += result != expected(store, customer.request(number))
+    figures.double = _count(store) - len(customer.jobs) - customer.asked_again
+    return figures
+
+
+def expected(store, request):
+    """Compute a request in this process, in peace."""
+    mine = store.of(LOCAL)
+    robot, logs = mine.robots.get(request["robot"]), [mine.logs.get(one) for one in request["logs"]]
+    files = tuple(
+        LogFile(store.blobs.path(log.sha256), str(log.summary["name"]), log.summary["mapping"], log.sha256)
+        for log in logs
+    )
+    asked = Computation(request["kind"], robot.description, files, request["options"])
+    return json_bytes(compute(asked, lambda stage, fraction: None))
+
+
+def _count(store: Store):
+    return sum(store.work.count().values())

@@ -1,0 +1,41 @@
+"""Be the service and its workers in every respect, but for what is computed: see `tests.chaos.work`.
+
+The imports stand inside, because every process that computes a job loads this module again.
+"""
+
+import os
+import subprocess
+import sys
+
+
+def main():
+    """Run a command of the service."""
+    from app import services
+    from app.cli import main as command
+    from app.jobs import process, supervisor
+
+    process.executor_of = services.executor_of = _executor
+    supervisor.start_worker = _start_worker
+    command()
+
+
+def _executor(settings):
+    from app.jobs.executor import ProcessExecutor
+    from app.jobs.limits import Limits
+    from tests.chaos.work import compute
+
+    limits = Limits(settings.job_memory_bytes, settings.job_cpus)
+    return ProcessExecutor(compute, limits=limits, preload=("tests.chaos.work",))
+
+
+def _start_worker(settings):
+    return subprocess.Popen(
+        [sys.executable, "-m", "tests.chaos.service", "work", "--beside"],
+        env={**os.environ, **settings.environment()},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+
+
+if __name__ == "__main__":
+    main()

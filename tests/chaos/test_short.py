@@ -1,0 +1,22 @@
+"""The short form of the storm; `make chaos` is the long one."""
+
+import pytest
+
+from tests.app.postgres import cluster, new_database
+from tests.chaos.run import chaos
+
+
+@pytest.mark.slow
+def test_no_job_is_lost_or_double_when_processes_are_killed_and_frozen():
+    figures, storm = chaos(jobs=24, kills=8, freezes=1, seed=5)
+    assert sum(storm.kills.values()) >= 8
+    assert storm.freezes >= 1
+    assert figures.clean, figures
+
+
+@pytest.mark.slow
+def test_no_job_is_lost_or_double_on_postgresql():
+    with cluster() as folder:
+        figures, storm = chaos(jobs=24, kills=8, freezes=0, seed=6, url=new_database(folder))
+    assert sum(storm.kills.values()) >= 8
+    assert figures.clean, figures

@@ -1,0 +1,1 @@
+"""Lead jobs through every turn that their life can take, and tenants past each other."""
