@@ -24,9 +24,8 @@ PROGRESS, RESULT, FAILURE, TRACE = b"p", b"r", b"f", b"t"
 
 def compute(pipe: Connection, work: Work, computation: Computation, limits: Limits, timeout_s: float) -> None:
     """Do the work within its limits and send its outcome; the entry point of the process."""
-    signal.signal(
-        signal.SIGINT, signal.SIG_IGN
-    )  # Ctrl-C is for the service, which then stops its computations
+    for told in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(told, signal.SIG_IGN)  # they are for the service, which then stops its computations
     threading.Thread(target=_end_with_the_service, args=(pipe,), daemon=True).start()
     limits.hold(seconds=timeout_s)
     sending = threading.Lock()

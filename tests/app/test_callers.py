@@ -95,8 +95,8 @@ def test_the_same_request_of_two_tenants_is_two_jobs(guarded, made):
 def test_a_key_that_was_revoked_is_refused(guarded, made):
     header = made("leaving")
     services = guarded.app.state.services
-    known = services.keys.find(header["Authorization"].split()[1])
     assert guarded.get("/v1/jobs", headers=header).status_code == 200
+    known = services.keys.find(header["Authorization"].split()[1])
     assert KeyStore(services.store.database).revoke(known.id)
     services.keys._until = 0.0
     assert_problem(guarded.get("/v1/jobs", headers=header), 401, "no-key")
