@@ -19,6 +19,8 @@ from app.settings import Settings
 LOGGER = logging.getLogger(__name__)
 SILENCE_S = 10.0
 """A worker that writes nothing for so long is frozen."""
+START_S = 120.0
+"""What it may take until its first word: on a busy machine the libraries alone take long to load."""
 LOOK_EVERY_S = 0.5
 PAUSES_S = (0.0, 0.5, 2.0, 5.0)
 """Before a worker is started again, by how often in a row that failed at once."""
@@ -74,7 +76,7 @@ class Supervisor:
         while not self._closing.wait(PAUSES_S[min(failures, len(PAUSES_S) - 1)]):
             begun = time.monotonic()
             with self._start(self._settings) as process:
-                self._heard = begun
+                self._heard = begun + START_S - SILENCE_S
                 threading.Thread(target=self._listen, args=(process,), daemon=True).start()
                 self._watch(process)
                 _end(process)

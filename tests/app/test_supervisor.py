@@ -74,6 +74,19 @@ def test_a_worker_that_is_killed_is_replaced():
         until(lambda: len(started) == 2)
 
 
+def test_a_worker_that_takes_long_to_start_is_waited_for(monkeypatch):
+    monkeypatch.setattr(module, "SILENCE_S", 0.2)
+    with supervised(f"import time\ntime.sleep(1.0)\n{SPEAKS}") as (watching, started):
+        until(watching.ready.is_set)
+        assert len(started) == 1
+
+
+def test_a_worker_that_never_starts_is_replaced(monkeypatch):
+    monkeypatch.setattr(module, "START_S", 0.5)
+    with supervised("import time\ntime.sleep(60)") as (_, started):
+        until(lambda: len(started) > 1)
+
+
 def test_a_worker_that_falls_silent_is_killed_and_replaced(monkeypatch):
     monkeypatch.setattr(module, "SILENCE_S", 1.0)
     with supervised(FALLS_SILENT) as (_, started):
