@@ -11,6 +11,7 @@ CHECKED_PACKAGES = (
     "core.diagnosis",
     "core.dynamics",
     "core.estimate",
+    "core.export",
     "core.extension",
     "core.log",
     "core.precision",

@@ -7,6 +7,8 @@ in the document, so that a report can be drawn from it alone, at any time.
 from typing import cast
 
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
+from core.export.identified import BaseValue, IdentifiedRobot
+from core.export.model_file import model_document
 from core.extension.gain import JointGain
 from core.extension.motion_gain import motion_intervals
 from core.extension.repair import repairs
@@ -115,7 +117,23 @@ def _extended(before: Identification, after: Identification) -> dict[str, object
             "objective": after.estimate.objective,
             "objective_ols": after.estimate.objective_unconstrained,
         },
+        "model": model_document(_identified(after)),
     }
+
+
+def _identified(found: Identification) -> IdentifiedRobot:
+    """Give what was identified as files want it."""
+    base = found.base
+    rows = range(len(base.kept))
+    return IdentifiedRobot(
+        model=base.model,
+        standard=found.estimate.standard,
+        identifiable=tuple(base.identifiability(column) for column in range(len(base.model.parameters))),
+        base=tuple(
+            BaseValue(base.names[row], base.parameter(row).unit, float(value), base.in_words(row))
+            for row, value in zip(rows, found.estimate.base, strict=True)
+        ),
+    )
 
 
 def _simulation(motion: Comparison | None, note: str) -> dict[str, object]:

@@ -12,10 +12,8 @@ import numpy as np
 
 from core.arrays import Matrix
 from core.diagnosis.reference import Reference, doubted
-from core.dynamics.model import DynamicModel, standard_model
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
 from core.errors import OptionError
+from core.export.reading import model_of_result
 from core.reduction.base import base_model
 from core.robot.description import robot_from_description
 from core.robot.likeness import differences
@@ -40,7 +38,7 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
         If the result is another robot's, or does not say how well its parameters are known together.
     """
     _check_robot(document, robot, name)
-    model = _model(document, robot)
+    model = model_of_result(document, robot)
     base = base_model(model)
     rows = {one["name"]: one for one in document["base_parameters"]}
     standard = {one["name"]: one["value"] for one in document["standard_parameters"]}
@@ -96,19 +94,3 @@ def _check_robot(document: Document, robot: RobotModel, name: str) -> None:
             evidence={"reference": name, "differ": list(differing)},
             remedy="name a job of the same robot, with the same table, gravity and declared friction",
         )
-
-
-def _model(document: Document, robot: RobotModel) -> DynamicModel:
-    """Build the model that the result was identified with."""
-    terms = document["provenance"]["options"].get("terms")
-    model = standard_model(robot, None if terms is None else tuple(terms))
-    widths = tuple(document["coulomb_smoothing_widths"])
-    if not widths:
-        return model
-    names = {term.name for term in model.terms}
-    if "coulomb" in names:
-        model = model.with_term(Coulomb(widths))
-    if robot.couplings and "coupling" in names:
-        coupled = tuple(max(widths[joint - 1] for joint in one.joints) for one in robot.couplings)
-        model = model.with_term(GearCoupling(coupled))
-    return model

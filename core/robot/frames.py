@@ -32,6 +32,26 @@ def rotation_rpy(roll: float, pitch: float, yaw: float) -> Rotation:
     return np.asarray(rotation_z(yaw) @ rotation_y(pitch) @ rotation_x(roll))
 
 
+def rpy_of_rotation(rotation: Rotation) -> Vector3:
+    """Give roll, pitch and yaw about the fixed axes x, y, z, in rad; the inverse of `rotation_rpy`.
+
+    Notes
+    -----
+    Where x points up or down, yaw and roll are one angle and any share of it may go to yaw. Pitch and roll
+    are read off what the chosen yaw leaves, so that all digits of the rotation come back there too.
+
+    Examples
+    --------
+    >>> rpy_of_rotation(rotation_y(np.pi / 2))[1] == np.pi / 2
+    np.True_
+    """
+    yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
+    rest = rotation_z(-yaw) @ rotation
+    pitch = np.arctan2(-rest[2, 0], rest[0, 0])
+    roll = np.arctan2(-rest[1, 2], rest[1, 1])
+    return np.array([roll, pitch, yaw])
+
+
 def rotation_to(axis: Vector3) -> Rotation:
     """Give a rotation whose third column is the given unit axis.
 

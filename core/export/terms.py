@@ -1,0 +1,106 @@
+"""Write torque terms as data and make them again, whatever effect they model.
+
+A term is a frozen dataclass: its class's name and its fields say all of it. The one field that is no plain
+value is the prediction that some effects are built on; it is a model with numbers, kept in a list of its own
+and named by its place there, because many terms share it.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, fields, is_dataclass
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Any, cast
+
+import numpy as np
+
+from core.dynamics import terms as package
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.errors import RobotError
+from core.robot.model import Coupling
+
+NAME = "name"
+"""The field of a standard term that never differs from its default."""
+
+
+@cache
+def known_terms() -> Mapping[str, type]:
+    """List the classes of all torque terms by their name."""
+    modules = [import_module(f"{package.__name__}.{one.name}") for one in iter_modules(package.__path__)]
+    return {
+        kind.__name__: kind
+        for module in modules
+        for kind in vars(module).values()
+        if isinstance(kind, type) and kind.__module__ == module.__name__ and _is_term(kind)
+    }
+
+
+def term_fields(term: Term, beliefs: list[Prediction]) -> dict[str, object]:
+    """Write what a term was made with; predictions are appended to `beliefs` unless they are there."""
+    return {name: _plain(getattr(term, name), beliefs) for name, _ in _own_fields(type(term))}
+
+
+def term_of(kind: str, values: Mapping[str, Any], beliefs: Sequence[Prediction]) -> Term:
+    """Make a term again.
+
+    Raises
+    ------
+    RobotError
+        If there is no such term, or it is not made with these fields.
+    """
+    known = known_terms()
+    wanted = dict(_own_fields(known[kind])) if kind in known else {}
+    if kind not in known or set(values) != set(wanted):
+        raise RobotError(
+            f"the model names a torque term that is not known: {kind[:80]}",
+            evidence={"fields": list(values)[:10], "wanted": list(wanted), "known": sorted(known)},
+            remedy="read the file with the version that wrote it",
+        )
+    made = {name: _read(values[name], annotation, beliefs) for name, annotation in wanted.items()}
+    return cast("Term", known[kind](**made))
+
+
+def _is_term(kind: type) -> bool:
+    concrete = hasattr(kind, "series") and getattr(kind, "kind", None) != ""
+    return is_dataclass(kind) and concrete
+
+
+def _own_fields(kind: type) -> Iterator[tuple[str, object]]:
+    return ((one.name, one.type) for one in fields(kind) if one.name != NAME)
+
+
+def _plain(value: object, beliefs: list[Prediction]) -> object:
+    if isinstance(value, Prediction):
+        if not any(one is value for one in beliefs):
+            beliefs.append(value)
+        return next(place for place, one in enumerate(beliefs) if one is value)
+    if isinstance(value, Coupling):
+        return asdict(value)
+    if isinstance(value, tuple):
+        return [_plain(one, beliefs) for one in value]
+    if isinstance(value, float | np.floating):
+        return float(value) if np.isfinite(value) else str(float(value))  # JSON knows no infinity
+    return value
+
+
+def _read(value: Any, annotation: object, beliefs: Sequence[Prediction]) -> object:  # noqa: ANN401  (JSON)
+    if annotation is Prediction:
+        return beliefs[int(value)]
+    if annotation is Coupling:
+        return Coupling(
+            str(value["name"]),
+            int(value["number"]),
+            _numbers(value["joints"], int),
+            _numbers(value["weights"]),
+        )
+    if annotation is float:
+        return float(value)
+    if isinstance(value, list):
+        return _numbers(value)
+    return value
+
+
+def _numbers(value: Any, kind: type[int | float] = float) -> tuple[Any, ...]:  # noqa: ANN401  (JSON)
+    """Read numbers, nested as they were."""
+    return tuple(_numbers(one, kind) if isinstance(one, list) else kind(one) for one in value)

@@ -1,0 +1,83 @@
+"""Find where in a URDF's bytes its links and joints stand, so that they can be changed and nothing else."""
+
+import re
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+Span = tuple[int, int]
+"""First byte and the one after the last."""
+
+_TAG = re.compile(rb"<(?:\"[^\"]*\"|'[^']*'|[^\"'>])*>")
+_TYPE = re.compile(rb"\stype\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
+
+
+@dataclass
+class Element:
+    """Hold where a link, a joint or the whole robot stands.
+
+    Attributes
+    ----------
+    inside
+        Where more can be put: an empty span after the start tag, or the ``/>`` of an element without content.
+    kind
+        The value of its attribute `type`, between the quotes.
+    parts
+        Its children `inertial` and `dynamics`, from ``<`` to ``>``.
+    """
+
+    inside: Span
+    kind: Span = (0, 0)
+    parts: dict[str, Span] = field(default_factory=dict)
+
+
+@dataclass
+class Elements:
+    """Hold the robot, its links and its joints by name."""
+
+    root: Element = field(default_factory=lambda: Element((0, 0)))
+    links: dict[str, Element] = field(default_factory=dict)
+    joints: dict[str, Element] = field(default_factory=dict)
+
+
+def find_elements(text: bytes) -> Elements:
+    """Find the elements of a URDF that is known to be well-formed and free of document types."""
+    found, open_tags = Elements(), list[tuple[str, int]]()
+    current = found.root
+    parser = expat.ParserCreate()
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal current
+        place = parser.CurrentByteIndex
+        open_tags.append((tag, place))
+        if len(open_tags) == 1:
+            found.root.inside = _inside(text, place)
+        elif len(open_tags) == 2 and tag in ("link", "joint"):
+            current = Element(_inside(text, place), _kind(text, place))
+            (found.links if tag == "link" else found.joints)[attributes["name"]] = current
+
+    def end(tag: str) -> None:
+        _, place = open_tags.pop()
+        if len(open_tags) == 2 and tag in ("inertial", "dynamics"):
+            low, high = _inside(text, place)
+            stop = high if high > low else _after(text, parser.CurrentByteIndex)
+            current.parts[tag] = (place, stop)
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.Parse(text, True)  # noqa: FBT003  (the signature of expat)
+    return found
+
+
+def _after(text: bytes, place: int) -> int:
+    """Give the byte after the tag that starts at a place."""
+    tag = _TAG.match(text, place)
+    return tag.end() if tag else place
+
+
+def _inside(text: bytes, place: int) -> Span:
+    end = _after(text, place)
+    return (end - 2, end) if text[end - 2 : end] == b"/>" else (end, end)
+
+
+def _kind(text: bytes, place: int) -> Span:
+    found = _TYPE.search(text, place, _after(text, place))
+    return (0, 0) if found is None else found.span(1 if found.group(1) is not None else 2)

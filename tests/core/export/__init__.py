@@ -1,0 +1,1 @@
+"""Hold the exported files to the engines that read them, and the round trips to what went in."""
