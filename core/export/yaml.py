@@ -1,7 +1,8 @@
-"""Write an identified robot as YAML that every parser reads alike: quoted texts, numbers with a point.
+"""Write an identified robot as YAML that every parser reads alike: quoted names, numbers with a point.
 
 The document is mappings, lists and scalars one or two levels deep; each row is one line. YAML 1.1, which most
-parsers in use still read, takes 1e-05 for a text and wants 1.0e-05. Source: YAML 1.1 and 1.2, tag repository.
+parsers in use still read, takes 1e-05 for a text and the torque offset OFF for the word false: the one wants
+1.0e-05, the other quotes. Source: YAML 1.1 and 1.2, tag repository.
 """
 
 import json
@@ -31,11 +32,11 @@ def _flow(value: object) -> str:
 
     Examples
     --------
-    >>> _flow({"name": "IA1", "value": 1e-05, "joints": [1, 2]})
-    '{name: "IA1", value: 1.0e-05, joints: [1, 2]}'
+    >>> _flow({"name": "OFF1", "value": 1e-05, "joints": [1, 2]})
+    '{"name": "OFF1", "value": 1.0e-05, "joints": [1, 2]}'
     """
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{name}: {_flow(one)}" for name, one in value.items()) + "}"
+        return "{" + ", ".join(f'"{name}": {_flow(one)}' for name, one in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(map(_flow, value)) + "]"
     if isinstance(value, float):
