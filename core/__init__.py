@@ -13,16 +13,19 @@ _HOMES = {
     "base_parameters": "core.study",
     "builtin_robot": "core.robot.builtin",
     "builtin_robots": "core.robot.builtin",
+    "identified_robot": "core.export.reading",
     "identify": "core.study",
     "log_from_arrays": "core.log.reader",
     "parse_options": "core.options",
     "read_log": "core.log.reader",
+    "read_model": "core.export.model_file",
     "read_repairs": "core.report.repairs",
     "repaired_log": "core.extension.repaired_log",
     "repaired_robot": "core.extension.repair",
     "robot_from_description": "core.robot.description",
     "robot_from_urdf": "core.robot.urdf",
     "to_description": "core.robot.writing",
+    "urdf_with_inertials": "core.export.urdf_in_place",
 }
 
 __all__ = list(_HOMES)

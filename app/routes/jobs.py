@@ -5,9 +5,10 @@ from concurrent.futures import Future
 from functools import partial
 from typing import Annotated
 
-from fastapi import Header, Request, Response
+from fastapi import Header, Path, Request, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
+from app.artifacts import ARTIFACTS, CONTENT
 from app.feed import no_such_job
 from app.listing import CursorOf, Limit, before, following
 from app.negotiation import matches, preferred, wait_seconds
@@ -22,7 +23,6 @@ from app.schemas.jobs import Job, JobList, JobRequest
 from app.schemas.results import ResultDocument
 from app.services import Desk, DeskOf
 from app.store.records import JobRecord
-from app.tables import ARTIFACTS
 from app.views import job_document
 from app.waiting import wait_for
 
@@ -123,7 +123,9 @@ def read_results(
         )
     result = _result(desk, job_id)
     if form == "text/csv":
-        return result.unless_known(if_none_match, "parameters.csv", lambda: _table(result, "parameters.csv"))
+        return result.unless_known(
+            if_none_match, "parameters.csv", lambda: _artifact(result, "parameters.csv")
+        )
     if form == "text/html":
         return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
     return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
@@ -145,12 +147,15 @@ def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) ->
     "/{job_id}/results/{artifact}",
     response_class=Response,
     summary="Read a part of the result as a file",
-    responses=problems(404, 409)
-    | {200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}}
-    | UNCHANGED,
+    responses=problems(404, 409, 422) | {200: {"content": CONTENT, "description": "The file"}} | UNCHANGED,
 )
-def read_artifact(desk: DeskOf, job_id: str, artifact: str, if_none_match: IfNoneMatch = None) -> Response:
-    """Read parameters.csv or standard_parameters.csv."""
+def read_artifact(
+    desk: DeskOf,
+    job_id: str,
+    artifact: Annotated[str, Path(examples=list(ARTIFACTS))],
+    if_none_match: IfNoneMatch = None,
+) -> Response:
+    """Read the identified robot in the form that a tool wants; each file says what its numbers are."""
     result = _result(desk, job_id)
     if artifact not in ARTIFACTS:
         raise Problem(
@@ -159,7 +164,7 @@ def read_artifact(desk: DeskOf, job_id: str, artifact: str, if_none_match: IfNon
             evidence={"artifact": artifact, "known": list(ARTIFACTS)},
             remedy="ask for one of the known files",
         )
-    response = result.unless_known(if_none_match, artifact, lambda: _table(result, artifact))
+    response = result.unless_known(if_none_match, artifact, lambda: _artifact(result, artifact))
     response.headers["Content-Disposition"] = f'attachment; filename="{artifact}"'
     return response
 
@@ -208,8 +213,9 @@ def _find(desk: Desk, job_id: str) -> JobRecord:
     return job
 
 
-def _table(result: Result, artifact: str) -> Response:
-    return Response(ARTIFACTS[artifact](json.loads(result.content())), media_type="text/csv")
+def _artifact(result: Result, artifact: str) -> Response:
+    form = ARTIFACTS[artifact]
+    return Response(form.write(json.loads(result.content())), media_type=form.media_type)
 
 
 def _result(desk: Desk, job_id: str) -> Result:

@@ -170,6 +170,10 @@ class Side(Open):
     base_parameters: list[dict[str, JsonValue]] = Field(default=[])
     feasible: Annotated[bool | None, Field(description="whether the extended robot can exist")] = None
     solver: dict[str, JsonValue] = Field(default={})
+    model: Annotated[
+        dict[str, JsonValue] | None,
+        Field(description="the whole extended model, as in the file model.json of the results"),
+    ] = None
 
 
 class Repair(Open):

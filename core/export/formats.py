@@ -1,60 +1,97 @@
 """List the files in which an identified robot leaves: one name, one media type, one writer each.
 
-Whoever has a result document writes any of them by `FORMATS[name].write(document)`.
+Whoever has a result document writes any of them by `FORMATS[name].write(document)`. Writers are imported when
+they write, so that the list itself costs nothing.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from core.export.c_header import write_c_header
-from core.export.identified import IdentifiedRobot
-from core.export.matlab import write_matlab
-from core.export.mjcf import write_mjcf
-from core.export.model_file import write_model
-from core.export.reading import identified_model, identified_robot
-from core.export.sdf import write_sdf
 from core.export.tables import base_parameter_table, standard_parameter_table
-from core.export.urdf import write_urdf
-from core.export.yaml import write_yaml
 
 Document = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
 class Format:
-    """Describe one file: its media type, what it is in a few words, and how a result is written as it."""
+    """Describe one file: its media type, what it is in a few words, and how a result is written as it.
+
+    Writers raise `OptionError` where the result has no bodies, or bodies that simulators refuse, and
+    `RobotError` where the format cannot say how the robot moves.
+    """
 
     media_type: str
     title: str
     write: Callable[[Document], bytes]
 
 
-def _text(write: Callable[[Document], str]) -> Callable[[Document], bytes]:
-    return lambda document: write(document).encode()
+def _base_csv(document: Document) -> bytes:
+    return base_parameter_table(document).encode()
 
 
-def _robot(write: Callable[[IdentifiedRobot], str]) -> Callable[[Document], bytes]:
-    return _text(lambda document: write(identified_robot(document)))
+def _standard_csv(document: Document) -> bytes:
+    return standard_parameter_table(document).encode()
+
+
+def _yaml(document: Document) -> bytes:
+    from core.export.reading import identified_robot
+    from core.export.yaml import write_yaml
+
+    return write_yaml(identified_robot(document)).encode()
+
+
+def _matlab(document: Document) -> bytes:
+    from core.export.matlab import write_matlab
+    from core.export.reading import identified_robot
+
+    return write_matlab(identified_robot(document))
+
+
+def _c_header(document: Document) -> bytes:
+    from core.export.c_header import write_c_header
+    from core.export.reading import identified_robot
+
+    return write_c_header(identified_robot(document)).encode()
+
+
+def _urdf(document: Document) -> bytes:
+    from core.export.reading import identified_robot
+    from core.export.urdf import write_urdf
+
+    return write_urdf(identified_robot(document)).encode()
+
+
+def _mjcf(document: Document) -> bytes:
+    from core.export.mjcf import write_mjcf
+    from core.export.reading import identified_robot
+
+    return write_mjcf(identified_robot(document)).encode()
+
+
+def _sdf(document: Document) -> bytes:
+    from core.export.reading import identified_robot
+    from core.export.sdf import write_sdf
+
+    return write_sdf(identified_robot(document)).encode()
+
+
+def _model(document: Document) -> bytes:
+    from core.export.model_file import write_model
+    from core.export.reading import identified_model
+
+    return write_model(identified_model(document)).encode()
 
 
 FORMATS: Mapping[str, Format] = {
-    "parameters.csv": Format("text/csv", "base parameters", _text(base_parameter_table)),
-    "standard_parameters.csv": Format("text/csv", "standard parameters", _text(standard_parameter_table)),
-    "parameters.yaml": Format("application/yaml", "robot and parameters as YAML", _robot(write_yaml)),
-    "parameters.mat": Format(
-        "application/x-matlab-data",
-        "robot and parameters for MATLAB",
-        lambda document: write_matlab(identified_robot(document)),
-    ),
-    "parameters.h": Format("text/x-c", "inverse dynamics in C", _robot(write_c_header)),
-    "robot.urdf": Format("application/xml", "URDF", _robot(write_urdf)),
-    "robot.xml": Format("application/xml", "MJCF, for MuJoCo", _robot(write_mjcf)),
-    "robot.sdf": Format("application/xml", "SDFormat, for Gazebo", _robot(write_sdf)),
-    "model.json": Format(
-        "application/json",
-        "the whole model, extended or not, to be loaded again",
-        _text(lambda document: write_model(identified_model(document))),
-    ),
+    "parameters.csv": Format("text/csv", "base parameters", _base_csv),
+    "standard_parameters.csv": Format("text/csv", "standard parameters", _standard_csv),
+    "parameters.yaml": Format("application/yaml", "the robot and its parameters", _yaml),
+    "parameters.mat": Format("application/x-matlab-data", "the same for MATLAB", _matlab),
+    "parameters.h": Format("text/x-c", "inverse dynamics in C", _c_header),
+    "robot.urdf": Format("application/xml", "URDF", _urdf),
+    "robot.xml": Format("application/xml", "MJCF, for MuJoCo", _mjcf),
+    "robot.sdf": Format("application/xml", "SDFormat, for Gazebo", _sdf),
+    "model.json": Format("application/json", "the whole model, to be loaded again", _model),
 }
 """All files by name."""

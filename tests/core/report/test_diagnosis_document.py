@@ -7,6 +7,9 @@ import pytest
 from pydantic import BaseModel
 
 from app.schemas.results import ResultDocument
+from core.export.formats import FORMATS
+from core.export.model_file import read_model
+from core.export.reading import identified_model, identified_robot
 from core.log.reader import log_from_arrays
 from core.report.page.page import compose_page
 from core.robot.description import robot_from_description
@@ -108,3 +111,15 @@ def test_the_page_of_a_real_diagnosis_names_the_cause_in_its_first_sentence(docu
         "The simulation of planar arm gets one thing wrong: the torque ripples along the angle (joint 2)."
         in (page)
     )
+
+
+def test_the_extended_model_is_in_the_document_with_numbers_that_give_its_base_parameters(document):
+    document = json.loads(json.dumps(document))
+    found = identified_model(document)
+    assert [term.name for term in found.model.terms][-1] == "torque_ripple_2"
+    values = found.values
+    for row in document["diagnosis"]["after"]["base_parameters"]:
+        summed = sum(share * values[name] for name, share in row["relation"].items())
+        assert summed == pytest.approx(row["value"], abs=1e-7), row["name"]
+    assert read_model(FORMATS["model.json"].write(document)).values == values
+    assert "torque_ripple_2" in identified_robot(document).remarks[-1]
