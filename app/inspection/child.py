@@ -6,6 +6,8 @@ mistake of ours. This module loads everything that reads, so that the server it 
 
 import signal
 import traceback
+from contextlib import suppress
+from importlib import import_module
 from multiprocessing.connection import Connection
 
 import pyarrow as pa
@@ -18,6 +20,16 @@ from app.jobs.computation import LogFile
 from app.problems import problem_of
 from core.errors import LogError, VeritorqueError
 
+READERS = (
+    "h5py",
+    "pyarrow.csv",
+    "pyarrow.parquet",
+    "rosbags.rosbag1",
+    "rosbags.rosbag2.storage_mcap",
+    "rosbags.typesys",
+    "scipy.io.matlab",
+)
+"""What reads; what is not installed is passed over."""
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
 
 
@@ -25,6 +37,9 @@ def inspect(pipe: Connection, log: LogFile, media_type: str | None, budget: Budg
     """Read the file and send what was found; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
     pa.set_memory_pool(pa.system_memory_pool())  # the others reserve far more than they use
+    for name in READERS:  # there already, unless the server ran before it could be told
+        with suppress(ImportError):
+            import_module(name)
     confine(log.path, budget)
     pipe.send_bytes(_inspected(log, media_type, budget))
 

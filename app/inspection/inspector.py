@@ -23,17 +23,6 @@ from app.store.records import Document
 from core.errors import LogError
 
 LOGGER = logging.getLogger(__name__)
-READERS = (
-    "app.inspection.child",
-    "h5py",
-    "pyarrow.csv",
-    "pyarrow.parquet",
-    "rosbags.rosbag1",
-    "rosbags.rosbag2.storage_mcap",
-    "rosbags.typesys",
-    "scipy.io.matlab",
-)
-"""What is not installed is passed over."""
 LONGEST_ANSWER = 16 * 1024**2
 
 
@@ -48,7 +37,7 @@ class Inspector:
     """
 
     def __init__(self) -> None:
-        self._context = fork_server(*READERS)
+        self._context = fork_server("app.inspection.child", *child.READERS)
         self.limiter = anyio.CapacityLimiter(os.cpu_count() or 1)
 
     def prepare(self) -> None:

@@ -118,12 +118,11 @@ def reference_job(kind: str, options: Document) -> str | None:
     OptionError
         If an option does not exist or makes no sense.
     """
-    if kind != "diagnose":
+    name = _reference_name(options) if kind == "diagnose" else None
+    if name is None:
         return None
     from core.diagnosis.reference import PRIOR
-    from core.options import parse_diagnose_options
 
-    name = parse_diagnose_options(options).reference
     return None if name == PRIOR else name
 
 
@@ -137,6 +136,8 @@ def check_reference(description: Document, options: Document, reference: Path | 
     RobotError
         If the robot's own bodies are to be compared with and it brings none.
     """
+    if _reference_name(options) is None:  # no request waits for the solver to be loaded but one that needs it
+        return
     from core import study
 
     robot = robot_from_description(description)
@@ -180,6 +181,12 @@ def compute(computation: Computation, progress: Progress) -> Document:
         request, progress
     )
     return document
+
+
+def _reference_name(options: Document) -> str | None:
+    from core.options import parse_diagnose_options
+
+    return parse_diagnose_options(options).reference
 
 
 def _result(reference: Path | None) -> Document | None:

@@ -84,7 +84,8 @@ def _at(candidate: Candidate, name: str, value: float) -> Candidate:
 
 
 def _grid(bench: Bench, candidate: Candidate) -> list[Candidate]:
-    return [one for one in bench.candidates if one.key == candidate.key] or [candidate]
+    same = (candidate.cause, candidate.site)
+    return [one for one in bench.candidates if (one.cause, one.site) == same] or [candidate]
 
 
 def _reach(seen: Sequence[tuple[float, float]], here: float) -> float:

@@ -1,5 +1,8 @@
 """Ask over HTTP what has changed: against an earlier job, or against the bodies of the description."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -121,3 +124,11 @@ def test_a_job_that_failed_is_no_reference(tmp_path):
             "option",
         )
     assert problem["evidence"]["state"] == "failed"
+
+
+def test_whoever_compares_with_nothing_does_not_wait_for_the_solver_to_be_loaded():
+    code = (
+        "import sys; from app.jobs import science; science.check_options('diagnose', {}); "
+        "science.check_reference({}, {}, None); sys.exit('numba' in sys.modules or 'clarabel' in sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
