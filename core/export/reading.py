@@ -15,6 +15,7 @@ from core.export.identified import BaseValue, IdentifiedRobot
 from core.export.model_file import model_from_document
 from core.extension.fold import folded
 from core.robot.description import robot_from_description
+from core.robot.frames import nearest_rotation
 from core.robot.model import Coupling, RobotModel
 
 Document = Mapping[str, Any]
@@ -55,9 +56,7 @@ def identified_robot(document: Document) -> IdentifiedRobot:
     repaired = diagnosis.get("repaired_robot") or document["robot"]
     mended = [one for one in diagnosis.get("repairs", ()) if one["mends"] == "robot"]
     remarks = [f"The description was repaired, {one['cause']}: {one['what']}." for one in mended]
-    return _standard_part(
-        extended, robot_from_description(repaired), {one["cause"] for one in mended}, remarks
-    )
+    return _standard_part(extended, _robot(repaired), {one["cause"] for one in mended}, remarks)
 
 
 def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
@@ -74,7 +73,7 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
 
 def _standing(document: Document) -> IdentifiedRobot:
     """Give the model as it was identified, before any cure."""
-    model = model_of_result(document, robot_from_description(document["robot"]))
+    model = model_of_result(document, _robot(document["robot"]))
     rows = {row["name"]: row for row in document["standard_parameters"]}
     own = [rows[parameter.name] for parameter in model.parameters]
     essential = document["provenance"]["options"].get("essential")
@@ -94,7 +93,24 @@ def _extended(document: Document) -> IdentifiedRobot | None:
     """Read the model that a diagnosis extended; None where nothing joined it."""
     diagnosis = document.get("diagnosis") or {}
     written = diagnosis.get("after", {}).get("model")
-    return None if written is None else model_from_document(written)
+    if written is None:
+        return None
+    extended = model_from_document(written)
+    model = replace(extended.model, robot=_squared(extended.robot))
+    return replace(extended, model=model)
+
+
+def _robot(description: object) -> RobotModel:
+    return _squared(robot_from_description(description))
+
+
+def _squared(robot: RobotModel) -> RobotModel:
+    """Make rotations of matrices that a document holds with ten digits: files hold exact angles."""
+    links = tuple(
+        link if link.row is not None else replace(link, rotation=nearest_rotation(link.rotation))
+        for link in robot.links
+    )
+    return replace(robot, links=links)
 
 
 def _standard_part(

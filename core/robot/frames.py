@@ -78,6 +78,25 @@ def rotation_to(axis: Vector3) -> Rotation:
     )
 
 
+def nearest_rotation(matrix: Rotation) -> Rotation:
+    """Give the rotation nearest to a matrix that rounding has left almost one.
+
+    Notes
+    -----
+    The orthogonal factor of the polar decomposition has the least distance. Source: Higham, SIAM J. Sci.
+    Stat. Comput. 7(4), 1986.
+
+    Examples
+    --------
+    >>> nearest_rotation(np.diag([1.0, 0.999, 1.001]))
+    array([[1., 0., 0.],
+           [0., 1., 0.],
+           [0., 0., 1.]])
+    """
+    left, _, right = np.linalg.svd(matrix)
+    return np.asarray(left @ right)
+
+
 def cross_matrix(vector: Vector3) -> Rotation:
     """Write the cross product with a vector as a matrix: ``cross_matrix(a) @ b == a x b``."""
     x, y, z = vector

@@ -18,16 +18,19 @@ from core.dynamics.terms.missing_rotor import MissingRotor
 from core.dynamics.terms.stribeck import Stribeck
 from core.export.formats import FORMATS
 from core.export.identified import IdentifiedRobot
+from core.export.mjcf import write_mjcf
 from core.export.model_file import model_document, read_model
 from core.export.reading import identified_model, identified_robot
 from core.log.reader import log_from_arrays
+from core.report.numbers import plain
 from core.robot.description import robot_from_description
 from core.robot.model import Coupling
 from core.robot.writing import to_description
 from core.study import IdentifyRequest, identify
 from tests.app.planar_arm import columns, description
 from tests.core.diagnosis.scenes import bodies_of_skew_arm, skew_arm
-from tests.core.export.robots import brisk
+from tests.core.export import engines
+from tests.core.export.robots import ROBOTS, brisk, identified
 
 QUICK = {"bootstrap": {"draws": 0}}
 MOTOR = Coupling("found", 3, (2, 3), (1.0, 1.0))
@@ -86,6 +89,26 @@ def test_that_essential_parameters_alone_were_fitted_is_said():
 def test_every_format_is_written_from_a_result(document, name):
     assert FORMATS[name].write(document)
     assert FORMATS[name].write(document) == FORMATS[name].write(document)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_engines_need_our_torque_for_a_robot_that_a_document_has_rounded(name):
+    whole = identified(ROBOTS[name])
+    rows = zip(whole.model.parameters, whole.standard, strict=True)
+    listed = [{"name": one.name, "value": value, "identifiable": "no"} for one, value in rows]
+    document = {
+        "robot": to_description(whole.robot),
+        "provenance": {"options": {}},
+        "coulomb_smoothing_widths": [],
+        "standard_parameters": listed,
+        "base_parameters": [],
+    }
+    found = identified_robot(plain(document))
+    state, text = brisk(found.robot), write_mjcf(found)
+    names = [joint.name for joint in found.robot.joints]
+    theirs = engines.mujoco_torque(engines.mujoco_model(text), names, state, engines.mimics_of_mjcf(text))
+    ours = found.model.torque(found.standard, state) - found.of_joints("OFF")
+    np.testing.assert_allclose(theirs, ours, rtol=0, atol=1e-9)
 
 
 @pytest.fixture(scope="module")
