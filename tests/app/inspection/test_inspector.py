@@ -25,6 +25,14 @@ def log(tmp_path_factory):
     return LogFile(path, "arm", None, "f" * 64)
 
 
+@pytest.fixture(scope="module")
+def long_log(tmp_path_factory):
+    """Take many ticks of the kernel's timers to read, and some memory."""
+    path = tmp_path_factory.mktemp("long log") / "upload"
+    path.write_bytes(csv_log(seconds=400.0))
+    return LogFile(path, "arm", None, "f" * 64)
+
+
 def refusal(inspector, log, monkeypatch, budget):
     monkeypatch.setattr(module, "budget_for", lambda size: budget)
     with pytest.raises(Problem) as caught:
@@ -44,8 +52,8 @@ def test_a_log_that_cannot_be_used_is_refused_in_the_words_of_core(inspector, lo
         inspector.summarise(log, size=0, media_type="application/x-npz")
 
 
-def test_reading_ends_when_its_processor_time_is_used_up(inspector, log, monkeypatch):
-    problem = refusal(inspector, log, monkeypatch, Budget(0.001, 30.0, PLENTY.memory_bytes))
+def test_reading_ends_when_its_processor_time_is_used_up(inspector, long_log, monkeypatch):
+    problem = refusal(inspector, long_log, monkeypatch, Budget(0.001, 30.0, PLENTY.memory_bytes))
     assert "processor time" in problem.detail
 
 
@@ -54,11 +62,8 @@ def test_reading_ends_when_its_time_by_the_clock_is_over(inspector, log, monkeyp
     assert problem.evidence == {"at_most_s": 0.0}
 
 
-def test_reading_ends_when_its_memory_is_used_up(inspector, tmp_path, monkeypatch):
-    path = tmp_path / "upload"
-    path.write_bytes(csv_log(seconds=400.0))
-    large = LogFile(path, "arm", None, "f" * 64)
-    problem = refusal(inspector, large, monkeypatch, Budget(5.0, 30.0, MEGABYTE))
+def test_reading_ends_when_its_memory_is_used_up(inspector, long_log, monkeypatch):
+    problem = refusal(inspector, long_log, monkeypatch, Budget(5.0, 30.0, MEGABYTE))
     assert "memory" in problem.detail or "crashed" in problem.detail or "cannot be read" in problem.detail
 
 
