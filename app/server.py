@@ -40,7 +40,7 @@ class PatientConnection(HttpToolsProtocol):
     _bytes = 0
     _stalled = 0
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # TCP only
         """Expect a head: whoever connects has something to say."""
         super().connection_made(transport)
         self._enter("head")

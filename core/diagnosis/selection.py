@@ -119,7 +119,7 @@ def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
 def best_addition(
     bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING, most: int = TRIED
 ) -> Hypothesis | None:
-    """Give the hypothesis with the one more cause that deserves it best, of `most`; None where none does."""
+    """Give the hypothesis with the cause that deserves it most, of so many tried; None where none does."""
     excluded = {name for one in now.members for name in one.cause.excludes}
     taken = {*now.by_key, *(key for key, least in given_up.items() if least == np.inf)}
     taken |= {one.key for one in bench.candidates if one.cause.id in excluded}

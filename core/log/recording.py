@@ -71,7 +71,7 @@ def open_bag(path: Path) -> MemoryTable:
 
 def _require_library() -> None:
     try:
-        import rosbags.typesys  # noqa: F401
+        import rosbags.typesys  # noqa: F401 - only whether it is there
     except ImportError as error:
         raise LogError(
             "ROS recordings are not read here, because an optional part is not installed",

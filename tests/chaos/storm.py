@@ -24,7 +24,7 @@ class Storm:
 
     def __init__(self, fleet, finished, *, jobs, kills, freezes, seed):
         self._fleet, self._finished, self._jobs = fleet, finished, jobs
-        self._random = random.Random(seed)  # noqa: S311
+        self._random = random.Random(seed)  # noqa: S311 - repeatable
         self.kills, self.freezes = dict.fromkeys(SHARES, 0), 0
         self._wanted_kills, self._wanted_freezes = kills, freezes
         self._frozen = {}

@@ -23,10 +23,10 @@ class Tenants:
 
     def __init__(self, directory, seed):
         self.operations = self.crossed = self.leaks = 0
-        self._random = random.Random(seed)  # noqa: S311
+        self._random = random.Random(seed)  # noqa: S311 - repeatable
         executor = StubExecutor()
         executor.release.set()
-        settings = Settings(data_dir=directory, host="0.0.0.0", requests_per_second=1e9)  # noqa: S104
+        settings = Settings(data_dir=directory, host="0.0.0.0", requests_per_second=1e9)  # noqa: S104 - keys
         self._client = TestClient(create_app(settings, executor=executor))
         self._log = csv_log(seconds=2.0)
         self._ids = {tenant: {"robots": [], "logs": [], "jobs": []} for tenant in TENANTS}

@@ -81,7 +81,7 @@ def listen(_folder):
 
 
 def import_lazily(_folder):
-    import scipy.optimize  # noqa: F401
+    import scipy.optimize  # noqa: F401 - only whether it can be
 
 
 @pytest.mark.parametrize("deed", [read_own, import_lazily])
