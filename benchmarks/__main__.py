@@ -17,6 +17,7 @@ NAMES = (
     "bootstrap",
     "coverage",
     "diagnosis",
+    "measured",
     "uploads",
     "polling",
     "posting",

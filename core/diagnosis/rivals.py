@@ -5,6 +5,7 @@ anew. Two explanations whose criteria differ by less than six are not told apart
 & Anderson, Model Selection (2002), ch. 2.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.selection import Selection, Step, keeps_beside, merit, rise, with_candidate
+from core.diagnosis.selection import Key, Selection, Step, keeps_beside, merit, rise, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0
@@ -57,16 +58,20 @@ class Standing:
     without: Hypothesis
 
 
-def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standing]]:
+def weighed(
+    bench: Bench, selection: Selection, given_up: Collection[Key] = ()
+) -> tuple[Selection, list[Standing]]:
     """Weigh every member, and give up those that only make up for what is not known.
 
     Beside a strong effect whose columns are not exact, much fits what is left a little; a member that another
     candidate would beat in its place, and that was not swapped for it, is such a stopgap. So is one that a
-    pattern without a name beats by far. Gives what remains, with its members' standings.
+    pattern without a name beats by far. What was given up is nobody's rival. Gives what remains, with its
+    members' standings.
     """
-    suspects = strangers(bench)
+    suspects, lost = strangers(bench), set(given_up)
     while True:
-        found = [standing(bench, selection.chosen, index) for index in range(len(selection.chosen.members))]
+        everyone = range(len(selection.chosen.members))
+        found = [standing(bench, selection.chosen, index, lost) for index in everyone]
         most = max((one.statistic for one in found), default=0.0)
         weak = [
             index
@@ -77,7 +82,8 @@ def weighed(bench: Bench, selection: Selection) -> tuple[Selection, list[Standin
         if not weak:
             return selection, found
         least = min(weak, key=lambda index: found[index].statistic)
-        step = Step("dropped", selection.chosen.members[least], -found[least].statistic)
+        lost.add(found[least].member.key)
+        step = Step("dropped", found[least].member, -found[least].statistic)
         selection = replace(selection, chosen=found[least].without, steps=(*selection.steps, step))
 
 
@@ -113,13 +119,18 @@ def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> boo
     return stranger is not None and merit(own.without, stranger) > own.merit + lead
 
 
-def standing(bench: Bench, chosen: Hypothesis, index: int) -> Standing:
-    """Weigh a member against the best of all other candidates in its place."""
+def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[Key] = ()) -> Standing:
+    """Weigh a member against the best of all other candidates in its place, but for what was given up."""
     member = chosen.members[index]
     without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
     own = bench.tried((*without.members, member), without)
-    taken = {one.key for one in chosen.members}
-    others = [one for one in bench.scanned(without) if one.candidate.key not in taken][:WEIGHED]
+    taken = {*chosen.by_key, *given_up}
+    excluded = {name for one in without.members for name in one.cause.excludes}
+    others = [
+        one
+        for one in bench.scanned(without)
+        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
+    ][:WEIGHED]
     trials = [
         bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
     ]

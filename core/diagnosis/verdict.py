@@ -126,7 +126,7 @@ def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]
     if lost:
         more = continued(bench, kept, lost)
         if len(more.chosen.members) > len(kept.chosen.members):
-            return weighed(bench, more)
+            return weighed(bench, more, lost)
     return kept, standings
 
 

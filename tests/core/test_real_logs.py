@@ -5,63 +5,16 @@ those of the data's own README: a plain least-squares fit, and other people's to
 """
 
 import csv
-import json
 import re
 from functools import cache
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
 
 from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.robot.urdf import robot_from_urdf
 from core.study import IdentifyRequest, identify, identify_in_full
+from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
 from tests.tools import shared
-
-FRANKA_ROWS = 20_544
-TX40_TRAIN = (500, round((0.1 + 0.7 * 7.3) * 5000))
-TX40_TEST = (TX40_TRAIN[1], 37_000)
-
-
-@cache
-def _log(robot: str, run: str, start: int = 0, stop: int | None = None) -> JointLog:
-    """Cut rows out of a run, with position in rad and joint torque in N m."""
-    table = pq.read_table(shared(f"data/{robot}/runs/{run}.parquet"))
-    joints = sum(re.fullmatch(r"q_\d+", name) is not None for name in table.column_names)
-
-    def columns(prefix: str) -> np.ndarray:
-        return np.column_stack([table[f"{prefix}_{joint}"].to_numpy() for joint in range(1, joints + 1)])
-
-    cut = slice(start, stop)
-    return log_from_arrays(run, table["time"].to_numpy()[cut], columns("q")[cut], columns("tau")[cut])
-
-
-@cache
-def _robot(name: str) -> RobotModel:
-    if name == "ur10e_open":
-        return robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())
-    table = json.loads(shared(f"data/{name}/model_mdh.json").read_text())
-    joints = [
-        {
-            "type": "prismatic" if row["sigma"] else "revolute",
-            "alpha": row["alpha"],
-            "d": row["d"],
-            "r": row["r"],
-            "theta_offset": row["theta"],
-        }
-        for row in table["mdh"]
-    ]
-    couplings = []
-    if name == "staubli_tx40":
-        # Motor 6 turns with q5 + q6, so the inertia that joint 6 would have alone is the coupling's.
-        joints[5]["rotor_inertia"] = False
-        couplings = [{"name": "wrist", "joints": [5, 6], "weights": [1.0, 1.0], "number": 6}]
-    return robot_from_description(
-        {"name": name, "joints": joints, "gravity": table["gravity"], "couplings": couplings}
-    )
 
 
 def _document(
@@ -70,7 +23,7 @@ def _document(
     """Identify with the default options; `held_out` is the number of the log that the fit does not see."""
     validation = {"fraction": 0.0} if held_out is None else {"logs": [held_out]}
     request = {"validation": validation, "bootstrap": {"draws": 0}, **options}
-    return identify(IdentifyRequest(_robot(name), logs, request))
+    return identify(IdentifyRequest(measured_robot(name), logs, request))
 
 
 def _percents(document: dict[str, object], part: str) -> np.ndarray:
@@ -101,8 +54,8 @@ UR10E_UNSEEN = {
 @cache
 def _ur10e(run: str) -> dict[str, object]:
     start, stop, _ = UR10E_UNSEEN[run]
-    fitted = [_log("ur10e_open", *one) for one in UR10E_FIT]
-    return _document("ur10e_open", *fitted, _log("ur10e_open", run, start, stop), held_out=3)
+    fitted = [measured_log("ur10e_open", *one) for one in UR10E_FIT]
+    return _document("ur10e_open", *fitted, measured_log("ur10e_open", run, start, stop), held_out=3)
 
 
 @pytest.mark.parametrize("run", UR10E_UNSEEN)
@@ -113,8 +66,8 @@ def test_ur10e_predicts_runs_it_has_not_seen_as_well_as_a_plain_fit_or_better(ru
 @pytest.mark.parametrize(("smooth", "train", "unseen"), [(False, 4.1, 5.1), (True, 3.84, 5.08)])
 def test_ur10e_predicts_a_motion_of_another_kind(smooth, train, unseen):
     logs = (
-        _log("ur10e_open", "fourier_30s_12h", 635, 3510),
-        _log("ur10e_open", "validation_ptp_10pts", 700, 4200),
+        measured_log("ur10e_open", "fourier_30s_12h", 635, 3510),
+        measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200),
     )
     document = _document("ur10e_open", *logs, held_out=2, smooth_coulomb=smooth)
     assert document["fit_total_percent"] <= train
@@ -140,7 +93,7 @@ def test_the_real_robots_are_feasible_robots():
 
 @cache
 def _tx40(*, smooth: bool) -> dict[str, object]:
-    logs = (_log("staubli_tx40", "run1", *TX40_TRAIN), _log("staubli_tx40", "run1", *TX40_TEST))
+    logs = tuple(measured_log("staubli_tx40", "run1", *rows) for rows in (TX40_TRAIN, TX40_TEST))
     return _document("staubli_tx40", *logs, held_out=2, smooth_coulomb=smooth)
 
 
@@ -156,9 +109,8 @@ def test_tx40_has_the_sixty_base_parameters_of_the_published_table():
 
 
 def test_tx40_without_its_coupling_does_not_explain_its_wrist():
-    described = _robot("staubli_tx40")
-    plain = RobotModel(described.name, described.links, described.joints, described.gravity)
-    log = _log("staubli_tx40", "run1", *TX40_TRAIN)
+    plain = measured_robot("staubli_tx40", coupled=False)
+    log = measured_log("staubli_tx40", "run1", *TX40_TRAIN)
     options = {"validation": {"fraction": 0.0}, "bootstrap": {"draws": 0}}
     without = identify(IdentifyRequest(plain, (log,), options))
     assert _percents(without, "fit")[4] > 2.0 * _percents(_tx40(smooth=False), "fit")[4]
@@ -213,9 +165,9 @@ There FVM6 stands with the other joint's speed alone, here with the sum of both:
 
 
 def test_tx40_agrees_with_the_published_base_parameters_within_three_combined_deviations():
-    log = _log("staubli_tx40", "run1", 500, 37_000)
+    log = measured_log("staubli_tx40", "run1", 500, 37_000)
     options = {"validation": {"fraction": 0.0}, "bootstrap": {"draws": 0}, "estimator": "wls"}
-    found = identify_in_full(IdentifyRequest(_robot("staubli_tx40"), (log,), options))
+    found = identify_in_full(IdentifyRequest(measured_robot("staubli_tx40"), (log,), options))
     names = list(found.base.names)
     published = _published()
     assert len(published) == len(names) == 60
@@ -244,13 +196,13 @@ def test_tx40_agrees_with_the_published_base_parameters_within_three_combined_de
 @cache
 def _franka(estimator: str) -> dict[str, object]:
     half = FRANKA_ROWS // 2
-    logs = (_log("franka_panda", "traj1", 0, half), _log("franka_panda", "traj1", half, FRANKA_ROWS))
+    logs = tuple(measured_log("franka_panda", "traj1", *rows) for rows in ((0, half), (half, FRANKA_ROWS)))
     return _document("franka_panda", *logs, held_out=2, estimator=estimator)
 
 
 @cache
 def _rokae(estimator: str) -> dict[str, object]:
-    return _document("rokae_xmate3", _log("rokae_xmate3", "excit"), estimator=estimator)
+    return _document("rokae_xmate3", measured_log("rokae_xmate3", "excit"), estimator=estimator)
 
 
 def test_franka_predicts_the_second_half_of_its_run_from_the_first():
