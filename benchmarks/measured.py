@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from benchmarks.figures import Figure
-from core.report.diagnosed import Diagnosed
 from core.log.model import JointLog
+from core.report.diagnosed import Diagnosed
 from core.robot.model import RobotModel
 from core.study import IdentifyRequest, diagnose_in_full
 from core.validation.scores import JointScore
@@ -42,9 +42,7 @@ def _runs() -> dict[str, Run]:
     )
     unseen = measured_log("ur10e_open", "fourier_40s_12h", 500, 4460)
     points = measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200)
-    panda = tuple(
-        measured_log("franka_panda", "traj1", *rows) for rows in ((0, half), (half, FRANKA_ROWS))
-    )
+    panda = tuple(measured_log("franka_panda", "traj1", *rows) for rows in ((0, half), (half, FRANKA_ROWS)))
     return {
         "TX40 without its coupling": _tx40(),
         "UR10e": Run(measured_robot("ur10e_open"), (*fitted, unseen), 3, {1: 5.6, 2: 2.2, 3: 2.7}),

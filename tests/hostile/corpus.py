@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass
+from typing import Any
 
 from starlette.testclient import TestClient
 
@@ -14,17 +15,20 @@ CHAPTERS = (hdf5, matlab, npz, parquet, recordings, text)
 MAPPING = '{"profile": "ros-jointstate"}'
 """It changes nothing for other files, whose columns have default names."""
 MOST_SECONDS, MOST_MB = 2.0, 512.0
+MOST_OF_SOUND = 15.0
+"""How many times as long as a sound log a file may take where the machine is too busy to count seconds."""
 
 
 @dataclass(frozen=True)
 class Treatment:
-    """Hold how the service treated one file."""
+    """Hold how the service treated one file, and what a sound log took beside it if that was late, s."""
 
     label: str
     bytes: int
     status: int
     cause: str
     seconds: float
+    sound_seconds: float
     peak_mb: float
     openings: int
     leaked: bool
@@ -34,7 +38,7 @@ class Treatment:
         """Name the promises that were not kept."""
         kept = {
             "answered by 4xx": 400 <= self.status < 500,
-            f"in {MOST_SECONDS:g} s": self.seconds <= MOST_SECONDS,
+            f"in {MOST_SECONDS:g} s": self.seconds <= max(MOST_SECONDS, MOST_OF_SOUND * self.sound_seconds),
             f"in {MOST_MB:g} MB": self.peak_mb <= MOST_MB,
             "opened nothing else": self.openings == 0,
             "told no secret": not self.leaked,
@@ -52,14 +56,7 @@ def treat(client: TestClient, specimen: Specimen, place: Place) -> Treatment:
     content = specimen.make(place)
     openings = Openings(place.secret, place.secret_hdf5)
     with Memory() as memory:
-        begin = time.perf_counter()
-        answer = client.post(
-            "/v1/logs",
-            params={"mapping": MAPPING},
-            content=content,
-            headers={"Content-Type": "application/octet-stream"},
-        )
-        seconds = time.perf_counter() - begin
+        answer, seconds = _uploaded(client, content)
     opened = openings.count()
     openings.close()
     return Treatment(
@@ -68,10 +65,22 @@ def treat(client: TestClient, specimen: Specimen, place: Place) -> Treatment:
         status=answer.status_code,
         cause=answer.json().get("cause", "accepted"),
         seconds=seconds,
+        sound_seconds=_uploaded(client, text.table())[1] if seconds > MOST_SECONDS else 0.0,
         peak_mb=memory.peak_mb,
         openings=opened,
         leaked=SECRET_TEXT in answer.content,
     )
+
+
+def _uploaded(client: TestClient, content: bytes) -> tuple[Any, float]:
+    begin = time.perf_counter()
+    answer = client.post(
+        "/v1/logs",
+        params={"mapping": MAPPING},
+        content=content,
+        headers={"Content-Type": "application/octet-stream"},
+    )
+    return answer, time.perf_counter() - begin
 
 
 __all__ = ["CHAPTERS", "SPECIMENS", "Treatment", "treat", "warm_up"]
