@@ -136,6 +136,13 @@ class Unexplained(Open):
         PerJoint, Field(description="null where the joint moves too little to be judged")
     ]
     interval_95: list[Interval]
+    at_rest_fraction: Annotated[
+        PerJoint,
+        Field(
+            description="share of the model's squared error that is friction while the joint rests or turns "
+            "round, and is left out of all that follows; null where it hardly moves"
+        ),
+    ] = Field(default=[])
     rms_residual: PerJoint
     places: Annotated[list[list[Place]], Field(description="per joint, the largest first")]
     noise_floor: PerJoint

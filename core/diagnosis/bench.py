@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import JointSeries
+from core.arrays import JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
 from core.diagnosis.equations import (
@@ -28,6 +28,9 @@ from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
+
+MOST_AT_REST = 0.9
+"""A joint whose friction at rest may be anything on more than this share of the rows hardly moves."""
 
 
 class Bench:
@@ -197,6 +200,21 @@ class Bench:
         for place in without:
             values[under.columns_of(place)] = 0.0
         return np.column_stack([one.missed(values) for one in rows])
+
+    def at_rest(self, under: Hypothesis) -> JointVector:
+        """Give, per joint, the share of the residual's mean square that friction at rest accounts for.
+
+        As far as it is more than any columns as many would take; not a number where a joint hardly moves.
+        """
+        shares = []
+        for part in extended(self.everywhere, self.columns(under.members)):
+            count, taken = len(part.torque), part.free.count
+            whole = part.torque - part.columns @ under.fit.values
+            left = part.missed(under.fit.values)
+            ratio = float(left @ left) / max(float(whole @ whole), 1e-300)
+            moves = taken < MOST_AT_REST * count
+            shares.append(max(1.0 - ratio * count / (count - taken), 0.0) if moves else np.nan)
+        return np.array(shares)
 
     def unseen_rise(self, now: Hypothesis, trial: Hypothesis) -> float:
         """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise.

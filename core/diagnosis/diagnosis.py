@@ -154,6 +154,9 @@ class Diagnosis:
         The model whose prediction the causes' columns were built on.
     residual_before, residual_after
         Per row of the look and joint, without and with the findings, N m or N.
+    at_rest
+        Per joint, the share of the residual's mean square that is friction while the joint rests or turns
+        round, and was taken out of it; not a number where it hardly moves.
     """
 
     verdict: Verdict
@@ -167,3 +170,4 @@ class Diagnosis:
     selection: Selection
     residual_before: np.ndarray
     residual_after: np.ndarray
+    at_rest: JointVector

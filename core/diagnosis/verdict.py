@@ -98,6 +98,7 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         selection=selection,
         residual_before=before,
         residual_after=after,
+        at_rest=bench.at_rest(chosen),
     )
 
 

@@ -24,6 +24,7 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
         "pattern": stranger and _pattern(stranger),
         "predictable_residual_fraction": [one.share for one in predictable],
         "interval_95": [one.interval for one in predictable],
+        "at_rest_fraction": [None if np.isnan(one) else float(one) for one in diagnosis.at_rest],
         "rms_residual": [one.rms for one in predictable],
         "places": [one.places for one in predictable],
         "noise_floor": floor.rms,

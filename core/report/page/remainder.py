@@ -20,6 +20,8 @@ _SOURCES = {
     "none": "unknown",
 }
 
+_MOSTLY = 0.5
+"""Share of a joint's error from which on a sentence is due."""
 _WELL_ABOVE = 1.5
 """A noise floor from another band than the residual's is no better known than this factor."""
 
@@ -80,9 +82,23 @@ def _said(left: Document) -> list[str]:
             f"On {joints(above)} what is left lies well above the noise floor without following the motion: "
             "vibration, or noise that remembers for long and hides structure from the learner."
         )
+    if at_rest := _mostly_at_rest(left):
+        said.append(
+            f"Friction while the joint stands still or turns round makes {series(at_rest)}. At rest it takes "
+            "whatever value keeps the joint in place: this is stiction, no dynamics that a model could "
+            "foretell, and it was set aside before anything was judged."
+        )
     if parked:
         said.append(f"Of {joints(parked)}, which the motion hardly moves, nothing can be said.")
     return said
+
+
+def _mostly_at_rest(left: Document) -> list[str]:
+    return [
+        f"{share(one)} of the squared error on joint {joint}"
+        for joint, one in enumerate(left["at_rest_fraction"], start=1)
+        if one is not None and one > _MOSTLY
+    ]
 
 
 def _above_the_floor(left: Document) -> list[int]:

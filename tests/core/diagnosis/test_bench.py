@@ -86,3 +86,18 @@ def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found()
     whole = bench.tried((member,))
     (found,) = bench.scanned(bench.beneath(whole), [member])
     np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
+
+
+def at_rest(torque) -> float:
+    """Give the second joint's share of error at rest where a torque is there that the model lacks."""
+    bench = bench_of(measured_arm(on_joint(torque)), ())
+    return float(bench.at_rest(nothing_found(bench))[1])
+
+
+def test_what_is_missed_only_while_a_joint_turns_round_is_friction_at_rest():
+    slow = lambda state: np.abs(state.velocity[:, 1]) < 0.02  # noqa: E731  (a formula)
+    assert at_rest(lambda state: 3.0 * slow(state) * np.sign(np.sin(state.time))) > 0.8
+
+
+def test_what_is_missed_all_along_the_motion_is_not():
+    assert at_rest(lambda state: 3.0 * np.sin(TRUE * state.position[:, 1])) < 0.2

@@ -186,6 +186,7 @@ def diagnosis(**changes):
             "joints": [],
             "predictable_residual_fraction": [0.0, 0.02],
             "interval_95": [[0.0, 0.0], [0.0, 0.05]],
+            "at_rest_fraction": [0.1, 0.7],
             "rms_residual": [0.1, 0.2],
             "places": [[], []],
             "noise_floor": [0.1, None],

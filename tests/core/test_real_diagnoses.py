@@ -1,0 +1,60 @@
+"""Hold the diagnosis to measured robots: causes that are known to be there, and what their cures gain.
+
+Errors are the RMS of the residual over the RMS of the torque, in percent per joint, on motion that no fit has
+seen, at the band of the fit.
+"""
+
+import numpy as np
+import pytest
+
+from core.report.diagnosed import Diagnosed
+from core.study import IdentifyRequest, diagnose_in_full
+from tests.measured import TX40_TEST, TX40_TRAIN, measured_log, measured_robot
+
+UR10E_FIT = ("fourier_30s_12h", 635, 3510)
+
+pytestmark = pytest.mark.slow
+
+
+def _diagnosed(robot, *logs, **validation) -> Diagnosed:
+    return diagnose_in_full(
+        IdentifyRequest(robot, logs, {"bootstrap": {"draws": 0}, "validation": validation})
+    )
+
+
+def _percents(scores) -> np.ndarray:
+    return np.array([one.nrmse_of_rms_percent for one in scores])
+
+
+def _found(diagnosed: Diagnosed) -> set[tuple[str, tuple[int, ...]]]:
+    return {(one.cause, one.joints) for one in diagnosed.diagnosis.findings}
+
+
+def test_the_coupled_wrist_of_a_tx40_that_nobody_declared_is_named_and_then_its_lost_time():
+    logs = (measured_log("staubli_tx40", "run1", *rows) for rows in (TX40_TRAIN, TX40_TEST))
+    diagnosed = _diagnosed(measured_robot("staubli_tx40", coupled=False), *logs)
+    before, after = (_percents(one.validation) for one in (diagnosed.before, diagnosed.after))
+    assert ("joint_coupling", (5, 6)) in _found(diagnosed)
+    assert np.all(before[4:] > 30.0)
+    assert np.all(after[4:] <= (13.0, 11.0))
+    (delay,) = (one for one in diagnosed.diagnosis.findings if one.cause == "time_delay")
+    assert 1e-3 < abs(delay.quantities[0].value) < 3e-3
+
+
+def test_a_ur10e_loses_a_third_of_its_error_on_its_heavy_joints_to_friction_that_grows_with_load():
+    logs = (
+        measured_log("ur10e_open", *one)
+        for one in (UR10E_FIT, ("fourier_20s_8h", 320, 2310), ("fourier_40s_12h", 500, 4460))
+    )
+    diagnosed = _diagnosed(measured_robot("ur10e_open"), *logs, logs=[3])
+    assert {("friction_load_dependent", (2,)), ("friction_load_dependent", (3,))} <= _found(diagnosed)
+    assert np.all(_percents(diagnosed.after.validation)[:3] <= (5.6, 2.2, 2.7))
+
+
+def test_what_a_ur10e_that_stops_at_points_leaves_on_its_wrist_is_stiction():
+    points = measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200)
+    diagnosed = _diagnosed(
+        measured_robot("ur10e_open"), measured_log("ur10e_open", *UR10E_FIT), points, logs=[2]
+    )
+    assert np.all(diagnosed.diagnosis.at_rest[4:] > (0.5, 0.9))
+    assert np.all(np.array([one.share for one in diagnosed.diagnosis.predictable])[4:] < 0.2)
