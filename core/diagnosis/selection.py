@@ -131,7 +131,7 @@ def best_addition(
     ]
     count = len({one.candidate.key for one in scans})
     likely = sorted(
-        (trial for trial in trials if clear_enough(bench, now, trial, count)),
+        (trial for trial in trials if trial.possible and clear_enough(bench, now, trial, count)),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
