@@ -4,9 +4,11 @@ A pattern without a name that explains much better than a named cause refutes th
 is left shows that something is left. Either must be as sure as a named cause has to be.
 """
 
+from dataclasses import replace
+
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.selection import clear_enough, holds_unseen, merit, with_candidate
+from core.diagnosis.selection import clear_enough, holds_unseen, merit
 from core.diagnosis.unlisted import Unlisted
 
 TRIED = 3
@@ -26,8 +28,15 @@ def strangers(bench: Bench) -> tuple[Candidate, ...]:
 def best_stranger(bench: Bench, now: Hypothesis, suspects: tuple[Candidate, ...]) -> Hypothesis | None:
     """Give a hypothesis with the pattern that explains most of what another leaves; None where none does."""
     scans = bench.scanned(now, suspects)[:TRIED]
-    trials = [with_candidate(bench, now, one) for one in scans]
+    trials = [bench.added(now, _finest(bench, now, one.candidate)) for one in scans]
     clear = [trial for trial in trials if clear_enough(bench, now, trial, bench.look.joints)]
     whole = [bench.tried(trial.members, trial) for trial in clear]
     ranked = sorted(whole, key=lambda trial: -merit(now, trial))
     return next((trial for trial in ranked if holds_unseen(bench, now, trial)), None)
+
+
+def _finest(bench: Bench, now: Hypothesis, found: Candidate) -> Candidate:
+    """Give the likeliest of the patterns around one."""
+    around = [replace(found, scalars=scalars) for scalars in _UNLISTED.finer(bench.look, found.scalars)]
+    best = max(zip(bench.scored(now, around), around, strict=True), key=lambda one: one[0].statistic)[1]
+    return replace(best, trials=found.trials * len(around))

@@ -21,6 +21,9 @@ from core.dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
 WAVES = (1.0, 2.0)
 SLOWEST, QUICKEST = 0.15, 1.0
 """Repetitions in time that are looked for, Hz."""
+STEP = 0.5
+"""Between two rates, in repetitions over the log; they are looked at again `FINER` times as finely."""
+FINER = 8
 SWINGS = tuple(float(one) for one in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
 _NAMES = tuple(PATTERNS)
@@ -40,6 +43,14 @@ class Unlisted(OwnJointCause):
         """List all patterns, numbers after their place."""
         del believed
         return [_scalars(name, numbers) for name, numbers in _fixed(look.joints, site[0], _seconds(look))]
+
+    def finer(self, look: Look, scalars: Scalars) -> list[Scalars]:
+        """List numbers around those of a grid point: higher harmonics want a rhythm's rate better than it."""
+        name, numbers = _read(scalars)
+        if name != "clock":
+            return [scalars]
+        step = STEP / _seconds(look) / FINER
+        return [_scalars(name, (numbers[0] + step * place,)) for place in range(-FINER, FINER + 1)]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
@@ -71,7 +82,7 @@ def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], 
         for factor in range(len(FACTORS))
     ]
     out += [
-        ("clock", (float(rate),)) for rate in np.arange(max(SLOWEST, 2.0 / seconds), QUICKEST, 0.5 / seconds)
+        ("clock", (float(rate),)) for rate in np.arange(max(SLOWEST, 2.0 / seconds), QUICKEST, STEP / seconds)
     ]
     out += [("swing", (rate,)) for rate in SWINGS]
     return tuple(out)
