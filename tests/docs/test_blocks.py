@@ -13,7 +13,7 @@ from app.schemas.robots import RobotDescription
 from app.server import Server
 from app.settings import Settings
 from core.options import parse_options
-from tests.docs.blocks import BLOCKS, PAGES, ROOT, blocks_of
+from tests.docs.blocks import BLOCKS, blocks_of
 from tests.docs.runner import RUN, run_page
 
 LANGUAGES = {"bash", "python", "c", "json", "xml", "text", ""}
