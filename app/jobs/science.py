@@ -176,7 +176,9 @@ def compute(computation: Computation, progress: Progress) -> Document:
     logs = tuple(
         read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256) for log in computation.logs
     )
-    request = study.IdentifyRequest(robot, logs, computation.options, _result(computation.reference))
+    request = study.IdentifyRequest(
+        robot, logs, computation.options, _result(computation.reference), computation.traces
+    )
     document: Document = (study.diagnose if computation.kind == "diagnose" else study.identify)(
         request, progress
     )

@@ -1,0 +1,73 @@
+"""Answer with what a job computed instant by instant, thinned for a screen."""
+
+import math
+
+from fastapi import Response
+
+from app.documents import json_bytes
+from app.problems import Problem
+from app.results import Result
+from core.report.traces.layout import SIGNALS
+from core.report.traces.reading import Traces, View, read_traces
+
+DEFAULT_SIGNALS = "torque_measured,torque_filtered,torque_estimated,residual"
+MOST_POINTS = 4000
+
+
+def view_of(log: int, joint: int, signals: str, span: tuple[float | None, float | None], points: int) -> View:
+    """Read what is asked for.
+
+    Raises
+    ------
+    Problem
+        If a signal is not one that is ever computed, or named twice (422).
+    """
+    names = tuple(name.strip() for name in signals.split(","))
+    if not set(names) <= set(SIGNALS) or len(set(names)) < len(names):
+        raise Problem(
+            "request",
+            "the signals are not ones that a result has, each once",
+            evidence={"parameter": "signals", "given": list(names), "known": list(SIGNALS)},
+            remedy="name known signals with commas between them",
+        )
+    return View(log, joint, names, *span, points=points)
+
+
+def traces_response(kept: Result, view: View, if_none_match: str | None) -> Response:
+    """Draw traces.
+
+    Raises
+    ------
+    OptionError
+        If the result has no such log, joint or signal, or nothing was measured in that stretch of time.
+    """
+    asked = (view.log, view.joint, "+".join(view.signals), view.begin, view.end, view.points)
+    form = "-".join(map(str, asked))
+
+    def drawn() -> Response:
+        kept.check()
+        document = _document(view, read_traces(kept.path, view))
+        return Response(json_bytes(document), media_type="application/json")
+
+    return kept.unless_known(if_none_match, form, drawn)
+
+
+def _document(view: View, traces: Traces) -> dict[str, object]:
+    return {
+        "log": view.log,
+        "joint": view.joint,
+        "extent": traces.extent,
+        "rows_per_stretch": traces.rows_per_stretch,
+        "time": {"unit": "s", "values": [round(stamp, 6) for stamp in traces.time.tolist()]},
+        "traces": [
+            {"signal": signal, "joint": view.joint, "unit": unit, "values": _short(values.tolist())}
+            for signal, unit, values in zip(view.signals, traces.units, traces.values.T, strict=True)
+        ],
+        "held_out": traces.held_out,
+        "left_out": traces.left_out,
+    }
+
+
+def _short(values: list[float]) -> list[float | None]:
+    """Write numbers with the digits that single precision has; None at gaps."""
+    return [float(f"{value:.7g}") if math.isfinite(value) else None for value in values]
