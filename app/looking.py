@@ -1,27 +1,31 @@
 """Answer with what a job computed instant by instant, thinned for a screen."""
 
 import math
+from typing import Annotated
 
-from fastapi import Response
+from fastapi import Depends, Query, Response
 
 from app.documents import json_bytes
 from app.problems import Problem
 from app.results import Result
+from core.log.preview import FEWEST_POINTS, MOST_POINTS
 from core.report.traces.layout import SIGNALS
 from core.report.traces.reading import Traces, View, read_traces
 
-DEFAULT_SIGNALS = "torque_measured,torque_filtered,torque_estimated,residual"
-MOST_POINTS = 4000
+Number = Annotated[int, Query(ge=1, description="counted from 1")]
+Stamp = Annotated[float | None, Query(allow_inf_nan=False, description="s on the log's own clock")]
+Names = Annotated[str, Query(max_length=200, description="their names, with commas between them")]
+Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="the most points per trace")]
 
 
-def view_of(log: int, joint: int, signals: str, span: tuple[float | None, float | None], points: int) -> View:
-    """Read what is asked for.
-
-    Raises
-    ------
-    Problem
-        If a signal is not one that is ever computed, or named twice (422).
-    """
+def _view(
+    joint: Number,
+    signals: Names = "torque_measured,torque_filtered,torque_estimated,residual",
+    log: Number = 1,
+    begin: Annotated[Stamp, Query(alias="from")] = None,
+    end: Annotated[Stamp, Query(alias="to")] = None,
+    points: Points = 2000,
+) -> View:
     names = tuple(name.strip() for name in signals.split(","))
     if not set(names) <= set(SIGNALS) or len(set(names)) < len(names):
         raise Problem(
@@ -30,7 +34,11 @@ def view_of(log: int, joint: int, signals: str, span: tuple[float | None, float 
             evidence={"parameter": "signals", "given": list(names), "known": list(SIGNALS)},
             remedy="name known signals with commas between them",
         )
-    return View(log, joint, names, *span, points=points)
+    return View(log, joint, names, begin, end, points)
+
+
+ViewOf = Annotated[View, Depends(_view)]
+"""What is asked for in a query."""
 
 
 def traces_response(kept: Result, view: View, if_none_match: str | None) -> Response:

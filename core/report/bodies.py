@@ -1,9 +1,9 @@
-"""Describe links for a drawing: how the chain hangs together, and each body as the ellipsoid that equals it.
+"""Describe links for a drawing: how the chain hangs together, and each body as an ellipsoid that equals it.
 
-A body's ten parameters say where its mass is and how it spreads, not what it looks like. The solid ellipsoid of
-even density with the same mass, mass centre and inertia is the one picture that adds nothing: its half axes
-are sqrt(5 s), with s the eigenvalues of the second moments of mass about the mass centre, per mass. Where one of
-them is negative, no body exists and there is nothing to draw. Source: Traversaro et al., IROS 2016.
+A body's ten parameters say where its mass is and how it spreads, not what it looks like. The solid ellipsoid
+of even density with the same mass, mass centre and inertia is the picture that adds nothing: its half axes
+are sqrt(5 s), with s the eigenvalues of the second moments of mass about the mass centre, per mass. Where one
+of them is negative, no such body exists and there is nothing to draw. Source: Traversaro et al., IROS 2016.
 """
 
 import numpy as np
@@ -34,12 +34,10 @@ def link_rows(robot: RobotModel) -> list[dict[str, object]]:
 
 
 def body_rows(model: DynamicModel, standard: Parameters) -> list[dict[str, object]]:
-    """List the bodies of a model with numbers, each in its link's frame; none where links are not modelled."""
+    """List a model's bodies with numbers, each in its link's frame; none where links are not modelled."""
     tables = [values for term, values in model.split(standard) if isinstance(term, RigidBody)]
     return [
-        _body(number, link)
-        for table in tables
-        for number, link in enumerate(table.reshape(-1, 10), start=1)
+        _body(number, link) for table in tables for number, link in enumerate(table.reshape(-1, 10), start=1)
     ]
 
 
