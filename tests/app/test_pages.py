@@ -5,8 +5,8 @@ from datetime import UTC, datetime
 from html.parser import HTMLParser
 
 import pytest
-
 from app.pages.latest import job_rows
+
 from app.routes.pages import FILES
 from app.store.records import JobRecord, JobRequestRecord
 from tests.app.conftest import assert_problem, service
