@@ -121,13 +121,14 @@ def read_results(
             evidence={"accept": accept, "known": list(RESULT_FORMS)},
             remedy="accept one of the known forms",
         )
-    result = result_of(desk, find_job(desk, job_id))
+    job = find_job(desk, job_id)
+    result = result_of(desk, job)
     if form == "text/csv":
         return result.unless_known(
             if_none_match, "parameters.csv", lambda: _artifact(result, "parameters.csv")
         )
     if form == "text/html":
-        return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
+        return result.unless_known(if_none_match, "report", lambda: report_response(desk, job))
     return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
 
 
@@ -139,8 +140,8 @@ def read_results(
 )
 def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read what came out as a page: figures, tables and sentences, without a script."""
-    result = result_of(desk, find_job(desk, job_id))
-    return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
+    job = find_job(desk, job_id)
+    return result_of(desk, job).unless_known(if_none_match, "report", lambda: report_response(desk, job))
 
 
 @ROUTER.get(
