@@ -15,7 +15,7 @@ from app.store.records import JobRecord
 from core.log.preview import FEWEST_POINTS
 from core.report.page.page import POLICY, compose_page
 from core.report.page.running import Origin
-from core.report.page.traces import ESTIMATED, EXTENDED, FILTERED, MEASURED, MOTION, JointTraces
+from core.report.page.traces import EXTENDED, FILTERED, MEASURED, MOTION, PLAIN, JointTraces
 from core.report.traces.reading import Traces, View, read_traces
 
 FRAMED = "; frame-ancestors 'none'; sandbox"
@@ -44,7 +44,7 @@ def _traces(desk: Desk, job: JobRecord, document: dict[str, Any]) -> Iterator[Jo
     kept = Result(str(job.traces_sha256), desk.store.blobs.path(str(job.traces_sha256)))
     kept.check()
     extended = bool(document.get("diagnosis") and document["diagnosis"]["after"].get("base_parameters"))
-    signals = (*MOTION, MEASURED, FILTERED, ESTIMATED, *((EXTENDED,) if extended else ()))
+    signals = (*MOTION, MEASURED, FILTERED, *(EXTENDED if extended else PLAIN))
     logs, joints = len(document["logs"]), len(document["fit"])
     points = max(POINTS_TOGETHER // (logs * joints), FEWEST_POINTS)
     for log in range(1, logs + 1):

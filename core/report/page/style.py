@@ -14,7 +14,7 @@ body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.5 sy
 main { max-width: 62rem; margin: 0 auto; padding: 1.75rem 1.25rem 4rem; }
 .kind { margin: 0 0 .25rem; font-weight: 600; color: var(--soft); }
 .verdict { margin: 0 0 1rem; font-size: 1.5rem; line-height: 1.3; font-weight: 650; }
-.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(9rem, auto)); gap: .3rem 1.5rem; margin: 1.1rem 0 0; padding: .6rem 0;
+.facts { display: flex; flex-wrap: wrap; gap: .3rem 1.5rem; margin: 1.1rem 0 0; padding: .6rem 0;
   border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); font-size: .85rem; }
 .facts dt { color: var(--soft); }
 .facts dd { margin: 0; overflow-wrap: anywhere; }
@@ -116,6 +116,7 @@ code { overflow-wrap: anywhere; }
   .key span { font-size: 8pt; }
   .pair { grid-template-columns: repeat(2, 1fr); }
   .finding { padding: .6rem .9rem .7rem; box-decoration-break: clone; -webkit-box-decoration-break: clone; }
+  .facts { gap: .3rem 1.1rem; font-size: 8pt; }
   .bars svg { max-width: 26rem; }
   .whisker { width: 5rem; }
   figure { margin: .4rem 0; }

@@ -14,8 +14,9 @@ Trace = Sequence[float | None]
 
 MOTION = ("position", "velocity")
 MEASURED, FILTERED, ESTIMATED = "torque_measured", "torque_filtered", "torque_estimated"
-EXTENDED = "torque_estimated_after"
-_DRAWN = ((MEASURED, "measured"), (FILTERED, "filtered"), (EXTENDED, "estimated"), (ESTIMATED, "estimated"))
+PLAIN = (ESTIMATED, "residual")
+EXTENDED = ("torque_estimated_after", "residual_after")
+"""What the model says and what it leaves; after a diagnosis that of the extended model."""
 _WIDE, _HIGH, _MOTION_HIGH = 900.0, 168.0, 220.0
 _TOGETHER = 8
 """Joints whose motion shares a picture: as many as there are colours."""
@@ -104,29 +105,32 @@ def _overlaid(joints: Sequence[JointTraces], signal: str) -> Html:
 
 def _torque(one: JointTraces) -> Html:
     """Draw a joint's torque: measured, filtered, estimated; spans that no fit has seen are shaded."""
-    drawn = [(name, kind) for name, kind in _DRAWN if name in one.signals]
-    shown = [pair for pair in drawn if not (pair[0] == ESTIMATED and EXTENDED in one.signals)]
-    values = [value for name, _ in shown for value in one.signals[name] if value is not None]
+    estimated, residual = EXTENDED if EXTENDED[0] in one.signals else PLAIN
+    shown = {MEASURED: "measured", FILTERED: "filtered", estimated: "estimated", residual: "residual"}
+    values = [value for name in shown for value in one.signals[name] if value is not None]
     frame = Frame(0.0, 0.0, _WIDE, _HIGH, _ends([one]), span(values))
     unit = one.units[MEASURED]
     unseen = [frame.band(ends, (frame.y[0],) * 2, (frame.y[1],) * 2, "unseen") for ends in one.held_out]
-    lines = [line for name, kind in shown for line in _lines(frame, one.time, one.signals[name], kind)]
+    lines = [
+        line for name, kind in shown.items() for line in _lines(frame, one.time, one.signals[name], kind)
+    ]
     low, high = _reach(one.signals[MEASURED])
     title = f"Joint {one.joint}"
     told = (
-        f"Torque of joint {one.joint} over time: measured, filtered and estimated by the model. The measured "
-        f"one lies between {number(low)} and {number(high)} {unit}."
+        f"Torque of joint {one.joint} over time: measured, filtered, estimated by the model, and the difference "
+        f"of the last two. The measured one lies between {number(low)} and {number(high)} {unit}."
     )
     parts = (*unseen, frame.axes(title, "time, s", f"torque, {unit}"), frame.zero(), *lines)
     return tag("figure", picture(f"{title}: torque over time", told, (_WIDE, _HIGH), *parts))
 
 
 def _legend(one: JointTraces) -> Html:
-    whose = "the extended model" if EXTENDED in one.signals else "the identified model"
+    whose = "the extended model" if EXTENDED[0] in one.signals else "the identified model"
     words = {
         "measured": "measured",
         "filtered": "measured, through the parallel filter: what the model is fitted to",
         "estimated": f"estimated by {whose}, through the same filter",
+        "residual": "what is left: filtered minus estimated",
         "unseen": "shaded: blocks that no fit has seen",
     }
     marks = [tag("span", tag("i", class_=f"swatch {kind}"), f" {told}") for kind, told in words.items()]
@@ -146,7 +150,7 @@ def _lines(frame: Frame, time: Sequence[float], values: Trace, kind: str) -> Ite
 
 def _ends(joints: Sequence[JointTraces]) -> tuple[float, float]:
     stamps = [stamp for one in joints for stamp in (one.time[0], one.time[-1])]
-    return span([min(stamps), max(stamps)], margin=0.0)
+    return min(stamps), max(*stamps, min(stamps) + 1e-9)
 
 
 def _reach(values: Trace) -> tuple[float, float]:
