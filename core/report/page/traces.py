@@ -117,8 +117,8 @@ def _torque(one: JointTraces) -> Html:
     low, high = _reach(one.signals[MEASURED])
     title = f"Joint {one.joint}"
     told = (
-        f"Torque of joint {one.joint} over time: measured, filtered, estimated by the model, and the difference "
-        f"of the last two. The measured one lies between {number(low)} and {number(high)} {unit}."
+        f"Torque of joint {one.joint} over time: measured, filtered, estimated by the model, and the "
+        f"difference of the last two. The measured one lies between {number(low)} and {number(high)} {unit}."
     )
     parts = (*unseen, frame.axes(title, "time, s", f"torque, {unit}"), frame.zero(), *lines)
     return tag("figure", picture(f"{title}: torque over time", told, (_WIDE, _HIGH), *parts))
