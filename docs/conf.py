@@ -6,6 +6,7 @@ scripts of other hosts; formulas become MathML, which browsers draw themselves; 
 """
 
 import re
+from pathlib import Path
 
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
@@ -15,6 +16,9 @@ from sphinx.writers.html5 import HTML5Translator
 NAVIGATION = {
     "Start": ["tutorial", "questions"],
     "How to": [
+        "pages",
+        "terminal",
+        "client",
         "mdh",
         "robots",
         "logs",
@@ -30,6 +34,8 @@ NAVIGATION = {
     "Reference": ["api", "options", "problems", "formats", "terms", "causes"],
     "Explanation": ["method", "feasibility", "precision", "accuracy", "decisions"],
 }
+
+_HERE = Path(__file__).parent
 
 project = "Veritorque"
 author = "The Veritorque authors"
@@ -68,6 +74,8 @@ def _prepare(_: Sphinx, page: str, text: list[str]) -> None:
 
 
 def _branch(kind: str, pages: list[str]) -> str:
+    """Write one kind of documents; a name without a page yet keeps its place."""
+    pages = [page for page in pages if (_HERE / f"{page}.md").exists()]
     return "\n".join(["", "```{toctree}", f":caption: {kind}", ":hidden:", "", *pages, "```", ""])
 
 

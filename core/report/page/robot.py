@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from core.report.page.markup import Html, listing, section, table, tag
 from core.report.page.whisker import whisker
-from core.report.page.words import Document, fit_band, number, percent, uncertain, unit_of_effort
+from core.report.page.words import Document, fit_band, number, percent, uncertain, unit, unit_of_effort
 
 
 def headline(document: Document) -> str:
@@ -87,7 +87,7 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
             percent(row.get("relative_deviation_percent")),
             whisker(row),
             number(row.get("value_ols")),
-            tag("span", "" if row["unit"] == "1" else row["unit"]),
+            tag("span", unit(row["unit"])),
             tag("b", "joined the model")
             if row.get("new")
             else tag("span", row.get("grouping") or "", class_="meta"),
@@ -103,7 +103,7 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
         "parameter",
         "value ± standard deviation",
         "%P",
-        "error bars, 95 %",
+        "error bars",
         "least squares",
         "unit",
         "what is grouped in it",

@@ -94,6 +94,10 @@ code { overflow-wrap: anywhere; }
   .verdict { font-size: 1.25rem; }
   .finding { padding: .75rem .8rem 1rem; }
   .key { grid-template-columns: repeat(2, 1fr); }
+  .long td.text { min-width: 24rem; }
+  .traces { overflow-x: auto; }
+  .traces svg { min-width: 44rem; }
+  .traces figcaption { position: sticky; left: 0; }
   .pair svg text { font-size: 15px; }
   .pair svg text.title { font-size: 16px; }
 }

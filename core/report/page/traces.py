@@ -81,7 +81,7 @@ def _motion(joints: Sequence[JointTraces]) -> Html:
         for place, one in enumerate(joints, start=1)
     ]
     told = tag("figcaption", "The exciting motion: positions, and speeds as differentiated. ", *marks)
-    return tag("figure", *panels, told, class_="legend")
+    return tag("figure", *panels, told, class_="traces legend", tabindex=0)
 
 
 def _overlaid(joints: Sequence[JointTraces], signal: str) -> Html:
@@ -121,7 +121,12 @@ def _torque(one: JointTraces) -> Html:
         f"difference of the last two. The measured one lies between {number(low)} and {number(high)} {unit}."
     )
     parts = (*unseen, frame.axes(title, "time, s", f"torque, {unit}"), frame.zero(), *lines)
-    return tag("figure", picture(f"{title}: torque over time", told, (_WIDE, _HIGH), *parts))
+    return tag(
+        "figure",
+        picture(f"{title}: torque over time", told, (_WIDE, _HIGH), *parts),
+        class_="traces",
+        tabindex=0,
+    )
 
 
 def _legend(one: JointTraces) -> Html:

@@ -5,7 +5,7 @@ terms of its own uncertainty, not its size.
 """
 
 from core.report.page.markup import Html, tag
-from core.report.page.words import Document, number
+from core.report.page.words import Document, number, unit
 
 _WIDE, _HIGH, _MARGIN = 120.0, 16.0, 4.0
 _MIDDLE = _HIGH / 2.0
@@ -25,7 +25,7 @@ def whisker(row: Document) -> Html | None:
     def at(one: float) -> float:
         return round(_MARGIN + (_WIDE - 2.0 * _MARGIN) * (one - low) / (high - low), 1)
 
-    told = f"{row['name']}: 95 % interval {number(ends[0])} to {number(ends[1])} {row['unit']}"
+    told = f"{row['name']}: 95 % interval {number(ends[0])} to {number(ends[1])} {unit(row['unit'])}"
     return tag(
         "svg",
         tag("title", told),
