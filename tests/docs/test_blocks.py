@@ -20,7 +20,8 @@ LANGUAGES = {"bash", "python", "c", "json", "xml", "text", ""}
 RUNNABLE = [block for block in BLOCKS if block.language in RUN]
 LEFT_OUT = [block for block in RUNNABLE if block.reason]
 TYPED = sorted(
-    {block.page for block in RUNNABLE if not block.reason}, key=lambda page: page.name == "diagnosis.md"
+    dict.fromkeys(block.page for block in RUNNABLE if not block.reason),
+    key=lambda page: page.name == "diagnosis.md",
 )
 """The page that leaves a long job behind comes last: the service ends it."""
 
