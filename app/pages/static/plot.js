@@ -29,12 +29,15 @@ const cursors = new Map();
  * @param {string} [plot.together] plots of one name share cursor and zoom
  * @param {{from: number, to: number, label: string}[]} [plot.marks] stretches of x to shade
  * @param {string} [plot.note] one more sentence for those who hear the page
- * @returns {{destroy: function(): void}}
+ * @param {[number, number]} [plot.extent] the whole range of x, where the values are only a part of it
+ * @param {function(number, number): void} [plot.zoomed] hears which range of x is shown, at every change
+ * @returns {{replace: function(number[], (number|null)[][]): void, destroy: function(): void}} `replace` gives the traces
+ *   other values, over other x, and leaves the range that is shown
  */
 export function draw(container, plot) {
-  const { title, unit = "", x, traces, height = 180, together = null, marks = [], note = "" } = plot;
-  const xs = x.values.slice(0, MOST_POINTS);
-  const data = [xs, ...traces.map((trace) => trace.values.slice(0, MOST_POINTS))];
+  const { title, unit = "", x, traces, height = 180, together = null, marks = [], note = "", zoomed = null } = plot;
+  let data = bounded(x.values, traces.map((trace) => trace.values));
+  const [first, last] = plot.extent ?? [data[0][0], data[0][data[0].length - 1]];
   const canvas = element("div", { class: "canvas", role: "img", "aria-label": summary(title, unit, traces, note) });
   const reset = element("button", { type: "button", class: "tiny", hidden: true, on: { click: () => all() } }, "Whole range");
   const save = element("button", { type: "button", class: "tiny", "aria-label": `Save ${title} as CSV` }, "CSV");
@@ -59,6 +62,11 @@ export function draw(container, plot) {
   canvas.addEventListener("keydown", steer);
 
   return {
+    replace(values, others) {
+      data = bounded(values, others);
+      made.setData(data, false);
+      made.redraw();
+    },
     destroy() {
       seen.disconnect();
       removeEventListener("themechange", recolour);
@@ -68,7 +76,7 @@ export function draw(container, plot) {
   };
 
   function all() {
-    zoom(xs[0], xs[xs.length - 1]);
+    zoom(first, last);
   }
 
   function zoom(min, max) {
@@ -78,7 +86,6 @@ export function draw(container, plot) {
   function steer(event) {
     const { min, max } = made.scales.x;
     const span = max - min;
-    const [first, last] = [xs[0], xs[xs.length - 1]];
     const kept = (low, wide) => {
       const from = Math.min(Math.max(low, first), Math.max(first, last - wide));
       zoom(from, Math.min(from + wide, last));
@@ -120,8 +127,9 @@ export function draw(container, plot) {
         setScale: [(drawn, key) => {
           if (key !== "x") return;
           const { min, max } = drawn.scales.x;
-          reset.hidden = min <= xs[0] && max >= xs[xs.length - 1];
+          reset.hidden = min <= first && max >= last;
           if (group !== null) group.follow(drawn, min, max);
+          zoomed?.(min, max);
         }],
       },
     };
@@ -138,6 +146,10 @@ export function draw(container, plot) {
     }
     ctx.restore();
   }
+}
+
+function bounded(xs, columns) {
+  return [xs, ...columns].map((values) => values.slice(0, MOST_POINTS));
 }
 
 /** The colour of a trace, by its number from 1. */
