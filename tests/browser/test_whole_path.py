@@ -15,7 +15,7 @@ class Finger:
 
     def click(self, role, name):
         self.clicks += 1
-        self.page.get_by_role(role, name=name).click()
+        self.page.get_by_role(role, name=name).first.click()
 
     def choose(self, label, value):
         self.clicks += 2  # opens the menu, takes the entry
