@@ -1,6 +1,6 @@
 // Draw a robot as a stick figure that can be turned and posed: links as rods, joints as barrels or slides, bodies as ellipsoids.
 import { element, fill, svg } from "./dom.js";
-import { add, apply, column, movingJoints, multiply, place, rangeOf, times, turnX, turnZ } from "./kinematics.js";
+import { add, apply, column, IDENTITY, movingJoints, multiply, place, rangeOf, times, transposed, turnZ } from "./kinematics.js";
 import { number, plural } from "./words.js";
 
 const HALF = 100; // the drawing reaches from -HALF to HALF
@@ -19,6 +19,7 @@ const STEP = Math.PI / 24;
 export function drawChain(container, description, { sliders = true, bodies = [] } = {}) {
   let robot = description;
   let pose = [];
+  let fit = null;
   const view = { yaw: -0.9, pitch: 0.32, zoom: 1 };
   const drawing = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, role: "img" });
   const stage = element("div", { class: "stage3d", tabindex: "0", role: "group", "aria-label": "Figure of the robot. The arrow keys turn it, plus and minus zoom." }, drawing);
@@ -36,6 +37,7 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
     robot = changed;
     const joints = movingJoints(robot);
     if (pose.length !== joints.length || before !== joints.map((joint) => joint.type).join()) pose = joints.map(resting);
+    fit = ball(place(robot, pose).flatMap((one) => one.path));
     if (sliders) fill(panel, joints.map(slider), joints.length ? element("button", { type: "button", class: "tiny", on: { click: rest } }, "Zero pose") : null);
     draw();
   }
@@ -59,9 +61,10 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
 
   function draw() {
     const places = place(robot, pose);
-    const camera = multiply([[1, 0, 0], [0, Math.sin(view.pitch), Math.cos(view.pitch)], [0, -Math.cos(view.pitch), Math.sin(view.pitch)]], turnZ(view.yaw));
-    const corners = [[0, 0, 0], ...places.flatMap((one) => one.path)];
-    const [middle, radius] = ball(corners);
+    const upright = uprightBy(robot.gravity ?? [0, 0, -1]);
+    const view3 = multiply([[1, 0, 0], [0, Math.sin(view.pitch), Math.cos(view.pitch)], [0, -Math.cos(view.pitch), Math.sin(view.pitch)]], turnZ(view.yaw));
+    const camera = multiply(view3, upright);
+    const { middle, radius } = fit;
     const scale = (view.zoom * HALF * 0.8) / radius;
     const flat = (point) => {
       const seen = apply(camera, add(point, times(middle, -1)));
@@ -69,10 +72,11 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
     };
     const size = radius * 0.075; // of joints and frames, m
     const shapes = [
-      floor(radius, flat),
+      floor(radius, transposed(upright), flat),
       ...places.flatMap((one, index) => rods(one, index, flat)),
-      ...places.map((one, index) => barrel(robot.joints[index], index, one, size, flat)),
+      ...places.map((one, index) => barrel(robot.joints[index], index, one, { size, camera, scale, flat })),
       ...bodies.map((body) => ellipsoid(body, places[body.link - 1], camera, scale, flat)),
+      triad({ rotation: IDENTITY, origin: [0, 0, 0] }, size * 1.8, flat),
       ...ends(robot, places).map((one) => triad(one, size * 2.2, flat)),
     ].sort((a, b) => a.depth - b.depth);
     drawing.replaceChildren(...shapes.map((shape) => shape.node), ...places.map((one, index) => label(index + 1, one, size, flat)));
@@ -130,26 +134,38 @@ function resting(joint) {
   return Math.min(Math.max(0, low), high);
 }
 
-/** A ball around points: its middle and radius. */
+/** A ball around the base and some points: its middle and radius, m. */
 function ball(points) {
+  const all = [[0, 0, 0], ...points];
   const middle = [0, 1, 2].map((axis) => {
-    const values = points.map((point) => point[axis]);
+    const values = all.map((point) => point[axis]);
     return (Math.min(...values) + Math.max(...values)) / 2;
   });
-  const radius = Math.max(...points.map((point) => Math.hypot(...add(point, times(middle, -1)))));
-  return [middle, radius > 1e-6 ? radius : 0.5];
+  const radius = Math.max(...all.map((point) => Math.hypot(...add(point, times(middle, -1)))));
+  return { middle, radius: radius > 1e-6 ? radius * 1.12 : 0.5 };
+}
+
+/** Turn the base frame so that gravity points down. Source: the smallest rotation that leads one unit vector to another. */
+function uprightBy(gravity) {
+  const strength = Math.hypot(...gravity);
+  if (strength < 1e-9) return IDENTITY;
+  const [x, y, z] = times(gravity, -1 / strength);
+  if (z < -1 + 1e-9) return [[1, 0, 0], [0, -1, 0], [0, 0, -1]];
+  const k = 1 / (1 + z);
+  return [[1 - x * x * k, -x * y * k, -x], [-x * y * k, 1 - y * y * k, -y], [x, y, z]];
 }
 
 function pathOf(points) {
   return points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
 }
 
-function floor(radius, flat) {
+/** The floor lies level, under the base: `level` leads from level coordinates to those of the base frame. */
+function floor(radius, level, flat) {
   const lines = [-2, -1, 0, 1, 2].flatMap((step) => {
     const [at, end] = [step * radius * 0.25, radius * 0.5];
     return [[[at, -end, 0], [at, end, 0]], [[-end, at, 0], [end, at, 0]]];
   });
-  return { depth: -Infinity, node: svg("path", { class: "floor", d: lines.map((ends) => pathOf(ends.map(flat))).join("") }) };
+  return { depth: -Infinity, node: svg("path", { class: "floor", d: lines.map((ends) => pathOf(ends.map((end) => flat(apply(level, end))))).join("") }) };
 }
 
 function rods(one, index, flat) {
@@ -159,10 +175,19 @@ function rods(one, index, flat) {
   });
 }
 
-function barrel(joint, index, one, size, flat) {
-  const axis = times(column(one.rotation, 2), size);
-  const ends = [flat(add(one.origin, times(axis, -1))), flat(add(one.origin, axis))];
-  return { depth: flat(one.origin)[2] + 1e-3, node: svg("path", { class: `joint ${joint.type}`, d: pathOf(ends) }, svg("title", {}, `${joint.name ?? `joint ${index + 1}`}, ${joint.type}`)) };
+/** A joint: a barrel about its axis, or a bar along it. */
+function barrel(joint, index, one, { size, camera, scale, flat }) {
+  const axis = column(one.rotation, 2);
+  const half = joint.type === "prismatic" ? 1.5 * size : size;
+  const ends = [-half, half].map((reach) => flat(add(one.origin, times(axis, reach))));
+  const seen = apply(camera, axis);
+  const [far, near] = seen[2] >= 0 ? ends : [...ends].reverse();
+  const radius = size * scale * (joint.type === "prismatic" ? 0.45 : 0.75);
+  const turn = `rotate(${((Math.atan2(-seen[1], seen[0]) * 180) / Math.PI).toFixed(1)})`;
+  const cap = (at, name) => svg("ellipse", { class: name, rx: Math.max(radius * Math.abs(seen[2]), 0.2).toFixed(2), ry: radius.toFixed(2), transform: `translate(${at[0].toFixed(2)} ${at[1].toFixed(2)}) ${turn}` });
+  const node = svg("g", { class: `joint ${joint.type}` }, cap(far, "side"), svg("path", { d: pathOf(ends), "stroke-width": (2 * radius).toFixed(2) }), cap(near, "cap"),
+    svg("title", {}, `${joint.name ?? `joint ${index + 1}`}, ${joint.type}`));
+  return { depth: flat(one.origin)[2] + half / 2, node };
 }
 
 function triad(one, size, flat) {

@@ -1,7 +1,8 @@
 // Where the frames of a described robot are, for drawing: the same rows and the same order of turns as the service's own.
 // Source: Khalil & Kleinfinger, ICRA 1986; T = Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r).
 
-const IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+/** No rotation. */
+export const IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 /** The joints that move by themselves: those that mimic no other. */
 export function movingJoints(description) {
@@ -56,6 +57,11 @@ export function multiply(a, b) {
 /** The column of a matrix, as a vector. */
 export function column(matrix, index) {
   return matrix.map((row) => row[index]);
+}
+
+/** A matrix, rows for columns. */
+export function transposed(matrix) {
+  return [0, 1, 2].map((index) => column(matrix, index));
 }
 
 /** Turn about x by an angle in rad. */
