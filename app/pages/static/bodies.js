@@ -1,6 +1,7 @@
 // Whether such a robot can exist: its bodies drawn on the chain, the eigenvalues that say so, and the bounds they touch.
 import { drawChain } from "./chain.js";
 import { element, fill } from "./dom.js";
+import { wide } from "./wide.js";
 import { number, plural } from "./words.js";
 
 /** Show the bodies. */
@@ -29,15 +30,29 @@ function facts(feasibility, solver) {
       `Plain least squares gives one that ${feasibility.ols_feasible ? "can as well" : "cannot"}.`),
     price === null ? null : element("li", {}, `The price of existence: a squared error ${number(100 * price, 3)} % above the least-squares optimum.`),
     mass.workspace === undefined ? null : element("li", {}, `Mass matrix: smallest eigenvalue ${number(mass.trajectory, 3)} along the motion, ${number(mass.workspace, 3)} in ${plural("configuration", mass.configurations)} of the workspace.`),
-    element("li", {}, active.length ? `The estimate touches: ${active.join("; ")}.` : "No bound of a mass or a mass centre is touched."),
+    active.length ? touched(active) : element("li", {}, "No constraint is touched: every body lies well within what can exist."),
     element("li", {}, `Solver: ${solver.status}, ${plural("iteration", solver.iterations)}.`),
   ];
+}
+
+// Which bodies lie at the edge of what can exist, and which parameters at their lower bound, by the names of the result.
+function touched(active) {
+  const links = active.filter((name) => name.startsWith("pseudo_inertia_")).map((name) => name.split("_").pop());
+  const others = active.filter((name) => !name.startsWith("pseudo_inertia_"));
+  return [
+    links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} at the edge of what can exist, as thin as the margin allows: there the measurement alone would ask for one that cannot.`) : null,
+    others.length ? element("li", {}, `At the lower bound: ${listed(others)}.`) : null,
+  ];
+}
+
+function listed(names) {
+  return names.length < 2 ? names.join() : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
 }
 
 function eigenvalues(feasibility, bodies) {
   const smallest = feasibility.pseudo_inertia_min_eigenvalue ?? [];
   if (!smallest.length) return null;
-  return element("div", { class: "wide scroll", tabindex: "0", role: "region", "aria-label": "Links" }, element("table", {},
+  return wide(element("table", {},
     element("caption", {}, "A body can exist where no eigenvalue of its pseudo-inertia is negative."),
     element("thead", {}, element("tr", {}, ["Link", "Mass, kg", "Half axes, mm", "Smallest eigenvalue"].map((name) => element("th", { scope: "col" }, name)))),
     element("tbody", {}, smallest.map((value, index) => {
@@ -46,5 +61,5 @@ function eigenvalues(feasibility, bodies) {
         element("td", {}, number(body?.mass, 3)),
         element("td", {}, body?.half_axes ? body.half_axes.map((one) => number(1000 * one, 3)).join(" × ") : "–"),
         element("td", { class: value < 0 ? "poor" : null }, number(value, 3)));
-    }))));
+    }))), "Links");
 }

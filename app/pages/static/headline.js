@@ -26,9 +26,10 @@ function figures(document) {
   const [best, worst] = [ranked[0], ranked.at(-1)];
   const errors = document.validation.length ? document.validation : document.fit;
   const byError = [...errors].sort((a, b) => a.nrmse_of_rms_percent - b.nrmse_of_rms_percent);
+  const cured = document.diagnosis?.after?.validation_total_percent ?? null;
   return [
-    figure(relative(held ?? document.fit_total_percent),
-      `torque error on ${held === null || held === undefined ? "the fitted motion" : "held-out motion"}, RMS of residual over RMS of torque; from ${relative(byError[0]?.nrmse_of_rms_percent)} (joint ${byError[0]?.joint}) to ${relative(byError.at(-1)?.nrmse_of_rms_percent)} (joint ${byError.at(-1)?.joint})`),
+    figure(cured === null ? relative(held ?? document.fit_total_percent) : `${number(held, 3)} → ${relative(cured)}`,
+      `torque error on ${held === null || held === undefined ? "the fitted motion" : "held-out motion"}, RMS of residual over RMS of torque${cured === null ? "" : ", before and after the cure"}; ${cured === null ? "" : "before: "}from ${relative(byError[0]?.nrmse_of_rms_percent)} (joint ${byError[0]?.joint}) to ${relative(byError.at(-1)?.nrmse_of_rms_percent)} (joint ${byError.at(-1)?.joint})`),
     figure(counts.essential === null ? counts.base : `${counts.essential} of ${counts.base}`,
       `base parameters are essential, grouped from ${plural("standard parameter", counts.standard)}`),
     best ? figure(relative(best.relative_deviation_percent), `%P of the best known essential parameter, ${best.name}; the least known, ${worst.name}, has ${relative(worst.relative_deviation_percent)}`) : null,

@@ -2,6 +2,7 @@
 import { follow } from "./api.js";
 import { element, fill, svg } from "./dom.js";
 import { relative } from "./headline.js";
+import { wide } from "./wide.js";
 import { number } from "./words.js";
 
 const POOR_PERCENT = 30;
@@ -35,10 +36,9 @@ export function showParameters(container, { job, document }) {
         element("button", { type: "button", class: "tiny", on: { click: copy } }, "Copy as CSV"),
         element("button", { type: "button", class: "tiny", on: { click: saveLatex } }, "Save as LaTeX"),
         follow(element("a", { class: "button tiny", href: job.links.parameters_csv, download: "parameters.csv" }, "CSV file")))),
-    element("div", { class: "wide scroll", tabindex: "0", role: "region", "aria-label": "Base parameters" },
-      element("table", { class: "parameters" },
+    wide(element("table", { class: "parameters" },
         element("caption", {}, "Value of the robot that can exist, beside ordinary least squares, which knows nothing of bodies. %P is the standard deviation in percent of the value; bars are drawn over the value, relative to it."),
-        element("thead", {}, element("tr", {}, heads)), body)));
+        element("thead", {}, element("tr", {}, heads)), body), "Base parameters"));
   write();
 
   function sort(column) {

@@ -11,6 +11,7 @@ const cursors = new Map();
  * @typedef {Object} TraceOfPlot
  * @property {string} label
  * @property {(number|null)[]} values null is a gap; as many as there are x values, at most MOST_POINTS
+ * @property {number[]} [at] x values of its own
  * @property {number} [colour] 1 to 7, else by its place
  * @property {boolean} [dashed]
  * @property {boolean} [dots] points without a line
@@ -27,16 +28,16 @@ const cursors = new Map();
  * @param {TraceOfPlot[]} plot.traces
  * @param {number} [plot.height] px
  * @param {string} [plot.together] plots of one name share cursor and zoom
- * @param {{from: number, to: number, label: string}[]} [plot.marks] stretches of x to shade
+ * @param {{from: number, to: number, label: string, quiet?: boolean}[]} [plot.marks] stretches of x to shade
  * @param {string} [plot.note] one more sentence for those who hear the page
  * @param {[number, number]} [plot.extent] the whole range of x, where the values are only a part of it
  * @param {function(number, number): void} [plot.zoomed] hears which range of x is shown, at every change
- * @returns {{replace: function(number[], (number|null)[][]): void, destroy: function(): void}} `replace` gives the traces
- *   other values, over other x, and leaves the range that is shown
+ * @returns {{replace: function(number[], {values: (number|null)[], at?: number[]}[]): void, destroy: function(): void}} `replace`
+ *   gives the traces other values and leaves the range that is shown
  */
 export function draw(container, plot) {
   const { title, unit = "", x, traces, height = 180, together = null, marks = [], note = "", zoomed = null } = plot;
-  let data = bounded(x.values, traces.map((trace) => trace.values));
+  let data = joined(x.values, traces);
   const [first, last] = plot.extent ?? [data[0][0], data[0][data[0].length - 1]];
   const canvas = element("div", { class: "canvas", role: "img", "aria-label": summary(title, unit, traces, note) });
   const reset = element("button", { type: "button", class: "tiny", hidden: true, on: { click: () => all() } }, "Whole range");
@@ -63,7 +64,7 @@ export function draw(container, plot) {
 
   return {
     replace(values, others) {
-      data = bounded(values, others);
+      data = joined(values, others);
       made.setData(data, false);
       made.redraw();
     },
@@ -118,7 +119,7 @@ export function draw(container, plot) {
         ...(together === null ? {} : { sync: { key: together, scales: ["x", null] } }),
       },
       axes: [
-        { ...axis, size: 40, gap: 4, label: x.unit ? `${x.label}, ${x.unit}` : x.label, labelSize: 16, labelFont: axis.font, labelGap: 0 },
+        { ...axis, size: 22, gap: 4, label: x.unit ? `${x.label}, ${x.unit}` : x.label, labelSize: 18, labelFont: axis.font, labelGap: 0 },
         { ...axis, size: 52, gap: 4, values: (_, splits) => splits.map((value) => (value === null ? "" : number(value, 4))) },
       ],
       series: [{ label: x.label }, ...traces.map(line)],
@@ -138,8 +139,8 @@ export function draw(container, plot) {
   function shade(drawn) {
     const { ctx, bbox } = drawn;
     ctx.save();
-    ctx.fillStyle = colour("--mark");
     for (const mark of marks) {
+      ctx.fillStyle = colour(mark.quiet ? "--quiet-mark" : "--mark");
       const left = Math.max(drawn.valToPos(mark.from, "x", true), bbox.left);
       const right = Math.min(drawn.valToPos(mark.to, "x", true), bbox.left + bbox.width);
       if (right >= bbox.left && left <= bbox.left + bbox.width) ctx.fillRect(left, bbox.top, Math.max(right - left, 2), bbox.height);
@@ -148,8 +149,11 @@ export function draw(container, plot) {
   }
 }
 
-function bounded(xs, columns) {
-  return [xs, ...columns].map((values) => values.slice(0, MOST_POINTS));
+// Bring traces onto one axis; where one has no value of its own, its line goes on, but ends at a gap.
+function joined(xs, traces) {
+  const cut = (values) => values.slice(0, MOST_POINTS);
+  if (traces.every((trace) => trace.at === undefined)) return [xs, ...traces.map((trace) => trace.values)].map(cut);
+  return uPlot.join(traces.map((trace) => [cut(trace.at ?? xs), cut(trace.values)]));
 }
 
 /** The colour of a trace, by its number from 1. */

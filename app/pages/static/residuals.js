@@ -27,7 +27,7 @@ function overTime(views, study, joint, log, seen) {
   const place = element("div", { class: "tile broad" });
   views.append(place);
   const shown = [["residual", study.traces.extended ? "before" : "residual", { colour: 2 }], ...(study.traces.extended ? [["residual_after", "after", { colour: 3 }]] : [])];
-  const finer = refining(study, joint, log, seen, (found) => plot.replace(found.time, shown.map(([signal]) => found.values[signal])));
+  const finer = refining(study, joint, log, seen, (found) => plot.replace(found.time, shown.map(([signal]) => ({ values: found.values[signal] }))));
   const plot = draw(place, {
     title: `Residual of joint ${joint}`, unit: seen.units.residual, height: 200, extent: seen.extent, zoomed: finer,
     x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks,

@@ -1,7 +1,7 @@
 // Measured, filtered and estimated torque of every joint, and the motion they belong to, drawn again finer when zoomed.
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
-import { plural } from "./words.js";
+import { number } from "./words.js";
 
 const WAIT_MS = 250;
 
@@ -61,17 +61,31 @@ async function torquePlot(place, study, joint, log) {
   const seen = await study.traces.of(joint, log);
   const shown = [
     ["torque_measured", "measured", { colour: 7, width: 1 }],
-    ["torque_filtered", "filtered", { colour: 1, width: 1.8 }],
-    ["torque_estimated", study.traces.extended ? "estimated before" : "estimated", { colour: 2, width: 1.8, dashed: study.traces.extended }],
-    ...(study.traces.extended ? [["torque_estimated_after", "estimated after", { colour: 3, width: 1.8 }]] : []),
+    ["torque_filtered", "filtered", { colour: 1, width: 2.2 }],
+    ["torque_estimated", study.traces.extended ? "estimated before" : "estimated", { colour: 2, width: 1.8, dashed: true }],
+    ...(study.traces.extended ? [["torque_estimated_after", "after", { colour: 3, width: 1.8, dashed: true }]] : []),
   ];
   const score = (study.document.validation.length ? study.document.validation : study.document.fit)[joint - 1];
-  const finer = refining(study, joint, log, seen, (found) => plot.replace(found.time, shown.map(([signal]) => found.values[signal])));
+  const raw = { found: null };
+  const tracesOf = (found) => shown.map(([signal, label, look]) => ({
+    label, ...look, values: found.values[signal], ...(signal === "torque_measured" && raw.found ? raw.found : {}),
+  }));
+  let now = seen;
+  const show = (found) => {
+    now = found;
+    plot.replace(found.time, tracesOf(found));
+  };
+  const finer = refining(study, joint, log, seen, show);
   const plot = draw(place, {
     title: `Joint ${joint}`, unit: seen.units.torque_filtered, height: 190, together: `torque ${log}`, extent: seen.extent,
     x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks, zoomed: finer,
-    traces: shown.map(([signal, label, look]) => ({ label, values: seen.values[signal], ...look })),
-    note: `${plural("stretch", seen.marks.length).replace("stretchs", "stretches")} held out; there the error is ${score.nrmse_of_rms_percent?.toFixed(1)} % of the torque's RMS.`,
+    traces: tracesOf(seen),
+    note: `The error ${study.document.validation.length ? "on the shaded, held-out stretches" : "on the fitted motion"} is ${number(score.nrmse_of_rms_percent, 3)} % of the torque's RMS.`,
+  });
+  study.traces.raw(joint, log).then((found) => {
+    if (found === null || !place.isConnected) return;
+    raw.found = found;
+    show(now);
   });
   return plot;
 }

@@ -2,6 +2,7 @@
 import { get } from "./api.js";
 
 const POINTS = 1200;
+const RAW_POINTS = 3000;
 const ALWAYS = ["position", "velocity", "torque_measured", "torque_filtered", "torque_estimated", "residual"];
 const EXTENDED = ["torque_estimated_after", "residual_after"];
 
@@ -17,14 +18,16 @@ const EXTENDED = ["torque_estimated_after", "residual_after"];
 
 /**
  * Give what asks for the traces of a job.
- * @returns {{joints: number, logs: number, extended: boolean, signals: string[], of: function(number, number, [number, number]=): Promise<JointTraces>}}
+ * @returns {{joints: number, logs: number, extended: boolean, of: function(number, number, [number, number]=): Promise<JointTraces>,
+ *   raw: function(number, number): Promise<{at: number[], values: number[]}|null>}}
  */
 export function tracesOf(job, document) {
   const extended = Boolean(document.diagnosis?.after?.base_parameters?.length);
   const signals = extended ? [...ALWAYS, ...EXTENDED] : ALWAYS;
   const known = new Map();
   const starts = new Map();
-  return { joints: document.fit.length, logs: document.logs.length, extended, signals, of };
+  const logs = new Map();
+  return { joints: document.fit.length, logs: document.logs.length, extended, of, raw };
 
   /** Read all signals of a joint of a log, both counted from 1; a range in s reads that part of it, finer. */
   function of(joint, log = 1, range = null) {
@@ -35,6 +38,18 @@ export function tracesOf(job, document) {
       known.set(key, asked);
     }
     return known.get(key);
+  }
+
+  /** The torque as it was logged, before any filter; null where the log was deleted since, or holds currents. */
+  async function raw(joint, log) {
+    if (!logs.has(log)) {
+      const path = `/v1/logs/${encodeURIComponent(job.logs[log - 1])}/traces?channels=torque&points=${RAW_POINTS}`;
+      logs.set(log, get(path).catch(() => null));
+    }
+    const seen = await logs.get(log);
+    const own = seen?.traces.find((trace) => trace.joint === joint);
+    if (!own) return null;
+    return { at: seen.time.values.map((stamp) => stamp - starts.get(log)), values: own.values };
   }
 
   async function read(joint, log, range) {
@@ -51,7 +66,7 @@ export function tracesOf(job, document) {
       values: Object.fromEntries(seen.traces.map((trace) => [trace.signal, trace.values])),
       units: Object.fromEntries(seen.traces.map((trace) => [trace.signal, trace.unit])),
       extent: [0, seen.extent[1] - start],
-      marks: seen.held_out.map(([from, to]) => ({ from: from - start, to: to - start, label: "held out" })),
+      marks: seen.held_out.map(([from, to]) => ({ from: from - start, to: to - start, label: "held out", quiet: true })),
       whole: seen.rows_per_stretch === 1,
     };
   }
