@@ -40,7 +40,7 @@ function touched(active) {
   const links = active.filter((name) => name.startsWith("pseudo_inertia_")).map((name) => name.split("_").pop());
   const others = active.filter((name) => !name.startsWith("pseudo_inertia_"));
   return [
-    links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} at the edge of what can exist, as thin as the margin allows: there the measurement alone would ask for one that cannot.`) : null,
+    links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} at the edge of what can exist, as thin as the margin allows.`) : null,
     others.length ? element("li", {}, `At the lower bound: ${listed(others)}.`) : null,
   ];
 }

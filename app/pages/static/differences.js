@@ -33,9 +33,10 @@ function summary(studies, rows) {
   const worst = real[0];
   return element("section", { class: "card headline compared", "aria-label": "What differs" },
     element("p", { class: "verdict" }, rows.length
-      ? `${real.length ? plural("parameter", real.length) : "No parameter"} of ${rows.length} ${real.length === 1 ? "differs" : "differ"} by more than ${REAL} standard deviations${worst ? `, ${worst.name} the most` : ""}.`
+      ? `${real.length ? plural("parameter", real.length) : "No parameter"} of ${rows.length} ${real.length < 2 ? "differs" : "differ"} by more than ${REAL} standard deviations${worst ? `, ${worst.name} the most` : ""}.`
       : "The two models have no parameter in common."),
     element("p", {}, `The torque error on ${held(studies)} is ${relative(totals[0])} on the left and ${relative(totals[1])} on the right.`),
+    studies.some((one) => one.document.diagnosis) ? element("p", { class: "hint" }, "Of a diagnosis, errors and parameters are those of the model as it was before the cure.") : null,
     sharedLogs(studies).length ? element("p", { class: "hint" }, "Both studies used the same log: their errors are not independent, so that standard deviations overstate how much the two may differ by chance.") : null);
 }
 

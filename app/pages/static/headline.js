@@ -4,7 +4,7 @@ import { number, plural } from "./words.js";
 
 /** Show the verdict and the key figures. */
 export function showHeadline(container, { document, report }) {
-  const verdict = report.querySelector(".verdict")?.textContent ?? "";
+  const verdict = report.querySelector(".verdict")?.textContent.replaceAll(" %", "\u00a0%") ?? "";
   const glance = [...report.querySelectorAll("main > header > ol, main > header > p:not(.verdict)")].map(copied);
   fill(container, element("section", { class: "card headline", "aria-label": "What came out" },
     element("p", { class: "verdict" }, verdict),
@@ -15,7 +15,7 @@ export function showHeadline(container, { document, report }) {
 
 /** A percentage as people read it. */
 export function relative(value, digits = 3) {
-  return value === null || value === undefined ? "–" : `${number(value, digits)} %`;
+  return value === null || value === undefined ? "–" : `${number(value, digits)}\u00a0%`;
 }
 
 function figures(document) {

@@ -16,6 +16,7 @@ const cursors = new Map();
  * @property {boolean} [dashed]
  * @property {boolean} [dots] points without a line
  * @property {number} [width]
+ * @property {boolean} [unnamed] left out of the legend: another trace's entry tells of it
  */
 
 /**
@@ -208,6 +209,7 @@ function member(name, made) {
 
 function legend(traces) {
   return element("span", { class: "legend" }, traces.map((trace, place) => {
+    if (trace.unnamed) return null;
     const number = (((trace.colour ?? place + 1) - 1) % COLOURS) + 1;
     return element("span", {}, element("i", { class: `swatch trace-${number}${trace.dashed ? " dashed" : ""}`, "aria-hidden": "true" }), trace.label);
   }));

@@ -1,6 +1,8 @@
 // What the model leaves of the torque: over time, and over what it might depend on.
+import { get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
+import { plain } from "./words.js";
 import { forEveryLog, joints, refining } from "./torque.js";
 
 /** Show the residual of one joint at a time, four ways. */
@@ -19,6 +21,9 @@ export async function showResiduals(container, study) {
       fill(views);
       const seen = await study.traces.of(joint, log);
       plots = [overTime(views, study, joint, log, seen)];
+      const found = await get(`${study.job.links.self}/residuals?joint=${joint}&log=${log}`);
+      if (buttons[joint - 1].getAttribute("aria-pressed") !== "true") return; // another one was chosen meanwhile
+      plots.push(...found.over.map((over) => overCoordinate(views, joint, found, over)), overFrequency(views, joint, found));
     }
   });
 }
@@ -34,4 +39,38 @@ function overTime(views, study, joint, log, seen) {
     traces: shown.map(([signal, label, look]) => ({ label, values: seen.values[signal], ...look })),
   });
   return plot;
+}
+
+const SIDES = { residual: { label: "residual", colour: 2 }, residual_after: { label: "after", colour: 3 } };
+
+function overCoordinate(views, joint, found, over) {
+  const place = element("div", { class: "tile" });
+  views.append(place);
+  const both = over.curves.length > 1;
+  return draw(place, {
+    title: `Joint ${joint} over ${plain(over.coordinate)}`, unit: found.unit, height: 190,
+    x: { label: over.coordinate, unit: over.unit, values: over.centre },
+    traces: over.curves.flatMap(({ signal, mean, low, high }) => {
+      const { label, colour } = SIDES[signal];
+      const name = both && signal === "residual" ? "before" : label;
+      const ends = both && signal === "residual" ? [] : [
+        { label: "5 and 95 of 100", values: high, colour: 7, width: 1, dashed: true },
+        { label: "5 of 100", values: low, colour: 7, width: 1, dashed: true, unnamed: true },
+      ];
+      return [...ends, { label: `mean ${name}`, values: mean, colour, width: 2 }];
+    }),
+    note: `Means over bins of equally many of ${found.samples} instants, and what 5 and 95 of 100 stay below.`,
+  });
+}
+
+function overFrequency(views, joint, found) {
+  const place = element("div", { class: "tile" });
+  views.append(place);
+  const own = found.densities.filter((one) => one.density.length);
+  if (!own.length) return { destroy() {} };
+  return draw(place, {
+    title: `Joint ${joint} over frequency`, unit: `${found.unit}/√Hz`, height: 190,
+    x: { label: "frequency", unit: "Hz", values: own[0].frequency_hz },
+    traces: own.map(({ signal, density }) => ({ label: own.length > 1 && signal === "residual" ? "before" : SIDES[signal].label, values: density.map(Math.sqrt), colour: SIDES[signal].colour, width: 1.6 })),
+  });
 }
