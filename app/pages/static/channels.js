@@ -7,7 +7,7 @@ import { unitOf } from "./words.js";
 
 const POINTS = 1000;
 const AT_ONCE = ["position", "torque", "current"];
-const HEIGHT = 120;
+const HEIGHT = 130;
 
 /**
  * Show the channels of a log.
