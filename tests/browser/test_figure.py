@@ -26,7 +26,8 @@ GANTRY = {
 }
 MIMIC = """<robot name="hand"><link name="palm"/><link name="near"/><link name="far"/><link name="slide"/>
   <joint name="a" type="revolute"><parent link="palm"/><child link="near"/>
-    <origin xyz="0.1 0.2 0.3" rpy="0.3 -0.4 0.5"/><axis xyz="0.6 0 0.8"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+    <origin xyz="0.1 0.2 0.3" rpy="0.3 -0.4 0.5"/><axis xyz="0.6 0 0.8"/>
+    <limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
   <joint name="b" type="revolute"><parent link="near"/><child link="far"/><origin xyz="0 0.1 0" rpy="1 0 0"/>
     <axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/>
     <mimic joint="a" multiplier="-0.5" offset="0.2"/></joint>

@@ -33,7 +33,9 @@ def test_from_the_start_page_to_the_report_of_a_log_of_ones_own(look, service, s
     finger.choose("Robot", "yumi-left")
     finger.give("#log input[type=file]", LOG)
     page.locator(".plot").nth(13).wait_for()
-    page.get_by_text("No defects were found").or_(page.get_by_text("found, marked in the plots")).wait_for()
+    page.get_by_text("No defects were found").or_(
+        page.get_by_text("found, marked where they have a place")
+    ).wait_for()
     seen.photograph("new_light")
     finger.click("button", "Start")
     page.locator(".state.successful").wait_for()

@@ -16,7 +16,7 @@ const WAYS = { list: "From the list", table: "Describe it", urdf: "URDF" };
  */
 export function chooseRobot(container, { wanted, chosen }) {
   const form = element("div", { class: "stack" });
-  const said = element("div", { "aria-live": "polite" });
+  const said = element("div", { class: "said", "aria-live": "polite" });
   const figure = element("div", { class: "figure" });
   const layout = element("div", { class: "split" }, element("div", { class: "stack" }, form, said), figure);
   fill(container, segments("How to choose the robot", WAYS, "list", turn), layout);
