@@ -49,6 +49,19 @@ def key(staged):
     return secret
 
 
+@pytest.fixture(scope="session")
+def studied(browser, service):
+    """The address of a finished study of the example, made by one click on the start page."""
+    page = browser.new_page()
+    page.goto(service)
+    page.get_by_role("button", name="Identify the arm").click(timeout=120_000)
+    page.wait_for_url("**/studies/*", timeout=120_000)
+    page.locator(".state.successful").wait_for(timeout=180_000)
+    address = page.url
+    page.close()
+    return address
+
+
 @pytest.fixture
 def look(browser):
     """Open pages in windows of their own; at the end none may have complained or called anybody else."""

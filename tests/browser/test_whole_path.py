@@ -26,19 +26,6 @@ class Finger:
         self.page.set_input_files(selector, file)
 
 
-@pytest.fixture(scope="session")
-def studied(browser, service):
-    """The address of a finished study of the example, made by one click on the start page."""
-    page = browser.new_page()
-    page.goto(service)
-    page.get_by_role("button", name="Identify the arm").click(timeout=120_000)
-    page.wait_for_url("**/studies/*", timeout=120_000)
-    page.locator(".state.successful").wait_for(timeout=180_000)
-    address = page.url
-    page.close()
-    return address
-
-
 def test_from_the_start_page_to_the_report_of_a_log_of_ones_own(look, service, studied):
     seen = look(service)
     page, finger = seen.open("/"), Finger(seen.page)
@@ -46,7 +33,9 @@ def test_from_the_start_page_to_the_report_of_a_log_of_ones_own(look, service, s
     finger.choose("Robot", "yumi-left")
     finger.give("#log input[type=file]", LOG)
     page.locator(".plot").nth(13).wait_for()
-    page.get_by_text("No defects were found").or_(page.get_by_text("found, marked in the plots")).wait_for()
+    page.get_by_text("No defects were found").or_(
+        page.get_by_text("found, marked where they have a place")
+    ).wait_for()
     seen.photograph("new_light")
     finger.click("button", "Start")
     page.locator(".state.successful").wait_for()

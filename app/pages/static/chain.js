@@ -65,7 +65,7 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
     const view3 = multiply([[1, 0, 0], [0, Math.sin(view.pitch), Math.cos(view.pitch)], [0, -Math.cos(view.pitch), Math.sin(view.pitch)]], turnZ(view.yaw));
     const camera = multiply(view3, upright);
     const { middle, radius } = fit;
-    const scale = (view.zoom * HALF * 0.8) / radius;
+    const scale = (view.zoom * HALF * 0.92) / radius;
     const flat = (point) => {
       const seen = apply(camera, add(point, times(middle, -1)));
       return [seen[0] * scale, -seen[1] * scale, seen[2]];

@@ -7,7 +7,8 @@ import { unitOf } from "./words.js";
 
 const POINTS = 1000;
 const AT_ONCE = ["position", "torque", "current"];
-const HEIGHT = 120;
+const HEIGHT = 130;
+const WHOLE = 0.95;
 
 /**
  * Show the channels of a log.
@@ -78,7 +79,8 @@ export function showChannels(container, log) {
   function marksOf(channel, joint, start) {
     return log.defects
       .filter((defect) => (defect.channel === channel && (defect.joint ?? joint) === joint) || defect.channel === "time")
-      .flatMap((defect) => defect.intervals.map(([from, to]) => ({ from: from - start, to: to - start, label: defect.kind })));
+      .flatMap((defect) => defect.intervals.map(([from, to]) => ({ from: from - start, to: to - start, label: defect.kind })))
+      .filter((mark) => mark.to - mark.from < WHOLE * log.duration_s); // what concerns all of the log has no place in it
   }
 }
 

@@ -18,7 +18,7 @@ const LISTED = 50;
  */
 export function chooseLogs(container, { wanted = [], chosen }) {
   const cards = element("div", { class: "stack" });
-  const said = element("div", { "aria-live": "polite" });
+  const said = element("div", { class: "said", "aria-live": "polite" });
   const earlier = element("div", {});
   const logs = new Map();
   let robot = null;
@@ -121,6 +121,6 @@ function facts(log) {
 function defects(log) {
   if (!log.defects.length) return element("p", { class: "sound" }, "No defects were found.");
   return element("details", { class: "defects", open: log.defects.length <= 4 },
-    element("summary", {}, `${plural("defect", log.defects.length)} found, marked in the plots`),
+    element("summary", {}, `${plural("defect", log.defects.length)} found, marked where they have a place`),
     element("ul", {}, log.defects.map((defect) => element("li", {}, element("strong", {}, plain(defect.kind)), ` ${defect.statement}`))));
 }

@@ -71,8 +71,8 @@ export function mappingForm(container, { columns, readings, finished }) {
   }
 
   function unitField(channel) {
-    const hints = [...new Set(columns.filter((_, index) => roles[index] === channel).flatMap((name) => readings[name] ?? []))];
-    const list = menu([["", "choose"], ...UNITS[channel].map((unit) => [unit, unit])], units[channel] ?? "", (unit) => { units[channel] = unit; show(); });
+    const hints = [...new Set(columns.filter((_, index) => roles[index] === channel).flatMap((name) => readings[name] ?? []))].filter((hint) => UNITS[channel].includes(hint.split(":")[0]));
+    const list = menu([["", "choose"], ...UNITS[channel].map((unit) => [unit, unit])], units[channel] ?? "", (unit) => { units[channel] = unit; wrong.textContent = ""; show(); });
     const made = [field(`Unit of ${channel}`, list, hints.length ? `plausible: ${hints.slice(0, 2).join("; ")}` : null)];
     if (units[channel] === "counts") {
       made.push(field(`One count of ${channel}`, element("input", { type: "text", inputmode: "decimal", value: scales[channel] ?? "", on: { input: (event) => { scales[channel] = event.target.value; } } }), channel === "position" ? "in rad or m" : "in N m or N"));

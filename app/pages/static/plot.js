@@ -5,6 +5,7 @@ import { number } from "./words.js";
 
 export const MOST_POINTS = 4000;
 const COLOURS = 7;
+const SMALL = 150; // px of height below which ticks carry the unit and the axis has no name
 const cursors = new Map();
 
 /**
@@ -38,6 +39,7 @@ const cursors = new Map();
  */
 export function draw(container, plot) {
   const { title, unit = "", x, traces, height = 180, together = null, marks = [], note = "", zoomed = null } = plot;
+  const small = height <= SMALL;
   let data = joined(x.values, traces);
   const [first, last] = plot.extent ?? [data[0][0], data[0][data[0].length - 1]];
   const canvas = element("div", { class: "canvas", role: "img", "aria-label": summary(title, unit, traces, note) });
@@ -120,8 +122,10 @@ export function draw(container, plot) {
         ...(together === null ? {} : { sync: { key: together, scales: ["x", null] } }),
       },
       axes: [
-        { ...axis, size: 22, gap: 4, label: x.unit ? `${x.label}, ${x.unit}` : x.label, labelSize: 18, labelFont: axis.font, labelGap: 0 },
-        { ...axis, size: 52, gap: 4, values: (_, splits) => splits.map((value) => (value === null ? "" : number(value, 4))) },
+        small
+          ? { ...axis, size: 24, gap: 4, values: (_, splits) => splits.map((value) => `${number(value, 6)}${x.unit ? ` ${x.unit}` : ""}`) }
+          : { ...axis, size: 22, gap: 4, values: (_, splits) => splits.map((value) => number(value, 6)), label: x.unit ? `${x.label}, ${x.unit}` : x.label, labelSize: 18, labelFont: axis.font, labelGap: 0 },
+        { ...axis, size: 52, gap: 4, space: 26, values: (_, splits) => splits.map((value) => (value === null ? "" : number(value, 4))) },
       ],
       series: [{ label: x.label }, ...traces.map(line)],
       hooks: {

@@ -22,7 +22,7 @@ export function askQuestion(container) {
   const choices = { cutoff: "", fraction: "", estimator: "", reference: "" };
   const reference = element("div", {});
   const missing = element("p", { class: "hint", role: "status" });
-  const said = element("div", { "aria-live": "polite" });
+  const said = element("div", { class: "said", "aria-live": "polite" });
   const start = element("button", { type: "button", class: "primary large", on: { click: begin } }, "Start");
   fill(container,
     element("fieldset", { class: "questions" }, element("legend", { class: "unseen" }, "Question"), QUESTIONS.map(([value, title, text]) => element("label", { class: "question" },

@@ -16,7 +16,7 @@ const WAYS = { list: "From the list", table: "Describe it", urdf: "URDF" };
  */
 export function chooseRobot(container, { wanted, chosen }) {
   const form = element("div", { class: "stack" });
-  const said = element("div", { "aria-live": "polite" });
+  const said = element("div", { class: "said", "aria-live": "polite" });
   const figure = element("div", { class: "figure" });
   const layout = element("div", { class: "split" }, element("div", { class: "stack" }, form, said), figure);
   fill(container, segments("How to choose the robot", WAYS, "list", turn), layout);
@@ -111,11 +111,30 @@ export function chooseRobot(container, { wanted, chosen }) {
   }
 }
 
+/** The rows of a robot as they are read, in degrees and metres; what is given by frames has no row. */
+function rowsOf(description) {
+  const tabular = description.convention === "modified-dh";
+  const degrees = (angle) => number((angle * 180) / Math.PI, 4);
+  const range = (joint) => {
+    const limits = joint.limits?.position;
+    if (!limits) return "–";
+    return joint.type === "revolute" ? `${degrees(limits[0])} … ${degrees(limits[1])}°` : `${number(limits[0])} … ${number(limits[1])} m`;
+  };
+  const heads = ["joint", ...(tabular ? ["α, °", "d, m", "θ, °", "r, m"] : ["type"]), "range"];
+  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Joints of the robot" }, element("table", { class: "rows" },
+    element("thead", {}, element("tr", {}, heads.map((name) => element("th", { scope: "col" }, name)))),
+    element("tbody", {}, description.joints.map((joint, index) => element("tr", {},
+      element("th", { scope: "row" }, joint.name ?? `joint_${index + 1}`),
+      (tabular ? [degrees(joint.alpha), number(joint.d), degrees(joint.theta_offset), number(joint.r)] : [joint.type]).map((value) => element("td", {}, value)),
+      element("td", {}, range(joint)))))));
+}
+
 function summary(robot) {
   const { description } = robot;
   const sliding = description.joints.filter((joint) => joint.type === "prismatic").length;
   const facts = [plural("joint", robot.joints) + (sliding ? `, ${sliding} sliding` : ""), description.convention === "modified-dh" ? "modified Denavit-Hartenberg table" : "frames", `gravity ${description.gravity.map((value) => number(value, 3)).join(", ")} m/s²`, description.prior ? "bodies are believed" : null];
   return element("div", {},
     element("p", { class: "chosen" }, element("strong", {}, robot.name), ` · ${facts.filter(Boolean).join(" · ")}`),
+    rowsOf(description),
     robot.suspicions.length ? element("div", { class: "notice" }, element("strong", {}, "Is this meant?"), element("ul", {}, robot.suspicions.map((one) => element("li", {}, one)))) : null);
 }
