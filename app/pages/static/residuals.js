@@ -64,7 +64,7 @@ function overCoordinate(views, joint, found, over) {
 }
 
 function overFrequency(views, joint, found) {
-  const place = element("div", { class: "tile" });
+  const place = element("div", { class: "tile broad" });
   views.append(place);
   const own = found.densities.filter((one) => one.density.length);
   if (!own.length) return { destroy() {} };

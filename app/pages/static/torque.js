@@ -62,8 +62,8 @@ async function torquePlot(place, study, joint, log) {
   const shown = [
     ["torque_measured", "measured", { colour: 7, width: 1 }],
     ["torque_filtered", "filtered", { colour: 1, width: 2.2 }],
-    ["torque_estimated", study.traces.extended ? "estimated before" : "estimated", { colour: 2, width: 1.8, dashed: true }],
-    ...(study.traces.extended ? [["torque_estimated_after", "after", { colour: 3, width: 1.8, dashed: true }]] : []),
+    ["torque_estimated", study.traces.extended ? "model before" : "estimated", { colour: 2, width: 1.8, dashed: true }],
+    ...(study.traces.extended ? [["torque_estimated_after", "model after", { colour: 3, width: 1.8, dashed: true }]] : []),
   ];
   const score = (study.document.validation.length ? study.document.validation : study.document.fit)[joint - 1];
   const raw = { found: null };
