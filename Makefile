@@ -113,5 +113,5 @@ reference: $(READY) ## rewrite the generated pages of docs/ after a change of th
 	for page in api problems terms formats causes; do mv docs/$$page.md.new docs/$$page.md; done
 
 docs: $(READY) ## build the pages of docs/ as a site in site/, which opens without a server
-	$(RUN) -m sphinx --fail-on-warning --keep-going --nitpicky --quiet -d .sphinx docs site
+	$(RUN) -m sphinx --fresh-env --write-all --fail-on-warning --keep-going --nitpicky --quiet -d .sphinx docs site
 	@echo "site/index.html"

@@ -1,8 +1,10 @@
 """Answer with what a job computed instant by instant, thinned for a screen."""
 
 import math
+from dataclasses import asdict
 from typing import Annotated
 
+import numpy as np
 from fastapi import Depends, Query, Response
 
 from app.documents import json_bytes
@@ -11,6 +13,7 @@ from app.results import Result
 from core.log.preview import FEWEST_POINTS, MOST_POINTS
 from core.report.traces.layout import SIGNALS
 from core.report.traces.reading import Traces, View, read_traces
+from core.report.traces.views import read_views
 
 Number = Annotated[int, Query(ge=1, description="counted from 1")]
 Stamp = Annotated[float | None, Query(allow_inf_nan=False, description="s on the log's own clock")]
@@ -58,6 +61,34 @@ def traces_response(kept: Result, view: View, if_none_match: str | None) -> Resp
         return Response(json_bytes(document), media_type="application/json")
 
     return kept.unless_known(if_none_match, form, drawn)
+
+
+def views_response(kept: Result, *, log: int, joint: int, if_none_match: str | None) -> Response:
+    """Draw what is left over position, velocity and frequency.
+
+    Raises
+    ------
+    OptionError
+        If the result has no such log or joint.
+    ExcitationError
+        If too few instants count.
+    """
+
+    def drawn() -> Response:
+        kept.check()
+        document = {"log": log, "joint": joint} | asdict(read_views(kept.path, log=log, joint=joint))
+        return Response(json_bytes(_lists(document)), media_type="application/json")
+
+    return kept.unless_known(if_none_match, f"views-{log}-{joint}", drawn)
+
+
+def _lists(value: object) -> object:
+    """Write arrays as lists of numbers with the digits that single precision has."""
+    if isinstance(value, dict):
+        return {name: _lists(one) for name, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_lists(one) for one in value]
+    return _short(value.tolist()) if isinstance(value, np.ndarray) else value
 
 
 def _document(view: View, traces: Traces) -> dict[str, object]:

@@ -19,6 +19,43 @@ class ResultTrace(Open):
     values: Annotated[list[float | None], Field(max_length=4000)]
 
 
+class ResidualCurve(Open):
+    """A residual over a coordinate: per bin the mean, and what 5 and 95 of 100 instants stay below."""
+
+    signal: Annotated[str, Field(examples=["residual"])]
+    mean: list[float]
+    low: list[float]
+    high: list[float]
+
+
+class ResidualOver(Open):
+    """Residuals over one coordinate, in bins of nearly equally many instants."""
+
+    coordinate: Annotated[str, Field(examples=["velocity"])]
+    unit: str
+    centre: list[float]
+    curves: list[ResidualCurve]
+
+
+class ResidualDensity(Open):
+    """The power density of a residual, the square of its unit per Hz; empty where it never lasts long."""
+
+    signal: str
+    frequency_hz: list[float]
+    density: list[float]
+
+
+class ResidualViews(Open):
+    """What is left of one joint's torque, over what it may depend on."""
+
+    log: Annotated[int, Field(description="counted from 1")]
+    joint: Annotated[int, Field(description="counted from 1")]
+    unit: str
+    samples: Annotated[int, Field(description="instants that count")]
+    over: list[ResidualOver]
+    densities: list[ResidualDensity]
+
+
 class ResultTraces(Open):
     """Signals of one joint over a stretch of one log, on one time axis."""
 

@@ -1,4 +1,4 @@
-"""Describe links for a drawing: how the chain hangs together, and each body as an ellipsoid that equals it.
+"""Describe the bodies of links for a drawing: each as the ellipsoid that equals it.
 
 A body's ten parameters say where its mass is and how it spreads, not what it looks like. The solid ellipsoid
 of even density with the same mass, mass centre and inertia is the picture that adds nothing: its half axes
@@ -12,25 +12,6 @@ from core.arrays import LinkParameters, Parameters
 from core.dynamics.model import DynamicModel
 from core.dynamics.terms.rigid_body import RigidBody
 from core.robot.inertia import mass_properties
-from core.robot.model import RobotModel
-
-
-def link_rows(robot: RobotModel) -> list[dict[str, object]]:
-    """List how links hang together: every frame on its antecedent's at zero coordinate, and what moves it."""
-    return [
-        {
-            "number": number,
-            "name": link.name,
-            "kind": link.kind,
-            "antecedent": link.antecedent,
-            "joint": link.joint,
-            "rotation": link.rotation,
-            "translation": link.translation,
-            "ratio": link.ratio,
-            "offset": link.offset,
-        }
-        for number, link in enumerate(robot.links, start=1)
-    ]
 
 
 def body_rows(model: DynamicModel, standard: Parameters) -> list[dict[str, object]]:

@@ -10,7 +10,7 @@ from core.precision.bootstrap import intervals
 from core.precision.covariance import INTERVAL_95, relative_deviation_percent
 from core.reduction.base import BaseModel
 from core.regressor.observe import Observation
-from core.report.bodies import body_rows, link_rows
+from core.report.bodies import body_rows
 from core.report.doubts import doubts
 from core.report.earlier import written_factor
 from core.report.identification import Identification
@@ -40,7 +40,6 @@ def identification_document(found: Identification, *, version: str, options: obj
         },
         "base_parameters": base_parameter_rows(found),
         "standard_parameters": _standard_parameters(found),
-        "links": link_rows(found.base.model.robot),
         "bodies": body_rows(found.base.model, found.estimate.standard),
         "feasibility": _feasibility(found),
         "solver": _solver(found),

@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from app.schemas.traces import ResultTraces
+from app.schemas.traces import ResidualViews, ResultTraces
 from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import csv_log, description
@@ -126,3 +126,18 @@ def test_an_unfinished_job_has_no_traces_yet(tmp_path):
         job = client.post("/v1/jobs", json=body).json()["id"]
         assert_problem(client.get(f"/v1/jobs/{job}/traces?joint=1"), 409, "job-unfinished")
         client.executor.release.set()
+
+
+def test_the_residual_is_seen_over_position_velocity_and_frequency(client, job, table):
+    seen = ResidualViews.model_validate_json(client.get(f"{job}/residuals?joint=1").content)
+    assert [(over.coordinate, over.unit) for over in seen.over] == [
+        ("position", "rad"),
+        ("velocity", "rad/s"),
+    ]
+    assert seen.samples == table.column("used_1").to_numpy().sum()
+    assert [one.signal for one in seen.densities] == ["residual"]
+
+
+@pytest.mark.parametrize("query", ["joint=3", "joint=1&log=2"])
+def test_a_residual_that_is_not_there_is_refused(client, job, query):
+    assert_problem(client.get(f"{job}/residuals?{query}"), 422, "option")

@@ -5,16 +5,19 @@ import { number } from "./words.js";
 
 export const MOST_POINTS = 4000;
 const COLOURS = 7;
+const SMALL = 150; // px of height below which ticks carry the unit and the axis has no name
 const cursors = new Map();
 
 /**
  * @typedef {Object} TraceOfPlot
  * @property {string} label
  * @property {(number|null)[]} values null is a gap; as many as there are x values, at most MOST_POINTS
+ * @property {number[]} [at] x values of its own
  * @property {number} [colour] 1 to 7, else by its place
  * @property {boolean} [dashed]
  * @property {boolean} [dots] points without a line
  * @property {number} [width]
+ * @property {boolean} [unnamed] left out of the legend: another trace's entry tells of it
  */
 
 /**
@@ -27,14 +30,18 @@ const cursors = new Map();
  * @param {TraceOfPlot[]} plot.traces
  * @param {number} [plot.height] px
  * @param {string} [plot.together] plots of one name share cursor and zoom
- * @param {{from: number, to: number, label: string}[]} [plot.marks] stretches of x to shade
+ * @param {{from: number, to: number, label: string, quiet?: boolean}[]} [plot.marks] stretches of x to shade
  * @param {string} [plot.note] one more sentence for those who hear the page
- * @returns {{destroy: function(): void}}
+ * @param {[number, number]} [plot.extent] the whole range of x, where the values are only a part of it
+ * @param {function(number, number): void} [plot.zoomed] hears which range of x is shown, at every change
+ * @returns {{replace: function(number[], {values: (number|null)[], at?: number[]}[]): void, destroy: function(): void}} `replace`
+ *   gives the traces other values and leaves the range that is shown
  */
 export function draw(container, plot) {
-  const { title, unit = "", x, traces, height = 180, together = null, marks = [], note = "" } = plot;
-  const xs = x.values.slice(0, MOST_POINTS);
-  const data = [xs, ...traces.map((trace) => trace.values.slice(0, MOST_POINTS))];
+  const { title, unit = "", x, traces, height = 180, together = null, marks = [], note = "", zoomed = null } = plot;
+  const small = height <= SMALL;
+  let data = joined(x.values, traces);
+  const [first, last] = plot.extent ?? [data[0][0], data[0][data[0].length - 1]];
   const canvas = element("div", { class: "canvas", role: "img", "aria-label": summary(title, unit, traces, note) });
   const reset = element("button", { type: "button", class: "tiny", hidden: true, on: { click: () => all() } }, "Whole range");
   const save = element("button", { type: "button", class: "tiny", "aria-label": `Save ${title} as CSV` }, "CSV");
@@ -59,6 +66,11 @@ export function draw(container, plot) {
   canvas.addEventListener("keydown", steer);
 
   return {
+    replace(values, others) {
+      data = joined(values, others);
+      made.setData(data, false);
+      made.redraw();
+    },
     destroy() {
       seen.disconnect();
       removeEventListener("themechange", recolour);
@@ -68,7 +80,7 @@ export function draw(container, plot) {
   };
 
   function all() {
-    zoom(xs[0], xs[xs.length - 1]);
+    zoom(first, last);
   }
 
   function zoom(min, max) {
@@ -78,7 +90,6 @@ export function draw(container, plot) {
   function steer(event) {
     const { min, max } = made.scales.x;
     const span = max - min;
-    const [first, last] = [xs[0], xs[xs.length - 1]];
     const kept = (low, wide) => {
       const from = Math.min(Math.max(low, first), Math.max(first, last - wide));
       zoom(from, Math.min(from + wide, last));
@@ -111,8 +122,10 @@ export function draw(container, plot) {
         ...(together === null ? {} : { sync: { key: together, scales: ["x", null] } }),
       },
       axes: [
-        { ...axis, size: 40, gap: 4, label: x.unit ? `${x.label}, ${x.unit}` : x.label, labelSize: 16, labelFont: axis.font, labelGap: 0 },
-        { ...axis, size: 52, gap: 4, values: (_, splits) => splits.map((value) => (value === null ? "" : number(value, 4))) },
+        small
+          ? { ...axis, size: 24, gap: 4, values: (_, splits) => splits.map((value) => `${number(value, 6)}${x.unit ? ` ${x.unit}` : ""}`) }
+          : { ...axis, size: 22, gap: 4, values: (_, splits) => splits.map((value) => number(value, 6)), label: x.unit ? `${x.label}, ${x.unit}` : x.label, labelSize: 18, labelFont: axis.font, labelGap: 0 },
+        { ...axis, size: 52, gap: 4, space: 26, values: (_, splits) => splits.map((value) => (value === null ? "" : number(value, 4))) },
       ],
       series: [{ label: x.label }, ...traces.map(line)],
       hooks: {
@@ -120,8 +133,9 @@ export function draw(container, plot) {
         setScale: [(drawn, key) => {
           if (key !== "x") return;
           const { min, max } = drawn.scales.x;
-          reset.hidden = min <= xs[0] && max >= xs[xs.length - 1];
+          reset.hidden = min <= first && max >= last;
           if (group !== null) group.follow(drawn, min, max);
+          zoomed?.(min, max);
         }],
       },
     };
@@ -130,14 +144,21 @@ export function draw(container, plot) {
   function shade(drawn) {
     const { ctx, bbox } = drawn;
     ctx.save();
-    ctx.fillStyle = colour("--mark");
     for (const mark of marks) {
+      ctx.fillStyle = colour(mark.quiet ? "--quiet-mark" : "--mark");
       const left = Math.max(drawn.valToPos(mark.from, "x", true), bbox.left);
       const right = Math.min(drawn.valToPos(mark.to, "x", true), bbox.left + bbox.width);
       if (right >= bbox.left && left <= bbox.left + bbox.width) ctx.fillRect(left, bbox.top, Math.max(right - left, 2), bbox.height);
     }
     ctx.restore();
   }
+}
+
+// Bring traces onto one axis; where one has no value of its own, its line goes on, but ends at a gap.
+function joined(xs, traces) {
+  const cut = (values) => values.slice(0, MOST_POINTS);
+  if (traces.every((trace) => trace.at === undefined)) return [xs, ...traces.map((trace) => trace.values)].map(cut);
+  return uPlot.join(traces.map((trace) => [cut(trace.at ?? xs), cut(trace.values)]));
 }
 
 /** The colour of a trace, by its number from 1. */
@@ -192,6 +213,7 @@ function member(name, made) {
 
 function legend(traces) {
   return element("span", { class: "legend" }, traces.map((trace, place) => {
+    if (trace.unnamed) return null;
     const number = (((trace.colour ?? place + 1) - 1) % COLOURS) + 1;
     return element("span", {}, element("i", { class: `swatch trace-${number}${trace.dashed ? " dashed" : ""}`, "aria-hidden": "true" }), trace.label);
   }));

@@ -20,13 +20,13 @@ try {
 async function showStudy(job) {
   const badge = element("span", {}, state(job));
   const content = element("div", {});
-  fill(container, element("div", { class: "row spread" }, element("h1", {}, await titleOf(job)), badge), content);
+  fill(container, element("div", { class: "row spread heading" }, element("h1", {}, await titleOf(job)), badge), content);
   document.title = `${KINDS[job.kind] ?? plain(job.kind)} · Veritorque`;
   const ended = isOpen(job) ? await watch(job, content, badge) : job;
   fill(badge, state(ended));
   if (ended.state === "successful") await show(content, ended);
-  else if (ended.state === "failed") fill(content, problemBox(ended.problem), again());
-  else fill(content, element("p", { class: "notice" }, `The study was dismissed ${ago(ended.finished_at)}.`), again());
+  else if (ended.state === "failed") fill(content, problemBox(ended.problem), again(ended));
+  else fill(content, element("p", { class: "notice" }, `The study was dismissed ${ago(ended.finished_at)}.`), again(ended));
 }
 
 async function titleOf(job) {
@@ -86,8 +86,9 @@ async function watch(job, content, badge) {
   }
 }
 
-function again() {
-  return element("div", { class: "actions" }, element("a", { class: "button primary", href: "/new" }, "New study"), element("a", { class: "button", href: "/" }, "All studies"));
+function again(job) {
+  const same = new URLSearchParams([["robot", job.robot], ...job.logs.map((log) => ["log", log])]);
+  return element("div", { class: "actions" }, element("a", { class: "button primary", href: `/new?${same}` }, "Change it and start anew"), element("a", { class: "button", href: "/" }, "All studies"));
 }
 
 function isOpen(job) {

@@ -87,8 +87,11 @@ def read_traces(path: Path, view: View) -> Traces:
         If there is no such log, joint or signal, or nothing was measured in that stretch of time.
     """
     with pq.ParquetFile(path) as file:
-        log = _Log(file, view.log)
-        log.check(view)
+        log = LogOfTraces(file, view.log)
+        known = log.known(view.joint)
+        for signal in view.signals:
+            if signal not in known:
+                raise _unknown("signal", signal, known)
         time = log.column(TIME)
         first, last = _rows(time, view)
         inside = time[first:last]
@@ -97,7 +100,7 @@ def read_traces(path: Path, view: View) -> Traces:
         def read(start: int, stop: int) -> tuple[Samples, JointSeries]:
             return inside[start:stop], log.columns(names, first + start, first + stop)
 
-        seen = thin(read, _stretches(inside), points=view.points)
+        seen = thin(read, stretches(inside), points=view.points)
         held_out, used = (log.column(name)[first:last] for name in (HELD_OUT, column(USED, view.joint)))
         return Traces(
             extent=(float(time[0]), float(time[-1])),
@@ -111,7 +114,7 @@ def read_traces(path: Path, view: View) -> Traces:
 
 
 @dataclass(frozen=True, eq=False)
-class _Log:
+class LogOfTraces:
     """Give the rows of one log of a file by number, from 0."""
 
     file: pq.ParquetFile
@@ -130,18 +133,22 @@ class _Log:
         sizes = [self.file.metadata.row_group(group).num_rows for group in self.groups]
         return [0, *np.cumsum(sizes).tolist()]
 
-    def check(self, view: View) -> None:
-        known = set(self.file.schema_arrow.names)
+    def known(self, joint: int) -> list[str]:
+        """List the signals of a joint, counted from 1.
+
+        Raises
+        ------
+        OptionError
+            If there is no such log or joint.
+        """
+        names = set(self.file.schema_arrow.names)
         if not self.groups:
             last = self._log_of(self.file.metadata.num_row_groups - 1, 0)
-            raise _unknown("log", view.log, list(range(1, last + 1)))
-        joints = [int(name.rpartition("_")[2]) for name in known if name.startswith(f"{USED}_")]
-        if view.joint not in joints:
-            raise _unknown("joint", view.joint, sorted(joints))
-        signals = [signal for signal in SIGNALS if column(signal, view.joint) in known]
-        for signal in view.signals:
-            if signal not in signals:
-                raise _unknown("signal", signal, signals)
+            raise _unknown("log", self.number, list(range(1, last + 1)))
+        joints = [int(name.rpartition("_")[2]) for name in names if name.startswith(f"{USED}_")]
+        if joint not in joints:
+            raise _unknown("joint", joint, sorted(joints))
+        return [signal for signal in SIGNALS if column(signal, joint) in names]
 
     def unit(self, name: str) -> str:
         """Give the unit of a column."""
@@ -178,7 +185,8 @@ def _rows(time: Samples, view: View) -> tuple[int, int]:
     return max(int(first) - 1, 0), min(int(last) + 1, len(time))
 
 
-def _stretches(time: Samples) -> list[tuple[int, int]]:
+def stretches(time: Samples) -> list[tuple[int, int]]:
+    """Give the (start, stop) rows between gaps."""
     steps = np.diff(time)
     breaks = np.flatnonzero(steps > GAP_STEPS * np.median(steps)) + 1 if len(steps) else np.array([], int)
     borders = [0, *breaks.tolist(), len(time)]
