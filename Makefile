@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz contract chaos life image-test bench lock openapi causes
+.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz contract chaos life image-test bench lock openapi reference docs
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -46,7 +46,7 @@ serve: $(READY) ## start the service on loopback and print its URL
 test: $(READY) ## run every test
 	$(RUN) -m pytest -n 2 $(ARGS)
 
-check: style types imports drift containers ## style, types, import contracts, API document, container files
+check: style types imports drift containers docs ## style, types, import contracts, API document, container files, site
 
 style: $(READY)
 	$(RUN) -m ruff check .
@@ -104,6 +104,14 @@ openapi: $(READY) ## rewrite openapi.json after a change of the API
 	$(RUN) -m app openapi > openapi.json.new
 	mv openapi.json.new openapi.json
 
-causes: $(READY) ## rewrite docs/causes.md after a change of the causes
+reference: $(READY) ## rewrite the generated pages of docs/ after a change of the API, causes, terms, formats or problems
+	$(RUN) -m app.guide < openapi.json > docs/api.md.new
+	$(RUN) -m app.problem_guide > docs/problems.md.new
+	$(RUN) -m core.dynamics.guide > docs/terms.md.new
+	$(RUN) -m core.export.guide > docs/formats.md.new
 	$(RUN) -m core.diagnosis.guide > docs/causes.md.new
-	mv docs/causes.md.new docs/causes.md
+	for page in api problems terms formats causes; do mv docs/$$page.md.new docs/$$page.md; done
+
+docs: $(READY) ## build the pages of docs/ as a site in site/, which opens without a server
+	$(RUN) -m sphinx --fresh-env --write-all --fail-on-warning --keep-going --nitpicky --quiet -d .sphinx docs site
+	@echo "site/index.html"

@@ -137,6 +137,24 @@ class Catalogue:
         summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
         return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})
 
+    def trace_log(self, log: LogRecord, *, channels: tuple[str, ...], points: int) -> bytes:
+        """Draw channels of a log, as the document that is sent.
+
+        Raises
+        ------
+        Problem
+            If its bytes are not what they were.
+        """
+        mapping = log.summary["mapping"]
+        file = LogFile(
+            self._store.blobs.path(log.sha256),
+            str(log.summary["name"]),
+            mapping if isinstance(mapping, dict) else None,
+            log.sha256,
+        )
+        size = int(str(log.summary["bytes"]))
+        return self._inspector.trace(file, size=size, channels=channels, points=points)
+
     def log(self, identity: str, *, named_in_body: bool = False) -> LogRecord:
         """Find a log.
 

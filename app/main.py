@@ -20,7 +20,7 @@ from app.jobs.supervisor import Supervisor
 from app.metrics import Metrics
 from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
 from app.observing import Observe
-from app.routes import events, health, identify, jobs, logs, pages, robots
+from app.routes import events, health, identify, jobs, logs, pages, robots, traces
 from app.services import Services
 from app.settings import Settings
 from app.version import VERSION
@@ -77,7 +77,7 @@ def create_app(
         redoc_url=None,
         lifespan=lifespan,
     )
-    for chapter in (jobs, events, robots, logs, identify, health, pages):
+    for chapter in (jobs, traces, events, robots, logs, identify, health, pages):
         app.router.routes.extend(chapter.ROUTER.routes)
     handlers.install(app)
     app.add_middleware(ContentDigest)

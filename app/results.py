@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 from fastapi import Header, Response
+from fastapi.responses import FileResponse
 
 from app.negotiation import matches
 from app.store.blobs import check_file
@@ -34,8 +35,18 @@ class Result:
         Damaged
             If the file is missing or not what it was.
         """
-        check_file(self.path, self.sha256)
+        self.check()
         return self.path.read_bytes()
+
+    def check(self) -> None:
+        """Return where the bytes are what they were.
+
+        Raises
+        ------
+        Damaged
+            If they are not.
+        """
+        check_file(self.path, self.sha256)
 
     def unless_known(self, if_none_match: str | None, form: str, answer: Callable[[], Response]) -> Response:
         """Give the answer, or 304 where the client has it.
@@ -51,3 +62,19 @@ class Result:
         response = Response(status_code=304) if matches(if_none_match, etag) else answer()
         response.headers.update({"ETag": etag, "Vary": "Accept", "Cache-Control": "private, no-cache"})
         return response
+
+
+def file_response(kept: Result, name: str, media_type: str, if_none_match: str | None) -> Response:
+    """Send kept bytes as a file to be saved, piece by piece: it may be long.
+
+    Raises
+    ------
+    Damaged
+        If they are missing or not what they were.
+    """
+
+    def whole() -> Response:
+        kept.check()
+        return FileResponse(kept.path, media_type=media_type, filename=name)
+
+    return kept.unless_known(if_none_match, "", whole)

@@ -7,7 +7,7 @@ times a second.
 """
 
 from collections import Counter
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine, Iterator, Mapping
 from inspect import iscoroutinefunction
 from typing import Any
 from urllib.parse import parse_qsl
@@ -42,7 +42,7 @@ class StrictRoute(APIRoute):
     def get_route_handler(self) -> Handler:
         """Give what answers a request."""
         answer = _straight(self.dependant) or super().get_route_handler()
-        known = frozenset(field.alias for field in self.dependant.query_params)
+        known = frozenset(_query_names(self.dependant))
 
         async def strict(request: Request) -> Response:
             if request.scope["query_string"]:
@@ -79,6 +79,13 @@ def _refused(wrong: Mapping[str, str], known: frozenset[str]) -> Problem:
         evidence={"errors": errors, "known": sorted(known)},
         remedy="send the known parameters only, each once" if known else "send no parameters",
     )
+
+
+def _query_names(dependant: Dependant) -> Iterator[str]:
+    """Name the parameters of an endpoint's query, those of what it depends on included."""
+    yield from (field.alias for field in dependant.query_params)
+    for inner in dependant.dependencies:
+        yield from _query_names(inner)
 
 
 def _straight(dependant: Dependant) -> Handler | None:

@@ -6,6 +6,7 @@ This is the only module that meets every chapter; each step takes what the step 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 
 from core.arrays import Parameters
 from core.diagnosis.belief import Belief
@@ -38,6 +39,7 @@ from core.report.document import grouping_row, identification_document
 from core.report.earlier import reference_from_document
 from core.report.identification import Identification
 from core.report.numbers import plain
+from core.report.traces.writing import write_traces
 from core.robot.model import RobotModel
 from core.signals.several import condition_all
 from core.simulation.mechanism import mechanism_of
@@ -55,13 +57,15 @@ __all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full",
 class IdentifyRequest:
     """Ask for an identification: a robot, its logs, and options as plain data (see `core.options`).
 
-    `reference` is the result document of the job that the option of that name means, where it means one.
+    `reference` is the result document of the job that the option of that name means, where it means one;
+    `traces` the file to write motion, torque and residual to, where somebody wants to look at them.
     """
 
     robot: RobotModel
     logs: tuple[JointLog, ...]
     options: Mapping[str, object] = field(default_factory=dict)
     reference: Mapping[str, object] | None = None
+    traces: Path | None = None
 
 
 def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
@@ -78,6 +82,7 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     found = identify_in_full(request, progress)
+    write_traces(request.traces, found)
     return identification_document(found, version=_version(), options=parse_options(request.options).given)
 
 
@@ -131,6 +136,7 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     found = diagnose_in_full(request, progress)
+    write_traces(request.traces, found.before, found)
     options = parse_diagnose_options(request.options).given
     return diagnosis_document(found, version=_version(), options=options)
 
@@ -172,8 +178,7 @@ def _motion(
     """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
     try:
         old, new = (mechanism_of(*one) for one in (before, folded(after.base.model, after.estimate.standard)))
-        compared = compare(old, new, data.motions, chosen=data.held_out or None)
-        return compared, taken_along(found)
+        return compare(old, new, data.motions, chosen=data.held_out or None), taken_along(found)
     except VeritorqueError as error:
         return None, str(error)
 
@@ -256,6 +261,7 @@ def _identified(
         workspace=check_mass_matrix(model, answer.standard, workspace(request.robot)),
         widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]  # Coulomb friction alone has them
         seed=options.bootstrap.seed,
+        held_out=data.held_out,
     )
 
 

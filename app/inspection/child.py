@@ -1,25 +1,29 @@
 """Read one uploaded file in a process of its own, and tell the service over a pipe what is in it.
 
-A message is one letter and its content: ``r`` the summary, ``f`` the problem document, ``t`` the trace of a
-mistake of ours. This module loads everything that reads, so that the server it is loaded into forks quickly.
+A message is one letter and its content: ``r`` the document that was made of it, ``f`` the problem document,
+``t`` the trace of a mistake of ours. This module loads everything that reads, so that the server it is loaded
+into forks quickly.
 """
 
 import signal
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from multiprocessing.connection import Connection
+from pathlib import Path
 
 import pyarrow as pa
 
 from app.documents import json_bytes
 from app.inspection.budget import Budget
 from app.inspection.confinement import confine
-from app.jobs import science
-from app.jobs.computation import LogFile
-from app.problems import problem_of
+from app.problems import problem_of, problem_of_damage
+from app.store.errors import Damaged
+from app.store.records import Document
 from core.errors import LogError, VeritorqueError
 
+Work = Callable[[], Document]
 READERS = (
     "h5py",
     "pyarrow.csv",
@@ -33,22 +37,24 @@ READERS = (
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
 
 
-def inspect(pipe: Connection, log: LogFile, media_type: str | None, budget: Budget) -> None:
-    """Read the file and send what was found; the entry point of the process."""
+def inspect(pipe: Connection, work: Work, path: Path, budget: Budget) -> None:
+    """Read the file as the work asks for, and send what was made of it; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
     pa.set_memory_pool(pa.system_memory_pool())  # the others reserve far more than they use
     for name in READERS:  # there already, unless the server ran before it could be told
         with suppress(ImportError):
             import_module(name)
-    confine(log.path, budget)
-    pipe.send_bytes(_inspected(log, media_type, budget))
+    confine(path, budget)
+    pipe.send_bytes(_done(work, budget))
 
 
-def _inspected(log: LogFile, media_type: str | None, budget: Budget) -> bytes:
+def _done(work: Work, budget: Budget) -> bytes:
     try:
-        return RESULT + json_bytes(science.summarise_log(log, media_type=media_type))
+        return RESULT + json_bytes(work())
     except VeritorqueError as error:
         return FAILURE + json_bytes(problem_of(error).document())
+    except Damaged as error:
+        return FAILURE + json_bytes(problem_of_damage(error).document())
     except MemoryError:
         return FAILURE + json_bytes(problem_of(too_much_memory(budget)).document())
     except Exception:  # noqa: BLE001  (the boundary of the process: the service decides what its client hears)

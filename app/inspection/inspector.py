@@ -8,15 +8,18 @@ import json
 import logging
 import os
 import signal
+from functools import partial
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 
 import anyio
 
 from app.forks import fork_server
 from app.inspection import child
 from app.inspection.budget import Budget, budget_for
+from app.jobs import science
 from app.jobs.computation import LogFile
 from app.problems import Problem, problem_of
 from app.store.records import Document
@@ -52,11 +55,25 @@ class Inspector:
         Problem
             If the log cannot be used, or reading it costs more than it may.
         """
+        work = partial(science.summarise_log, log, media_type=media_type)
+        document: Document = json.loads(self._read(work, log.path, size))
+        return document
+
+    def trace(self, log: LogFile, *, size: int, channels: tuple[str, ...], points: int) -> bytes:
+        """Draw the channels of a log, as the document that is sent.
+
+        Raises
+        ------
+        Problem
+            If reading the log costs more than it may, or its bytes are not what they were.
+        """
+        return self._read(partial(science.trace_log, log, channels=channels, points=points), log.path, size)
+
+    def _read(self, work: child.Work, path: Path, size: int) -> bytes:
+        """Let a process of its own do the work, and give the document that it made."""
         budget = budget_for(size)
         ours, theirs = self._context.Pipe(duplex=False)
-        process = self._context.Process(
-            target=child.inspect, args=(theirs, log, media_type, budget), daemon=True
-        )
+        process = self._context.Process(target=child.inspect, args=(theirs, work, path, budget), daemon=True)
         try:
             process.start()
             theirs.close()
@@ -70,7 +87,7 @@ class Inspector:
             ours.close()
 
 
-def _answer(process: BaseProcess, pipe: Connection, budget: Budget) -> Document:
+def _answer(process: BaseProcess, pipe: Connection, budget: Budget) -> bytes:
     if not pipe.poll(budget.wall_s):
         raise problem_of(_too_slow(budget.wall_s, "time"))
     try:
@@ -82,10 +99,9 @@ def _answer(process: BaseProcess, pipe: Connection, budget: Budget) -> Document:
     if letter == child.TRACE:
         LOGGER.error("reading a log met a mistake of ours:\n%s", content.decode(errors="replace"))
         raise Problem("internal", "reading the log met a mistake of the service", remedy="report it")
-    document: Document = json.loads(content)
     if letter == child.FAILURE:
-        raise Problem.from_document(document)
-    return document
+        raise Problem.from_document(json.loads(content))
+    return content
 
 
 def _ended(exit_code: int | None, budget: Budget) -> LogError:

@@ -35,7 +35,12 @@ class LogFile:
 class Computation:
     """Describe a computation completely: equal computations give equal results.
 
-    `reference` is the file of the earlier result that the option of that name means, where it means one.
+    Attributes
+    ----------
+    reference
+        File of the earlier result that the option of that name means, where it means one.
+    traces
+        File to write what is computed instant by instant to, where it is kept.
     """
 
     kind: str
@@ -43,6 +48,7 @@ class Computation:
     logs: tuple[LogFile, ...]
     options: Document
     reference: Path | None = None
+    traces: Path | None = None
 
 
 Work = Callable[[Computation, Progress], Document]

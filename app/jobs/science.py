@@ -9,11 +9,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import cast
 
+import numpy as np
+
 from app.documents import plain
 from app.jobs.computation import Computation, LogFile, Progress
 from app.store.blobs import check_file
 from app.store.records import Document
 from core.errors import OptionError
+from core.log.preview import FEWEST_POINTS, preview
 from core.log.reader import read_log
 from core.robot.builtin import builtin_description, builtin_robots
 from core.robot.description import robot_from_description
@@ -23,6 +26,16 @@ from core.robot.urdf import robot_from_urdf
 from core.robot.writing import to_description
 
 KINDS = ("identify", "diagnose")
+MOST_NUMBERS = 600_000
+"""Numbers of all traces of a log together."""
+CHANNEL_UNITS = {
+    "position": "rad or m",
+    "velocity": "rad/s or m/s",
+    "torque": "N m or N",
+    "current": "A",
+    "temperature": "degC",
+}
+"""Which of two is the robot's to say: a log does not know whether a joint turns or slides."""
 
 
 def built_in_descriptions() -> dict[str, Document]:
@@ -86,6 +99,38 @@ def summarise_log(log: LogFile, *, media_type: str | None) -> Document:
         "defects": [asdict(defect) for defect in seen.defects],
     }
     return {name: plain(value) for name, value in summary.items()}
+
+
+def trace_log(log: LogFile, *, channels: tuple[str, ...], points: int) -> Document:
+    """Draw channels of a log with few points each, in single precision, as a screen needs them.
+
+    Parameters
+    ----------
+    channels
+        Names of channels that the log has.
+    points
+        The most points per trace; fewer where there are very many traces.
+
+    Raises
+    ------
+    Damaged
+        If the log is not what it was.
+    """
+    check_file(log.path, log.sha256)
+    seen = read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256)
+    named = [(channel, joint) for channel in channels for joint in range(1, seen.joints + 1)]
+    few = max(FEWEST_POINTS, min(points, MOST_NUMBERS // (len(named) + 1)))
+    drawn = preview(seen, channels, points=few)
+    return {
+        "name": seen.name,
+        "samples": seen.samples,
+        "rows_per_stretch": drawn.rows_per_stretch,
+        "time": {"unit": "s", "values": [round(stamp, 6) for stamp in drawn.time.tolist()]},
+        "traces": [
+            {"channel": channel, "joint": joint, "unit": CHANNEL_UNITS[channel], "values": _short(values)}
+            for (channel, joint), values in zip(named, drawn.values.T, strict=True)
+        ],
+    }
 
 
 def check_options(kind: str, options: Document) -> None:
@@ -176,11 +221,18 @@ def compute(computation: Computation, progress: Progress) -> Document:
     logs = tuple(
         read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256) for log in computation.logs
     )
-    request = study.IdentifyRequest(robot, logs, computation.options, _result(computation.reference))
+    request = study.IdentifyRequest(
+        robot, logs, computation.options, _result(computation.reference), computation.traces
+    )
     document: Document = (study.diagnose if computation.kind == "diagnose" else study.identify)(
         request, progress
     )
     return document
+
+
+def _short(values: np.ndarray) -> list[float | None]:
+    """Write numbers with the digits that single precision has; None for NaN."""
+    return [None if np.isnan(value) else float(str(value)) for value in values.astype(np.float32)]
 
 
 def _reference_name(options: Document) -> str | None:

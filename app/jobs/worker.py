@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from app import journal
 from app.jobs.child import mistake
@@ -187,17 +188,17 @@ class Worker:
         stop = self._stops[held] = threading.Event()
         begun = time.monotonic()
         try:
-            with journal.bound(job=job.id, trace=job.trace):
-                outcome = self._computed(job, stop)
-                self._settle(held, outcome)
+            with journal.bound(job=job.id, trace=job.trace), self._store.blobs.aside() as traces:
+                outcome = self._computed(job, stop, traces)
+                self._settle(held, outcome, traces)
                 self._tell(job, outcome, time.monotonic() - begun)
         finally:
             del self._stops[held]
 
-    def _computed(self, job: JobRecord, stop: threading.Event) -> Outcome:
+    def _computed(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
         """Compute a job, and give how that went, whatever happened."""
         try:
-            return self._outcome(job, stop)
+            return self._outcome(job, stop, traces)
         except VeritorqueError as error:
             return Failed(problem_of(error).document())
         except Problem as problem:
@@ -210,8 +211,8 @@ class Worker:
             LOGGER.exception("the job met a mistake of ours")
             return Failed(mistake().document())
 
-    def _outcome(self, job: JobRecord, stop: threading.Event) -> Outcome:
-        computation = self._computation(job)
+    def _outcome(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
+        computation = self._computation(job, traces)
         if self._closing.is_set():
             stop.set()
         progress, timeout_s = _Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
@@ -225,19 +226,19 @@ class Worker:
         if self._told is not None:
             self._told(ended)
 
-    def _settle(self, held: Held, outcome: Outcome) -> None:
+    def _settle(self, held: Held, outcome: Outcome, traces: Path) -> None:
         """Write the outcome down, however long the database or room on the disk takes to come."""
         while True:
             try:
-                return self._settled(held, outcome)
+                return self._settled(held, outcome, traces)
             except (Unavailable, OSError) as error:
                 LOGGER.warning("the outcome waits to be written: %s", error)
                 if self._closing.wait(PAUSE_S):
                     return None
 
-    def _settled(self, held: Held, outcome: Outcome) -> None:
+    def _settled(self, held: Held, outcome: Outcome, traces: Path) -> None:
         if isinstance(outcome, Finished):
-            self._store.keep_result(held, outcome.result)
+            self._store.keep_result(held, outcome.result, traces)
         elif isinstance(outcome, Failed):
             self._store.work.fail(held, outcome.problem)
         elif isinstance(outcome, Died):
@@ -245,7 +246,7 @@ class Worker:
         else:
             self._store.work.hand_back(held)  # after a shutdown; a dismissed job stays dismissed
 
-    def _computation(self, job: JobRecord) -> Computation:
+    def _computation(self, job: JobRecord, traces: Path) -> Computation:
         store = self._store.of(job.tenant)
         robot = store.robots.get(job.request.robot)
         description = robot.description if robot else self._robots.get(job.request.robot)
@@ -265,6 +266,7 @@ class Worker:
             logs=tuple(logs),
             options=job.request.options,
             reference=reference_file(store, job.request.kind, job.request.options),
+            traces=traces,
         )
 
 

@@ -8,15 +8,16 @@ from typing import Annotated
 from fastapi import Header, Path, Request, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
-from app.artifacts import ARTIFACTS, CONTENT
+from app.artifacts import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
 from app.feed import no_such_job
+from app.finished import RETRY_AFTER_S, find_job, result_of, traces_of
 from app.listing import CursorOf, Limit, before, following
 from app.negotiation import matches, preferred, wait_seconds
 from app.openapi import body, problems, reference
 from app.problems import Problem
 from app.reading import check, parse_json, require_media_type
 from app.reports import report_response
-from app.results import UNCHANGED, IfNoneMatch, Result
+from app.results import UNCHANGED, IfNoneMatch, Result, file_response
 from app.routing import chapter
 from app.schemas.examples import JOB_REQUESTS
 from app.schemas.jobs import Job, JobList, JobRequest
@@ -27,7 +28,6 @@ from app.views import job_document
 from app.waiting import wait_for
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
-RETRY_AFTER_S = "1"
 RESULT_FORMS = ("application/json", "text/csv", "text/html")
 
 
@@ -121,13 +121,14 @@ def read_results(
             evidence={"accept": accept, "known": list(RESULT_FORMS)},
             remedy="accept one of the known forms",
         )
-    result = _result(desk, job_id)
+    job = find_job(desk, job_id)
+    result = result_of(desk, job)
     if form == "text/csv":
         return result.unless_known(
             if_none_match, "parameters.csv", lambda: _artifact(result, "parameters.csv")
         )
     if form == "text/html":
-        return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
+        return result.unless_known(if_none_match, "report", lambda: report_response(desk, job))
     return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
 
 
@@ -139,8 +140,8 @@ def read_results(
 )
 def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read what came out as a page: figures, tables and sentences, without a script."""
-    result = _result(desk, job_id)
-    return result.unless_known(if_none_match, "report", lambda: report_response(result.content()))
+    job = find_job(desk, job_id)
+    return result_of(desk, job).unless_known(if_none_match, "report", lambda: report_response(desk, job))
 
 
 @ROUTER.get(
@@ -152,16 +153,19 @@ def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) ->
 def read_artifact(
     desk: DeskOf,
     job_id: str,
-    artifact: Annotated[str, Path(examples=list(ARTIFACTS))],
+    artifact: Annotated[str, Path(examples=[*ARTIFACTS, TRACES_FILE])],
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the identified robot in the form that a tool wants; each file says what its numbers are."""
-    result = _result(desk, job_id)
+    job = find_job(desk, job_id)
+    if artifact == TRACES_FILE:
+        return file_response(traces_of(desk, job), artifact, TRACES_TYPE, if_none_match)
+    result = result_of(desk, job)
     if artifact not in ARTIFACTS:
         raise Problem(
             "not-found",
             f"the result has no file {artifact}",
-            evidence={"artifact": artifact, "known": list(ARTIFACTS)},
+            evidence={"artifact": artifact, "known": [*ARTIFACTS, TRACES_FILE]},
             remedy="ask for one of the known files",
         )
     response = result.unless_known(if_none_match, artifact, lambda: _artifact(result, artifact))
@@ -181,7 +185,7 @@ def read_artifact(
 )
 def delete_job(desk: DeskOf, job_id: str) -> Response:
     """Dismiss an unfinished job, which ends its computation; delete a finished one with its result."""
-    job = _find(desk, job_id)
+    job = find_job(desk, job_id)
     if job.finished and desk.store.jobs.remove(job.id):
         return Response(status_code=204)
     return JSONResponse(job_document(desk.queue.dismiss(job)))
@@ -206,36 +210,6 @@ def _job_response(job: JobRecord, *, applied: int | None) -> Response:
     return JSONResponse(job_document(job), 202, headers=headers | {"Retry-After": RETRY_AFTER_S})
 
 
-def _find(desk: Desk, job_id: str) -> JobRecord:
-    job = desk.store.jobs.get(job_id)
-    if job is None:
-        raise no_such_job(job_id)
-    return job
-
-
 def _artifact(result: Result, artifact: str) -> Response:
     form = ARTIFACTS[artifact]
     return Response(form.write(json.loads(result.content())), media_type=form.media_type)
-
-
-def _result(desk: Desk, job_id: str) -> Result:
-    job = _find(desk, job_id)
-    if job.result_sha256 is not None:
-        return Result(job.result_sha256, desk.store.blobs.path(job.result_sha256))
-    if job.state == "failed":
-        evidence = {"state": job.state, "problem": job.problem}
-        cause = str((job.problem or {}).get("cause", "the job failed"))
-        raise Problem(
-            "job-failed", cause, evidence=evidence, remedy=str((job.problem or {}).get("remedy", ""))
-        )
-    if job.state == "dismissed":
-        raise Problem(
-            "job-dismissed", "the job was dismissed", evidence={"state": job.state}, remedy="ask for it again"
-        )
-    raise Problem(
-        "job-unfinished",
-        "the job is not finished",
-        evidence={"state": job.state, "stage": job.stage, "fraction": job.fraction},
-        remedy=f"follow /v1/jobs/{job.id} until its state is successful",
-        headers={"Retry-After": RETRY_AFTER_S},
-    )

@@ -1,17 +1,20 @@
 """Serve logs: uploaded as recorded, read once to say what is in them, kept as the bytes they came in."""
 
-from typing import Annotated
+from typing import Annotated, cast
 
 import anyio
 from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
 from app.listing import CursorOf, Limit, before, following
+from app.negotiation import matches
 from app.openapi import body, file_part, problems, text_part
+from app.problems import Problem
 from app.reading import media_type_of, parse_object, require_media_type
+from app.results import UNCHANGED, IfNoneMatch
 from app.routing import chapter
 from app.schemas.examples import CSV_LOG, MAPPING
-from app.schemas.logs import LogList, LogSummary
+from app.schemas.logs import LogList, LogSummary, LogTraces
 from app.services import Desk, DeskOf
 from app.store.blobs import Incoming
 from app.store.records import LogRecord
@@ -26,6 +29,7 @@ from app.uploads import (
     refuse_unknown_parts,
     text_of,
 )
+from app.version import VERSION
 from app.views import log_document
 
 ROUTER = chapter("/v1/logs", tag="logs")
@@ -94,12 +98,55 @@ def read_log(desk: DeskOf, log_id: str) -> Response:
     return JSONResponse(log_document(desk.catalogue.log(log_id)))
 
 
+@ROUTER.get(
+    "/{log_id}/traces",
+    response_model=LogTraces,
+    summary="Look at a log",
+    responses=problems(404, 422) | UNCHANGED,
+)
+async def read_traces(
+    desk: DeskOf,
+    log_id: str,
+    points: Annotated[int, Query(ge=10, le=4000, description="the most points per trace")] = 2000,
+    channels: Annotated[
+        str | None, Query(max_length=100, description="their names, with commas; all by default")
+    ] = None,
+    if_none_match: IfNoneMatch = None,
+) -> Response:
+    """Read every channel with few points, of which none of the log's extremes is missing."""
+    log = await anyio.to_thread.run_sync(desk.catalogue.log, log_id)
+    chosen = _chosen(log, channels)
+    etag = f'"{log.id}-{points}-{"-".join(chosen)}-{VERSION}"'
+    headers = {"ETag": etag, "Cache-Control": "private, no-cache"}
+    if matches(if_none_match, etag):
+        return Response(status_code=304, headers=headers)
+    document = await anyio.to_thread.run_sync(
+        lambda: desk.catalogue.trace_log(log, channels=chosen, points=points), limiter=desk.readers
+    )
+    return Response(document, media_type="application/json", headers=headers)
+
+
 @ROUTER.delete("/{log_id}", status_code=204, summary="Delete a log", responses=problems(404, 409))
 def delete_log(desk: DeskOf, log_id: str) -> None:
     """Delete a log that no unfinished job needs."""
     log = desk.catalogue.log(log_id)
     desk.queue.refuse_if_needed(log=log.id)
     desk.store.logs.remove(log.id)
+
+
+def _chosen(log: LogRecord, names: str | None) -> tuple[str, ...]:
+    """Give the channels that are asked for, in the order of the log."""
+    known = [str(channel) for channel in cast("list[object]", log.summary["channels"])]
+    asked = known if names is None else [name.strip() for name in names.split(",")]
+    unknown = [name for name in asked if name not in known]
+    if unknown:
+        raise Problem(
+            "request",
+            f"the log has no channel {unknown[0]!r}",
+            evidence={"parameter": "channels", "unknown": unknown, "known": known},
+            remedy="name channels of the log, or leave the parameter out for all of them",
+        )
+    return tuple(channel for channel in known if channel in asked)
 
 
 async def _from_form(

@@ -1,60 +1,56 @@
-"""Serve the pages that people read, from files of our own and without a request to anywhere else."""
+"""Serve the pages that people read: shells without data, and the files of which they are made.
 
-from html import escape
-from pathlib import Path
-from string import Template
+A shell holds nothing of anybody, so it is given to everybody; its scripts ask the API for what they show,
+with a key where one is needed. Nothing is asked of any other place.
+"""
 
-from fastapi import APIRouter, Request
-from fastapi.responses import FileResponse, HTMLResponse
+from fastapi import APIRouter, Request, Response
+from fastapi.responses import HTMLResponse
 
-from app.pages.latest import header_cells, job_rows
+from app.negotiation import matches
+from app.pages.files import PLAIN, STATIC, STRICT, PageFile, shell
 from app.problems import Problem
-from app.services import DeskOf
-from app.version import VERSION
 
 ROUTER = APIRouter(include_in_schema=False)
-PAGES = Path(__file__).parent.parent / "pages"
-SWAGGER = PAGES / "vendor" / "swagger-ui"
-FILES = {
-    "style.css": (PAGES / "style.css", "text/css"),
-    "docs.js": (PAGES / "docs.js", "text/javascript"),
-    "swagger-ui.css": (SWAGGER / "swagger-ui.css", "text/css"),
-    "swagger-ui-bundle.js": (SWAGGER / "swagger-ui-bundle.js", "text/javascript"),
-    "favicon-32x32.png": (SWAGGER / "favicon-32x32.png", "image/png"),
-}
-POLICY = {
-    "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
-        "connect-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-    )
-}
-RECENT = 10
 
 
 @ROUTER.get("/")
-def start_page(request: Request, desk: DeskOf) -> HTMLResponse:
-    """Show where everything is, and the latest jobs."""
-    jobs = desk.store.jobs.page(limit=RECENT)
-    page = Template((PAGES / "start.html").read_text())
-    text = page.substitute(
-        version=VERSION,
-        address=escape(str(request.base_url)),
-        columns=header_cells(),
-        rows=job_rows(jobs, desk.catalogue),
-    )
-    return HTMLResponse(text, headers=POLICY)
+def start_page() -> HTMLResponse:
+    """Show the ways in, and the latest jobs."""
+    return HTMLResponse(shell("start"), headers=STRICT)
+
+
+@ROUTER.get("/new")
+def new_page() -> HTMLResponse:
+    """Lead from a robot and a log to a job."""
+    return HTMLResponse(shell("new"), headers=STRICT)
+
+
+@ROUTER.get("/studies/{job_id}")
+def study_page(job_id: str) -> HTMLResponse:  # noqa: ARG001  (the script reads it from the address)
+    """Show one job: how far it is, or what came out."""
+    return HTMLResponse(shell("study"), headers=STRICT)
+
+
+@ROUTER.get("/compare")
+def compare_page() -> HTMLResponse:
+    """Show two studies side by side."""
+    return HTMLResponse(shell("compare"), headers=STRICT)
 
 
 @ROUTER.get("/docs")
 def docs_page() -> HTMLResponse:
     """Show the contract in Swagger UI."""
-    return HTMLResponse((PAGES / "docs.html").read_text(), headers=POLICY)
+    return HTMLResponse(shell("docs"), headers=PLAIN)
 
 
 @ROUTER.get("/static/{name}")
-def static_file(name: str) -> FileResponse:
-    """Send one of the known files."""
-    if name not in FILES:
-        raise Problem("not-found", f"there is no file {name}", evidence={"known": list(FILES)})
-    path, media_type = FILES[name]
-    return FileResponse(path, media_type=media_type, headers={"Cache-Control": "max-age=3600"})
+def static_file(name: str, request: Request) -> Response:
+    """Send one of the known files, unless the browser has it."""
+    if name not in STATIC:
+        raise Problem("not-found", f"there is no file {name}", evidence={"known": list(STATIC)})
+    file: PageFile = STATIC[name]
+    headers = {"ETag": file.etag, "Cache-Control": "no-cache"}
+    if matches(request.headers.get("if-none-match"), file.etag):
+        return Response(status_code=304, headers=headers)
+    return Response(file.content(), media_type=file.media_type, headers=headers)

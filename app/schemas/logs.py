@@ -43,3 +43,31 @@ class LogList(Open):
 
     logs: list[LogSummary]
     next: Next
+
+
+class Trace(Open):
+    """A channel of a joint, thinned for the eye; null at gaps."""
+
+    channel: Annotated[str, Field(examples=["position", "torque"])]
+    joint: Annotated[int, Field(description="counted from 1")]
+    unit: Annotated[str, Field(description="the robot tells which of two: whether the joint turns or slides")]
+    values: Annotated[list[float | None], Field(max_length=4000)]
+
+
+class Stamps(Open):
+    """The time axis that all traces share."""
+
+    unit: str
+    values: Annotated[list[float], Field(max_length=4000)]
+
+
+class LogTraces(Open):
+    """A log to look at: of every stretch of rows the smallest and the largest value, in order of time."""
+
+    name: str
+    samples: int
+    rows_per_stretch: Annotated[
+        int, Field(description="rows of which two points are left; 1 where every row is there")
+    ]
+    time: Stamps
+    traces: list[Trace]

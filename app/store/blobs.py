@@ -130,6 +130,22 @@ class BlobStore:
             incoming.write(content)
             return self.keep(incoming)
 
+    def put_file(self, path: Path) -> str:
+        """Keep a copy of a file and give its hash."""
+        with path.open("rb") as file, self.receive() as incoming:
+            while piece := file.read(PIECE):
+                incoming.write(piece)
+            return self.keep(incoming)
+
+    @contextmanager
+    def aside(self) -> Iterator[Path]:
+        """Name a file for others to write, which is not there yet and is removed at the end."""
+        path = self._aside / secrets.token_hex(16)
+        try:
+            yield path
+        finally:
+            path.unlink(missing_ok=True)
+
     def path(self, sha256: str) -> Path:
         """Say where the bytes of a hash are kept."""
         return self._kept / sha256[:2] / sha256

@@ -91,6 +91,7 @@ class JobRecord:
     version: int
     problem: Document | None
     result_sha256: str | None
+    traces_sha256: str | None
     created_at: str
     started_at: str | None
     finished_at: str | None

@@ -30,6 +30,7 @@ def job_record(row: Row[Any]) -> JobRecord:
         version=row.version,
         problem=None if row.problem is None else json.loads(row.problem),
         result_sha256=row.result_sha256,
+        traces_sha256=row.traces_sha256,
         created_at=row.created_at,
         started_at=row.started_at,
         finished_at=row.finished_at,

@@ -6,7 +6,7 @@ What is in between when the power fails is bytes that no record needs; `app.stor
 from dataclasses import dataclass
 from pathlib import Path
 
-from sqlalchemy import Connection, exists, select, union_all
+from sqlalchemy import Connection, exists, or_, select, union_all
 
 from app.store.blobs import BlobStore, Incoming
 from app.store.database import Database
@@ -18,6 +18,8 @@ from app.store.records import UNBOUNDED, Document, LogRecord, Quota
 from app.store.robots import RobotStore
 from app.store.tables import JOBS, LOGS
 from app.store.work import Held, WorkStore
+
+BYTES_OF_JOBS = (JOBS.c.result_sha256, JOBS.c.traces_sha256)
 
 
 class Store:
@@ -55,10 +57,20 @@ class Store:
         """Let go of the database."""
         self.database.close()
 
-    def keep_result(self, held: Held, result: bytes) -> bool:
-        """Keep a job's result document, and say whether whoever computed it still held the job."""
-        sha256 = self.blobs.put(result)
-        return self.work.succeed(held, result_sha256=sha256, result_bytes=len(result))
+    def keep_result(self, held: Held, result: bytes, traces: Path | None = None) -> bool:
+        """Keep a job's result document, and say whether whoever computed it still held the job.
+
+        Parameters
+        ----------
+        traces
+            File of what was computed instant by instant; where it is not there, the result stands alone.
+        """
+        sha256, size = self.blobs.put(result), len(result)
+        if traces is None or not traces.exists():
+            return self.work.succeed(held, result_sha256=sha256, result_bytes=size)
+        size += traces.stat().st_size
+        with_it = self.blobs.put_file(traces)
+        return self.work.succeed(held, result_sha256=sha256, result_bytes=size, traces_sha256=with_it)
 
     def prove_writable(self) -> None:
         """Write to the database what it holds already.
@@ -73,7 +85,8 @@ class Store:
     def needed(self) -> set[str]:
         """List the hashes of all bytes that a record needs."""
         query = union_all(
-            select(LOGS.c.sha256), select(JOBS.c.result_sha256).where(JOBS.c.result_sha256.is_not(None))
+            select(LOGS.c.sha256),
+            *(select(column).where(column.is_not(None)) for column in BYTES_OF_JOBS),
         )
         return self.database.read(lambda connection: set(connection.execute(query).scalars()))
 
@@ -81,7 +94,7 @@ class Store:
         """List the ids of the logs and jobs of all tenants that need bytes."""
         query = union_all(
             select(LOGS.c.id).where(LOGS.c.sha256.in_(hashes)),
-            select(JOBS.c.id).where(JOBS.c.result_sha256.in_(hashes)),
+            *(select(JOBS.c.id).where(column.in_(hashes)) for column in BYTES_OF_JOBS),
         )
         return self.database.read(lambda connection: list(connection.execute(query).scalars()))
 
@@ -89,8 +102,8 @@ class Store:
         """Tell whether a record needs the bytes of a hash."""
 
         def work(connection: Connection) -> bool:
-            either = exists().where(LOGS.c.sha256 == sha256) | exists().where(JOBS.c.result_sha256 == sha256)
-            return bool(connection.execute(select(either)).scalar_one())
+            users = (exists().where(column == sha256) for column in (LOGS.c.sha256, *BYTES_OF_JOBS))
+            return bool(connection.execute(select(or_(*users))).scalar_one())
 
         return self.database.read(work)
 

@@ -77,13 +77,14 @@ JOBS = Table(
     Column("created_at", String, nullable=False),
     Column("started_at", String),
     Column("finished_at", String),
+    Column("traces_sha256", String, index=True),
     Index(None, "state", "sequence"),
     Index(None, "tenant", "fingerprint"),
     Index(None, "tenant", "state"),
     sqlite_autoincrement=True,
 )
 """`token` counts how often a job was taken: who holds an old one changes nothing. `beat` grows while `owner`
-lives. Of equal `fingerprint` are jobs that ask for the same."""
+lives. `result_bytes` counts document and traces. Of equal `fingerprint` are jobs that ask for the same."""
 
 REPEATS = Table(
     "repeats",

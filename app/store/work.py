@@ -86,10 +86,13 @@ class WorkStore:
         """Say how far a running job is."""
         self._change(held, {"stage": stage, "fraction": fraction})
 
-    def succeed(self, held: Held, *, result_sha256: str, result_bytes: int) -> bool:
+    def succeed(
+        self, held: Held, *, result_sha256: str, result_bytes: int, traces_sha256: str | None = None
+    ) -> bool:
         """Mark a running job successful, and say whether it was still held."""
         done = {"state": "successful", "stage": "done", "fraction": 1.0, "finished_at": now()}
-        return self._change(held, done | {"result_sha256": result_sha256, "result_bytes": result_bytes})
+        kept = {"result_sha256": result_sha256, "traces_sha256": traces_sha256, "result_bytes": result_bytes}
+        return self._change(held, done | kept)
 
     def fail(self, held: Held, problem: Document) -> bool:
         """Mark a running job failed, and say whether it was still held."""

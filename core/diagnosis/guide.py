@@ -1,7 +1,7 @@
 """Write the reader's list of causes from the causes themselves, so that the document cannot drift.
 
 What a cause is, its numbers, what it is confused with and which motion would tell stand in the cause's own
-file; `make causes` writes docs/causes.md from them, and a test compares the two.
+file; `make reference` writes docs/causes.md from them, and a test compares the two.
 """
 
 import inspect
@@ -16,7 +16,7 @@ from core.diagnosis.raw import RawCause
 OPENING = """\
 # Causes
 
-Written by `make causes` from the files of `core/diagnosis/causes`; change those, not this page.
+Written by `make reference` from the files of `core/diagnosis/causes`; change those, not this page.
 
 A finding of a diagnosis names one of these causes and the joint that it acts on. Where two of them explain a
 log equally well, the other one is named beside it (`ambiguous_with`) with the experiment that separates them.

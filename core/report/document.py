@@ -10,6 +10,7 @@ from core.precision.bootstrap import intervals
 from core.precision.covariance import INTERVAL_95, relative_deviation_percent
 from core.reduction.base import BaseModel
 from core.regressor.observe import Observation
+from core.report.bodies import body_rows
 from core.report.doubts import doubts
 from core.report.earlier import written_factor
 from core.report.identification import Identification
@@ -39,12 +40,14 @@ def identification_document(found: Identification, *, version: str, options: obj
         },
         "base_parameters": base_parameter_rows(found),
         "standard_parameters": _standard_parameters(found),
+        "bodies": body_rows(found.base.model, found.estimate.standard),
         "feasibility": _feasibility(found),
         "solver": _solver(found),
         "fit": found.fit,
         "fit_total_percent": found.fit_total_percent,
         "validation": found.validation,
         "validation_total_percent": found.validation_total_percent if found.validation else None,
+        "held_out": _held_out(found),
         "condition_number": found.excitation.condition_number,
         "condition_number_scaled": found.excitation.condition_number_scaled,
         "precision": _precision(found),
@@ -139,6 +142,15 @@ def _solver(found: Identification) -> dict[str, object]:
         "objective": found.estimate.objective,
         "objective_ols": found.estimate.objective_unconstrained,
     }
+
+
+def _held_out(found: Identification) -> list[dict[str, object]]:
+    """List the spans of the logs that no fit has seen."""
+    return [
+        {"log": block.log + 1, "begin_s": block.start, "end_s": block.end}
+        for block in found.observation.blocks
+        if (block.log, block.number) in found.held_out
+    ]
 
 
 def _precision(found: Identification) -> dict[str, object]:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from core.arrays import Matrix
+from core.arrays import BlockKey, Matrix
 from core.estimate.estimate import Estimate
 from core.estimate.feasibility import Feasibility
 from core.log.model import JointLog
@@ -41,6 +41,7 @@ class Identification:
     workspace: MassMatrixCheck
     widths: tuple[float, ...]
     seed: int
+    held_out: frozenset[BlockKey]
 
     @property
     def feasible(self) -> bool:

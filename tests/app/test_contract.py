@@ -36,6 +36,8 @@ PROMISED = {
     "/v1/jobs/{job_id}": {"GET", "DELETE"},
     "/v1/jobs/{job_id}/events": {"GET"},
     "/v1/jobs/{job_id}/report": {"GET"},
+    "/v1/jobs/{job_id}/traces": {"GET"},
+    "/v1/jobs/{job_id}/residuals": {"GET"},
     "/v1/jobs/{job_id}/results": {"GET"},
     "/v1/jobs/{job_id}/results/{artifact}": {"GET"},
     "/v1/identify": {"POST"},

@@ -99,7 +99,7 @@ def test_the_files_hold_the_numbers_of_the_result(client, results, document):
 
 def test_a_file_that_does_not_exist_is_refused_with_the_list_of_those_that_do(client, results):
     problem = assert_problem(client.get(f"{results}/robot.step"), 404, "not-found")
-    assert problem["evidence"]["known"] == list(MEDIA_TYPES)
+    assert problem["evidence"]["known"] == [*MEDIA_TYPES, "residuals.parquet"]
 
 
 def test_a_result_without_bodies_is_no_robots_file_but_a_table(tmp_path):

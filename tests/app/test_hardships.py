@@ -93,11 +93,11 @@ def test_an_outcome_that_cannot_be_written_is_written_later(tmp_path, log_bytes,
         store = client.app.state.services.store
         keep, tries = store.keep_result, []
 
-        def keep_at_third(held, result):
+        def keep_at_third(held, *kept):
             tries.append(held)
             if len(tries) < 3:
                 raise trouble
-            return keep(held, result)
+            return keep(held, *kept)
 
         monkeypatch.setattr(store, "keep_result", keep_at_third)
         free(client)

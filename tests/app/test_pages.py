@@ -1,18 +1,14 @@
-import contextlib
+import hashlib
 import json
 import re
-from datetime import UTC, datetime
 from html.parser import HTMLParser
 
 import pytest
 
-from app.pages.latest import job_rows
-from app.routes.pages import FILES
-from app.store.records import JobRecord, JobRequestRecord
+from app.pages.files import STATIC
+from app.schemas.examples import EXAMPLE_LOG_ID, HIDDEN_LOG_ID
+from app.store.logs import log_id
 from tests.app.conftest import assert_problem, service
-from tests.app.planar_arm import description
-from tests.app.stubs import StubExecutor, failing
-from tests.app.test_jobs import asked
 
 
 class Addresses(HTMLParser):
@@ -35,17 +31,17 @@ class Addresses(HTMLParser):
         self._script = False
 
 
-class EmptyCatalogue:
-    """Know no robot and no log, as if all had been deleted."""
-
-    def find_robot(self, identity):
-        return None
-
-    def find_log(self, identity):
-        return None
+PAGES = ["/", "/new", "/studies/job-1", "/compare", "/docs"]
 
 
-@pytest.mark.parametrize("path", ["/", "/docs"])
+@pytest.fixture(scope="module")
+def guarded(tmp_path_factory):
+    """A service that other machines can reach: whoever wants data needs a key."""
+    with service(tmp_path_factory.mktemp("guarded"), host="0.0.0.0") as client:  # noqa: S104
+        yield client
+
+
+@pytest.mark.parametrize("path", PAGES)
 def test_a_page_needs_nothing_from_elsewhere_and_every_address_on_it_answers(client, path):
     page = client.get(path)
     addresses = Addresses(page.text)
@@ -53,16 +49,16 @@ def test_a_page_needs_nothing_from_elsewhere_and_every_address_on_it_answers(cli
     assert "default-src 'none'" in page.headers["content-security-policy"]
     assert addresses.inline == []
     for address in addresses.found:
-        assert address.startswith(("/", "data:,")), address
+        assert address.startswith(("/", "#")), address
         if address.startswith("/"):
             assert client.get(address.split("#")[0]).status_code in {200, 503}, address
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", STATIC)
 def test_a_file_of_the_pages_has_its_own_media_type(client, name):
     answer = client.get(f"/static/{name}")
     assert answer.status_code == 200
-    assert answer.headers["content-type"].startswith(FILES[name][1])
+    assert answer.headers["content-type"].startswith(STATIC[name].media_type)
     assert answer.headers["x-content-type-options"] == "nosniff"
 
 
@@ -80,83 +76,50 @@ def test_the_documentation_shows_the_contract_of_this_service(client):
     assert client.get("/openapi.json").json() == json.loads(json.dumps(client.app.openapi()))
 
 
-@contextlib.contextmanager
-def finished(directory, log_bytes, executor):
-    """Give a service and its one finished job, whose outcome is the executor's."""
-    executor.release.set()
-    with service(directory, executor) as client:
-        yield (
-            client,
-            client.post("/v1/jobs", json=asked(client, log_bytes), headers={"Prefer": "wait=10"}).json(),
-        )
+@pytest.mark.parametrize("path", PAGES)
+def test_a_page_holds_no_data_and_needs_no_key(guarded, path):
+    assert_problem(guarded.get("/v1/jobs"), 401, "no-key")
+    assert guarded.get(path).status_code == 200
+    assert guarded.get("/static/style.css").status_code == 200
 
 
-def test_the_start_page_links_a_job_to_its_robot_its_logs_and_its_result(tmp_path, log_bytes):
-    with finished(tmp_path, log_bytes, StubExecutor()) as (client, job):
-        page = client.get("/").text
-        found = Addresses(page).found
-        assert {f"/v1/robots/{job['robot']}", f"/v1/logs/{job['logs'][0]}"} < set(found)
-        assert {job["links"]["self"], job["links"]["results"]} < set(found)
-        assert "successful" in page
-        assert re.search(r">\d+ s ago</time>", page)
-        assert all(client.get(address).status_code == 200 for address in found if job["id"] in address)
+@pytest.mark.parametrize("path", PAGES[:-1])
+def test_a_page_runs_and_styles_nothing_but_files_of_its_own(client, path):
+    policy = client.get(path).headers["content-security-policy"]
+    assert "unsafe" not in policy
+    assert "connect-src 'self'" in policy
+    assert not re.search(r" (style|on[a-z]+)=", client.get(path).text)
 
 
-def test_the_start_page_says_why_a_job_failed_and_links_to_the_problem(tmp_path, log_bytes):
-    with finished(tmp_path, log_bytes, failing()) as (client, job):
-        page = client.get("/").text
-        (link, cause) = re.search(r'<a href="([^"]*)">problem</a>: ([^<]*)', page).groups()
-        assert client.get(link).json()["problem"]["cause"] == cause == "the motion is too slow"
-        assert f"/v1/jobs/{job['id']}/results" not in Addresses(page).found
+@pytest.mark.parametrize("name", [name for name in STATIC if name.endswith(".js")])
+def test_a_module_asks_only_for_modules_that_are_there(client, name):
+    text = client.get(f"/static/{name}").text
+    wanted = re.findall(r'^import [^;]*? from "\./([^"]+)";', text, re.MULTILINE)
+    assert set(wanted) <= set(STATIC)
+    assert text.count(' from "./') == len(wanted)
 
 
-def test_the_start_page_does_not_link_to_what_was_deleted(tmp_path, log_bytes):
-    with finished(tmp_path, log_bytes, StubExecutor()) as (client, job):
-        gone = [f"/v1/robots/{job['robot']}", f"/v1/logs/{job['logs'][0]}"]
-        assert [client.delete(path).status_code for path in gone] == [204, 204]
-        page = client.get("/").text
-        assert not set(gone) & set(Addresses(page).found)
-        assert job["robot"] in page
+def test_a_browser_that_has_a_file_is_told_so(client):
+    first = client.get("/static/style.css")
+    known = {"If-None-Match": first.headers["etag"]}
+    again = client.get("/static/style.css", headers=known)
+    assert (again.status_code, again.content) == (304, b"")
+    assert client.get("/static/plot.js", headers=known).status_code == 200
 
 
-def test_the_start_page_trusts_no_text(tmp_path, log_bytes):
-    executor = failing(cause="<script>alert(1)</script>")
-    executor.release.set()
-    with service(tmp_path, executor) as client:
-        assert_problem(client.get("/", headers={"Host": "<script>alert(1)</script>"}), 421, "wrong-host")
-        assert "None yet." in client.get("/").text
-        robot = description() | {"name": "<script>alert(2)</script>"}
-        form = {
-            "robot": (None, json.dumps(robot)),
-            "log": ("<script>alert(3)<script>.csv", log_bytes, "text/csv"),
-        }
-        client.post("/v1/identify", files=form)
-        page = client.get("/").text
-        assert "<script" not in page
-        assert page.count("&lt;script&gt;") == 4
+@pytest.mark.parametrize("path", PAGES)
+def test_a_page_trusts_no_text_of_the_address(client, path):
+    assert_problem(client.get(path, headers={"Host": "<script>alert(1)</script>"}), 421, "wrong-host")
+    assert "alert(1)" not in client.get("/studies/<script>alert(1)<").text
 
 
-def test_an_age_is_counted_from_the_request_to_now():
-    now = datetime(2026, 1, 31, 12, tzinfo=UTC)
-    job = JobRecord(
-        tenant="local",
-        id="job-1",
-        sequence=1,
-        request=JobRequestRecord("identify", "yumi", ("a", "b", "c", "d", "e"), {}),
-        trace=None,
-        state="running",
-        stage="estimate",
-        fraction=0.5,
-        attempts=1,
-        token=1,
-        version=2,
-        problem=None,
-        result_sha256=None,
-        created_at="2026-01-31T10:30:00.000+00:00",
-        started_at=None,
-        finished_at=None,
-    )
-    row = job_rows([job], EmptyCatalogue(), now=now)
-    assert ">1 h ago<" in row
-    assert "estimate 50%" in row
-    assert "a, b, c and 2 more" in row
+@pytest.mark.parametrize(
+    ("served", "name", "identity"),
+    [
+        ("example-log.csv", "log.csv", EXAMPLE_LOG_ID),
+        ("example-hidden-log.csv", "hidden_log.csv", HIDDEN_LOG_ID),
+    ],
+)
+def test_the_example_of_the_start_page_is_the_log_that_ships(client, served, name, identity):
+    content = client.get(f"/static/{served}").content
+    assert log_id(sha256=hashlib.sha256(content).hexdigest(), name=name, mapping=None) == identity

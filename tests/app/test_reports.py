@@ -54,13 +54,6 @@ def test_a_browser_that_opens_the_results_gets_the_report_and_a_program_the_docu
     assert page.headers["vary"] == "Accept"
 
 
-def test_the_start_page_leads_to_the_report(finished):
-    client, job = finished
-    page = client.get("/").text
-    assert f'<a href="{job["links"]["report"]}">report</a>' in page
-    assert "</a> identify</td>" in page
-
-
 def test_a_job_without_a_result_has_no_report(tmp_path, log_bytes):
     executor = failing()
     executor.release.set()

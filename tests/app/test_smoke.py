@@ -62,6 +62,16 @@ def test_a_result_reads_in_the_order_of_the_contract(real, identified):
     assert next(iter(result["robot"])) == "name"
 
 
+def test_the_report_of_a_job_names_it_and_shows_its_motion_and_torque(real, identified):
+    job = identified[0]
+    page = real.get(job["links"]["report"]).text
+    assert job["id"] in page
+    assert job["finished_at"][:10] in page
+    for kind in ("measured", "filtered", "estimated", "residual"):
+        assert page.count(f'class="line trace {kind}"') >= 2  # joints
+    assert page.count('class="band unseen"') == 8  # four of twenty blocks on either joint
+
+
 def test_one_request_identifies_a_robot_that_is_sent_along(real, identified):
     answer = real.post(
         "/v1/identify",

@@ -9,7 +9,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "causes.md"
 
 
 def test_the_committed_page_is_what_the_causes_say_of_themselves():
-    assert PAGE.read_text(encoding="utf-8") == guide(), "run `make causes` and review the change"
+    assert PAGE.read_text(encoding="utf-8") == guide(), "run `make reference` and review the change"
 
 
 def test_every_cause_has_a_section_with_its_numbers_and_every_link_leads_to_one():

@@ -10,7 +10,7 @@ from sqlalchemy import Connection, Engine, inspect, text
 
 from app.store.tables import METADATA
 
-LATEST = "0001"
+LATEST = "0002"
 """The last of `versions/`."""
 _NOTE = "CREATE TABLE alembic_version (version_num VARCHAR(32) NOT NULL PRIMARY KEY)"
 _LOCK = 7236011

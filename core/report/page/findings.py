@@ -17,6 +17,7 @@ from core.report.page.words import (
     share,
     unbroken,
     uncertain,
+    unit,
     unit_of_effort,
 )
 
@@ -96,7 +97,7 @@ def _parameters(finding: Document) -> Html | None:
             quantity(one["name"]),
             uncertain(one["value"], one["standard_deviation"]),
             percent(one.get("relative_deviation_percent")),
-            tag("span", "" if one["unit"] == "1" else one["unit"]),
+            tag("span", unit(one["unit"])),
         )
         for one in finding["parameters"]
     ]

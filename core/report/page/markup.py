@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 Cell = str | float | None
+_ON_ONE_SHEET = 24
+"""Rows up to which a printed table is kept on one sheet of paper."""
 
 
 class Html(str):
@@ -83,9 +85,10 @@ def table(
     ]
     inside = (tag("caption", caption), tag("thead", head), tag("tbody", *body))
     below = tag("p", note, class_="note") if note else None
-    return together([tag("div", tag("table", *inside), class_="wide"), below])
+    kind = "wide" if len(body) <= _ON_ONE_SHEET else "wide long"
+    return together([tag("div", tag("table", *inside), class_=kind, tabindex=0), below])
 
 
-def section(heading: str, *parts: object) -> Html:
-    """Write a section with a heading."""
-    return tag("section", tag("h2", heading), *parts)
+def section(heading: str, *parts: object, key: str | None = None) -> Html:
+    """Write a section with a heading; `key` is the name by which a link finds it."""
+    return tag("section", tag("h2", heading), *parts, id=key)

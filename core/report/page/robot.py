@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from core.report.page.markup import Html, listing, section, table, tag
-from core.report.page.words import Document, number, percent, uncertain, unit_of_effort
+from core.report.page.whisker import whisker
+from core.report.page.words import Document, fit_band, number, percent, uncertain, unit, unit_of_effort
 
 
 def headline(document: Document) -> str:
@@ -40,7 +41,12 @@ def scores_section(document: Document) -> Html | None:
         for joint, row in fit.items()
     ]
     headings = ("joint", "torque RMS", "error, fitted", "% of range", "% of RMS", "error, unseen", "% of RMS")
-    return section("How well it predicts torque", table("Error of the predicted torque", headings, rows))
+    note = (
+        f"RMS in N m (N where a joint slides), {fit_band(document)}: torque and error pass the filter that "
+        "the model is fitted with. Unseen: blocks of time that were held out of the fit."
+    )
+    told = table("Error of the predicted torque", headings, rows, note=note)
+    return section("How well it predicts torque", told, key="torque")
 
 
 def existence_section(document: Document) -> Html | None:
@@ -79,26 +85,33 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
             f"{row['name']}{'*' if row.get('essential') else ''}",
             uncertain(row["value"], row["standard_deviation"]),
             percent(row.get("relative_deviation_percent")),
+            whisker(row),
             number(row.get("value_ols")),
-            tag("span", "" if row["unit"] == "1" else row["unit"]),
+            tag("span", unit(row["unit"])),
             tag("b", "joined the model")
             if row.get("new")
             else tag("span", row.get("grouping") or "", class_="meta"),
         )
         for row in sorted(rows, key=lambda row: not row.get("new"))
     ]
-    note = "* essential; %P: relative standard deviation"
+    note = (
+        "* essential; %P: relative standard deviation. Error bars, each row on a scale of its own with zero "
+        "as the upright line: the dot is the value, the thick bar the 95 % interval, the thin one that of "
+        "blocks of the log drawn anew, constraints included."
+    )
     headings = (
         "parameter",
         "value ± standard deviation",
         "%P",
+        "error bars",
         "least squares",
         "unit",
         "what is grouped in it",
     )
     return section(
         heading,
-        table("Base parameters", headings, listed, note=note, text=(5,)),
+        table("Base parameters", headings, listed, note=note, text=(6,)),
+        key="parameters",
     )
 
 

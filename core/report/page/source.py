@@ -3,7 +3,7 @@
 import json
 
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import Document, number, reference
+from core.report.page.words import Document, number, percent, reference, unit_of_effort
 
 _IDENTIFY = (
     "Position is differentiated and torque filtered by the same zero-phase filters; the equations of motion "
@@ -46,25 +46,58 @@ def data_section(document: Document) -> Html | None:
     defects = document.get("defects") or []
     said = listing(_defect(one) for one in defects) or tag("p", "No defect was found in them.")
     headings = ("log", "samples", "duration", "rate", "filtered at")
-    return section("The data", table("Logs", headings, rows), tag("h4", "Defects"), said)
+    reasons = listing(_filtered(log) for log in logs if (log.get("filter") or {}).get("reason"))
+    parts = (table("Logs", headings, rows), reasons, tag("h3", "Defects"), said, *_excitation(document))
+    return section("The data", *parts, key="data")
+
+
+def _filtered(log: Document) -> str:
+    return f"{log['name']}: {log['filter']['reason']}."
+
+
+def _excitation(document: Document) -> list[object]:
+    """Say how well the motion tells the parameters apart, and what of it was used."""
+    precision = document.get("precision") or {}
+    scaled, plain = document.get("condition_number_scaled"), document.get("condition_number")
+    told = [
+        scaled
+        and f"Condition number of the equations: {number(scaled)} with columns of equal length, "
+        f"{number(plain)} as they are. The smaller, the better the motion tells parameters apart.",
+        precision.get("equations")
+        and f"{precision['equations']} filtered equations were fitted; "
+        f"{percent(precision.get('left_out_percent'))} were left out at standstill and at ends of stretches.",
+    ]
+    noise, memory = precision.get("noise") or [], precision.get("memory_factor") or []
+    rows = [
+        (str(joint), f"{number(one)} {unit_of_effort(document, joint)}", number(factor))
+        for joint, (one, factor) in enumerate(zip(noise, memory, strict=False), start=1)
+    ]
+    note = "Memory: by how much samples that resemble their neighbours inflate the variance of a constant."
+    headings = ("joint", "RMS of the residual", "memory")
+    noted = table("Noise per joint, as the fit sees it", headings, rows, note=note) if rows else None
+    listed = listing(one for one in told if one)
+    return [tag("h3", "Excitation and noise"), listed, noted] if listed or rows else []
 
 
 def method_section(document: Document) -> Html:
     """Say in short how it was done, and from what."""
-    given = document.get("provenance") or {}
     text = f"{_first(document)}{_DIAGNOSE} {_IDENTIFY}" if document.get("diagnosis") else _IDENTIFY
-    hashes = ", ".join(str(one) for one in given.get("log_sha256") or [] if one) or "none"
-    return section(
-        "How this was done",
-        tag("p", text),
-        listing(
-            [
-                f"Veritorque {given.get('version', '')}, document {document.get('schema_version', '')}",
-                together(["Options: ", tag("code", json.dumps(given.get("options") or {}))]),
-                together(["SHA-256 of the logs: ", tag("code", hashes)]),
-            ]
-        ),
-    )
+    return section("How this was done", tag("p", text), _sources(document), key="method")
+
+
+def _sources(document: Document) -> Html:
+    """List what every number of the page rests on, so that it can be computed again."""
+    given = document.get("provenance") or {}
+    names = [str(log.get("name", "")) for log in document.get("logs") or []]
+    hashes = [one for one in given.get("log_sha256") or [] if one]
+    logs = [(together(["log ", name]), tag("code", one)) for name, one in zip(names, hashes, strict=False)]
+    rows = [
+        *((name, together(["SHA-256 ", code])) for name, code in logs),
+        ("options", tag("code", json.dumps(given.get("options") or {}))),
+        ("program", f"Veritorque {given.get('version', '')}, document {document.get('schema_version', '')}"),
+    ]
+    note = "The same robot, logs, options and version give the same numbers, byte for byte."
+    return table("What every number of this page comes from", ("source", "which"), rows, note=note, text=(1,))
 
 
 def _first(document: Document) -> str:

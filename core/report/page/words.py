@@ -200,6 +200,17 @@ def quantity(name: str) -> str:
     return _QUANTITIES.get(name, name.replace("_", " "))
 
 
+def unit(name: str) -> str:
+    """Write a unit for a reader: powers raised, nothing where there is none.
+
+    Examples
+    --------
+    >>> unit("kg m2"), unit("1"), unit("N m/rad")
+    ('kg m²', '', 'N m/rad')
+    """
+    return "" if name == "1" else name.replace("m2", "m²")
+
+
 def unbroken(sentence: str) -> str:
     """Keep units on the line of their numbers.
 

@@ -1,0 +1,94 @@
+"""Know the files that the pages are made of: no other file is ever given out.
+
+Pages are plain HTML and small ES modules, served as they were written; there is nothing to build. Files are
+known by the hash of their bytes, so that a browser asks again and downloads only what changed.
+"""
+
+import hashlib
+import sysconfig
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from string import Template
+from typing import Final
+
+from app.version import VERSION
+
+PAGES: Final = Path(__file__).parent
+MEDIA_TYPES: Final = {
+    ".css": "text/css",
+    ".csv": "text/csv",
+    ".js": "text/javascript",
+    ".png": "image/png",
+    ".svg": "image/svg+xml",
+}
+BUNDLES: Final = (
+    "swagger-ui/swagger-ui.css",
+    "swagger-ui/swagger-ui-bundle.js",
+    "swagger-ui/favicon-32x32.png",
+    "uplot/uPlot.esm.js",
+    "uplot/uPlot.min.css",
+)
+EXAMPLE_LOGS: Final = {"example-log.csv": "log.csv", "example-hidden-log.csv": "hidden_log.csv"}
+EXAMPLE_PLACES: Final = (
+    PAGES.parents[1] / "examples" / "yumi",  # a clone, and the image
+    Path(sysconfig.get_path("data")) / "share" / "veritorque" / "yumi",  # an installed package
+)
+_POLICY: Final = (
+    "default-src 'none'; script-src 'self'; style-src 'self'{}; img-src 'self' data:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+)
+STRICT: Final = {"Content-Security-Policy": _POLICY.format("")}
+PLAIN: Final = {"Content-Security-Policy": _POLICY.format(" 'unsafe-inline'")}
+"""Swagger UI writes styles into its elements."""
+
+
+@dataclass(frozen=True)
+class PageFile:
+    """Name a file that is given out."""
+
+    path: Path
+
+    @property
+    def media_type(self) -> str:
+        """Give the media type, by the file's suffix."""
+        return MEDIA_TYPES[self.path.suffix]
+
+    @cached_property
+    def etag(self) -> str:
+        """Name the file's bytes by their hash."""
+        return f'"{hashlib.sha256(self.content()).hexdigest()[:32]}"'
+
+    def content(self) -> bytes:
+        """Read the file."""
+        return self.path.read_bytes()
+
+
+@cache
+def shell(name: str) -> str:
+    """Write a page: the frame that all of them share, around what is its own.
+
+    Examples
+    --------
+    >>> "<main" in shell("start")
+    True
+    """
+    own = (PAGES / f"{name}.html").read_text(encoding="utf-8")
+    if own.startswith("<!doctype"):
+        return own
+    title, _, content = own.partition("\n")
+    frame = Template((PAGES / "frame.html").read_text(encoding="utf-8"))
+    return frame.substitute(title=title, name=name, content=content, version=VERSION)
+
+
+def _known() -> dict[str, PageFile]:
+    paths = [*sorted((PAGES / "static").iterdir()), *(PAGES / "vendor" / bundle for bundle in BUNDLES)]
+    known = {path.name: PageFile(path) for path in paths}
+    for name, original in EXAMPLE_LOGS.items():
+        found = [place / original for place in EXAMPLE_PLACES if (place / original).is_file()]
+        if found:
+            known[name] = PageFile(found[0])
+    return known
+
+
+STATIC: Final = _known()

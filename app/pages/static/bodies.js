@@ -1,0 +1,65 @@
+// Whether such a robot can exist: its bodies drawn on the chain, the eigenvalues that say so, and the bounds they touch.
+import { drawChain } from "./chain.js";
+import { element, fill } from "./dom.js";
+import { wide } from "./wide.js";
+import { number, plural } from "./words.js";
+
+/** Show the bodies. */
+export function showBodies(container, { document }) {
+  const { feasibility, solver, bodies = [], robot } = document;
+  const drawn = bodies.filter((body) => body.half_axes !== null).map((body) => ({
+    link: body.link,
+    centre: body.mass_centre,
+    axes: body.axes.map((row) => row.map((value, column) => value * body.half_axes[column])),
+    label: `link ${body.link}: ${number(body.mass, 3)} kg, half axes ${body.half_axes.map((value) => number(1000 * value, 3)).join(", ")} mm`,
+  }));
+  const figure = element("div", {});
+  fill(container, element("div", { class: "split" },
+    element("div", {}, figure, element("p", { class: "hint" }, "Each ellipsoid is the solid body of even density with the link's identified mass, mass centre and inertia: one feasible representative, nearest to the belief. It is no picture of the link's shape.")),
+    element("div", {}, element("ul", { class: "facts" }, facts(feasibility, solver)), eigenvalues(feasibility, bodies))));
+  if (bodies.length) drawChain(figure, robot, { bodies: drawn });
+  else fill(figure, element("p", { class: "soft" }, "The model has no bodies to draw."));
+}
+
+function facts(feasibility, solver) {
+  const mass = feasibility.mass_matrix_min_eigenvalue ?? {};
+  const active = feasibility.active_constraints ?? [];
+  const price = solver.objective_ols > 0 ? solver.objective / solver.objective_ols - 1 : null;
+  return [
+    element("li", {}, element("strong", {}, feasibility.feasible ? "The identified robot can exist. " : "The identified robot cannot exist. "),
+      `Plain least squares gives one that ${feasibility.ols_feasible ? "can as well" : "cannot"}.`),
+    price === null ? null : element("li", {}, `The price of existence: a squared error ${number(100 * price, 3)} % above the least-squares optimum.`),
+    mass.workspace === undefined ? null : element("li", {}, `Mass matrix: smallest eigenvalue ${number(mass.trajectory, 3)} along the motion, ${number(mass.workspace, 3)} in ${plural("configuration", mass.configurations)} of the workspace.`),
+    active.length ? touched(active) : element("li", {}, "No constraint is touched: every body lies well within what can exist."),
+    element("li", {}, `Solver: ${solver.status}, ${plural("iteration", solver.iterations)}.`),
+  ];
+}
+
+// Which bodies lie at the edge of what can exist, and which parameters at their lower bound, by the names of the result.
+function touched(active) {
+  const links = active.filter((name) => name.startsWith("pseudo_inertia_")).map((name) => name.split("_").pop());
+  const others = active.filter((name) => !name.startsWith("pseudo_inertia_"));
+  return [
+    links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} at the edge of what can exist, as thin as the margin allows.`) : null,
+    others.length ? element("li", {}, `At the lower bound: ${listed(others)}.`) : null,
+  ];
+}
+
+function listed(names) {
+  return names.length < 2 ? names.join() : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
+}
+
+function eigenvalues(feasibility, bodies) {
+  const smallest = feasibility.pseudo_inertia_min_eigenvalue ?? [];
+  if (!smallest.length) return null;
+  return wide(element("table", {},
+    element("caption", {}, "A body can exist where no eigenvalue of its pseudo-inertia is negative."),
+    element("thead", {}, element("tr", {}, ["Link", "Mass, kg", "Half axes, mm", "Smallest eigenvalue"].map((name) => element("th", { scope: "col" }, name)))),
+    element("tbody", {}, smallest.map((value, index) => {
+      const body = bodies[index];
+      return element("tr", {}, element("th", { scope: "row" }, index + 1),
+        element("td", {}, number(body?.mass, 3)),
+        element("td", {}, body?.half_axes ? body.half_axes.map((one) => number(1000 * one, 3)).join(" × ") : "–"),
+        element("td", { class: value < 0 ? "poor" : null }, number(value, 3)));
+    }))), "Links");
+}

@@ -1,0 +1,225 @@
+// Draw a robot as a stick figure that can be turned and posed: links as rods, joints as barrels or slides, bodies as ellipsoids.
+import { element, fill, svg } from "./dom.js";
+import { add, apply, column, IDENTITY, movingJoints, multiply, place, rangeOf, times, transposed, turnZ } from "./kinematics.js";
+import { number, plural } from "./words.js";
+
+const HALF = 100; // the drawing reaches from -HALF to HALF
+const STEP = Math.PI / 24;
+
+/**
+ * Draw a robot into a container.
+ * @param {HTMLElement} container
+ * @param {Object} description of the robot, as the API answers it
+ * @param {Object} [options]
+ * @param {boolean} [options.sliders] whether joints can be moved
+ * @param {{link: number, centre: number[], axes: number[][], label: string}[]} [options.bodies] ellipsoids on links counted
+ *   from 1: centre (m) and semi-axes as the columns of a matrix (m), in the link's frame
+ * @returns {{update: function(Object): void, destroy: function(): void}}
+ */
+export function drawChain(container, description, { sliders = true, bodies = [] } = {}) {
+  let robot = description;
+  let pose = [];
+  let fit = null;
+  const view = { yaw: -0.9, pitch: 0.32, zoom: 1 };
+  const drawing = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, role: "img" });
+  const stage = element("div", { class: "stage3d", tabindex: "0", role: "group", "aria-label": "Figure of the robot. The arrow keys turn it, plus and minus zoom." }, drawing);
+  const panel = element("div", { class: "sliders" });
+  fill(container, element("div", { class: "chain" }, stage,
+    element("p", { class: "hint" }, "Drag to turn it, or focus it and use the arrow keys."), panel));
+  stage.addEventListener("pointerdown", turn);
+  stage.addEventListener("keydown", steer);
+  stage.addEventListener("wheel", wheel, { passive: false });
+  update(description);
+  return { update, destroy: () => fill(container) };
+
+  function update(changed) {
+    const before = movingJoints(robot).map((joint) => joint.type).join();
+    robot = changed;
+    const joints = movingJoints(robot);
+    if (pose.length !== joints.length || before !== joints.map((joint) => joint.type).join()) pose = joints.map(resting);
+    fit = ball(place(robot, pose).flatMap((one) => one.path));
+    if (sliders) fill(panel, joints.map(slider), joints.length ? element("button", { type: "button", class: "tiny", on: { click: rest } }, "Zero pose") : null);
+    draw();
+  }
+
+  function rest() {
+    pose = movingJoints(robot).map(resting);
+    update(robot);
+  }
+
+  function slider(joint, index) {
+    const [low, high] = rangeOf(joint);
+    const turning = joint.type === "revolute";
+    const shown = element("output", { class: "soft" });
+    const told = () => { shown.textContent = turning ? `${Math.round((pose[index] * 180) / Math.PI)}°` : `${number(pose[index], 3)} m`; };
+    const id = `joint-${index + 1}-slider`;
+    const input = element("input", { type: "range", id, min: low, max: high, step: (high - low) / 200, on: { input: () => { pose[index] = input.valueAsNumber; told(); draw(); } } });
+    input.value = pose[index];
+    told();
+    return element("div", { class: "slider" }, element("label", { for: id }, joint.name ?? `joint ${index + 1}`), input, shown);
+  }
+
+  function draw() {
+    const places = place(robot, pose);
+    const upright = uprightBy(robot.gravity ?? [0, 0, -1]);
+    const view3 = multiply([[1, 0, 0], [0, Math.sin(view.pitch), Math.cos(view.pitch)], [0, -Math.cos(view.pitch), Math.sin(view.pitch)]], turnZ(view.yaw));
+    const camera = multiply(view3, upright);
+    const { middle, radius } = fit;
+    const scale = (view.zoom * HALF * 0.92) / radius;
+    const flat = (point) => {
+      const seen = apply(camera, add(point, times(middle, -1)));
+      return [seen[0] * scale, -seen[1] * scale, seen[2]];
+    };
+    const size = radius * 0.075; // of joints and frames, m
+    const shapes = [
+      floor(radius, transposed(upright), flat),
+      ...places.flatMap((one, index) => rods(one, index, flat)),
+      ...places.map((one, index) => barrel(robot.joints[index], index, one, { size, camera, scale, flat })),
+      ...bodies.map((body) => ellipsoid(body, places[body.link - 1], camera, scale, flat)),
+      triad({ rotation: IDENTITY, origin: [0, 0, 0] }, size * 1.8, flat),
+      ...ends(robot, places).map((one) => triad(one, size * 2.2, flat)),
+    ].sort((a, b) => a.depth - b.depth);
+    drawing.replaceChildren(...shapes.map((shape) => shape.node), ...places.map((one, index) => label(index + 1, one, size, flat)));
+    drawing.setAttribute("aria-label", described(robot, places));
+  }
+
+  function turn(event) {
+    stage.setPointerCapture(event.pointerId);
+    let [x, y] = [event.clientX, event.clientY];
+    const move = (now) => {
+      view.yaw += (now.clientX - x) * 0.01;
+      tilt((now.clientY - y) * 0.01);
+      [x, y] = [now.clientX, now.clientY];
+      draw();
+    };
+    stage.addEventListener("pointermove", move);
+    stage.addEventListener("pointerup", () => stage.removeEventListener("pointermove", move), { once: true });
+    stage.addEventListener("pointercancel", () => stage.removeEventListener("pointermove", move), { once: true });
+  }
+
+  function steer(event) {
+    const actions = {
+      ArrowLeft: () => { view.yaw -= STEP; },
+      ArrowRight: () => { view.yaw += STEP; },
+      ArrowUp: () => tilt(STEP),
+      ArrowDown: () => tilt(-STEP),
+      "+": () => zoom(1.2),
+      "=": () => zoom(1.2),
+      "-": () => zoom(1 / 1.2),
+    };
+    if (!(event.key in actions) || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    actions[event.key]();
+    draw();
+  }
+
+  function wheel(event) {
+    if (!event.ctrlKey) return; // the page scrolls; a pinch zooms
+    event.preventDefault();
+    zoom(Math.exp(-event.deltaY * 0.01));
+    draw();
+  }
+
+  function tilt(angle) {
+    view.pitch = Math.min(Math.max(view.pitch + angle, -Math.PI / 2), Math.PI / 2);
+  }
+
+  function zoom(factor) {
+    view.zoom = Math.min(Math.max(view.zoom * factor, 0.3), 6);
+  }
+}
+
+function resting(joint) {
+  const [low, high] = rangeOf(joint);
+  return Math.min(Math.max(0, low), high);
+}
+
+/** A ball around the base and some points: its middle and radius, m. */
+function ball(points) {
+  const all = [[0, 0, 0], ...points];
+  const middle = [0, 1, 2].map((axis) => {
+    const values = all.map((point) => point[axis]);
+    return (Math.min(...values) + Math.max(...values)) / 2;
+  });
+  const radius = Math.max(...all.map((point) => Math.hypot(...add(point, times(middle, -1)))));
+  return { middle, radius: radius > 1e-6 ? radius * 1.12 : 0.5 };
+}
+
+/** Turn the base frame so that gravity points down. Source: the smallest rotation that leads one unit vector to another. */
+function uprightBy(gravity) {
+  const strength = Math.hypot(...gravity);
+  if (strength < 1e-9) return IDENTITY;
+  const [x, y, z] = times(gravity, -1 / strength);
+  if (z < -1 + 1e-9) return [[1, 0, 0], [0, -1, 0], [0, 0, -1]];
+  const k = 1 / (1 + z);
+  return [[1 - x * x * k, -x * y * k, -x], [-x * y * k, 1 - y * y * k, -y], [x, y, z]];
+}
+
+function pathOf(points) {
+  return points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
+}
+
+/** The floor lies level, under the base: `level` leads from level coordinates to those of the base frame. */
+function floor(radius, level, flat) {
+  const lines = [-2, -1, 0, 1, 2].flatMap((step) => {
+    const [at, end] = [step * radius * 0.25, radius * 0.5];
+    return [[[at, -end, 0], [at, end, 0]], [[-end, at, 0], [end, at, 0]]];
+  });
+  return { depth: -Infinity, node: svg("path", { class: "floor", d: lines.map((ends) => pathOf(ends.map((end) => flat(apply(level, end))))).join("") }) };
+}
+
+function rods(one, index, flat) {
+  return one.path.slice(1).map((corner, step) => {
+    const ends = [flat(one.path[step]), flat(corner)];
+    return { depth: (ends[0][2] + ends[1][2]) / 2, node: svg("path", { class: `rod rod-${(index % 2) + 1}`, d: pathOf(ends) }) };
+  });
+}
+
+/** A joint: a barrel about its axis, or a bar along it. */
+function barrel(joint, index, one, { size, camera, scale, flat }) {
+  const axis = column(one.rotation, 2);
+  const half = joint.type === "prismatic" ? 1.5 * size : size;
+  const ends = [-half, half].map((reach) => flat(add(one.origin, times(axis, reach))));
+  const seen = apply(camera, axis);
+  const [far, near] = seen[2] >= 0 ? ends : [...ends].reverse();
+  const radius = size * scale * (joint.type === "prismatic" ? 0.45 : 0.75);
+  const turn = `rotate(${((Math.atan2(-seen[1], seen[0]) * 180) / Math.PI).toFixed(1)})`;
+  const cap = (at, name) => svg("ellipse", { class: name, rx: Math.max(radius * Math.abs(seen[2]), 0.2).toFixed(2), ry: radius.toFixed(2), transform: `translate(${at[0].toFixed(2)} ${at[1].toFixed(2)}) ${turn}` });
+  const node = svg("g", { class: `joint ${joint.type}` }, cap(far, "side"), svg("path", { d: pathOf(ends), "stroke-width": (2 * radius).toFixed(2) }), cap(near, "cap"),
+    svg("title", {}, `${joint.name ?? `joint ${index + 1}`}, ${joint.type}`));
+  return { depth: flat(one.origin)[2] + half / 2, node };
+}
+
+function triad(one, size, flat) {
+  const axes = [0, 1, 2].map((index) => svg("path", { class: `axis axis-${"xyz"[index]}`, d: pathOf([flat(one.origin), flat(add(one.origin, times(column(one.rotation, index), size)))]) }));
+  return { depth: flat(one.origin)[2] + 2e-3, node: svg("g", {}, axes) };
+}
+
+function label(text, one, size, flat) {
+  const [x, y] = flat(add(one.origin, times(column(one.rotation, 2), 1.7 * size)));
+  return svg("text", { class: "number", x: x.toFixed(2), y: (y + 2).toFixed(2) }, String(text));
+}
+
+/** The outline of an ellipsoid seen from afar is an ellipse: of A = camera rotation axes, the first two rows of A A'. */
+function ellipsoid(body, one, camera, scale, flat) {
+  const seen = multiply(camera, multiply(one.rotation, body.axes));
+  const [xx, xy, yy] = [[0, 0], [0, 1], [1, 1]].map(([a, b]) => seen[a].reduce((sum, value, k) => sum + value * seen[b][k], 0));
+  const [mean, half] = [(xx + yy) / 2, Math.hypot((xx - yy) / 2, xy)];
+  const [long, shortest] = [Math.sqrt(mean + half), Math.sqrt(Math.max(mean - half, 0))];
+  const angle = (-Math.atan2(2 * xy, xx - yy) / 2) * (180 / Math.PI);
+  const [x, y, depth] = flat(add(one.origin, apply(one.rotation, body.centre)));
+  const node = svg("ellipse", { class: `body body-${((body.link - 1) % 7) + 1}`, rx: (long * scale).toFixed(2), ry: (shortest * scale).toFixed(2), transform: `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${angle.toFixed(2)})` }, svg("title", {}, body.label));
+  return { depth, node };
+}
+
+/** The frames that carry no other: the ends of the chain or of the tree's branches. */
+function ends(robot, places) {
+  const carriers = new Set(robot.joints.map((joint, index) => joint.antecedent ?? index));
+  return places.filter((_, index) => !carriers.has(index + 1));
+}
+
+function described(robot, places) {
+  const tip = places.at(-1).origin.map((value) => number(value, 3));
+  const sliding = robot.joints.filter((joint) => joint.type === "prismatic").length;
+  return `${robot.name || "Robot"} with ${plural("joint", robot.joints.length)}${sliding ? `, ${sliding} of them sliding` : ""}; in this pose the last frame lies at ${tip.join(", ")} m from the base.`;
+}

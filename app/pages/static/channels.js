@@ -1,0 +1,89 @@
+// Look at a log: a small plot of every channel and joint, with its defects marked, under one cursor.
+import { get } from "./api.js";
+import { element, fill } from "./dom.js";
+import { draw } from "./plot.js";
+import { showError } from "./problem.js";
+import { unitOf } from "./words.js";
+
+const POINTS = 1000;
+const AT_ONCE = ["position", "torque", "current"];
+const HEIGHT = 130;
+const WHOLE = 0.95;
+
+/**
+ * Show the channels of a log.
+ * @param {HTMLElement} container
+ * @param {Object} log its summary
+ * @returns {{use: function(Object): void, destroy: function(): void}} to be told the robot, which knows what turns and slides
+ */
+export function showChannels(container, log) {
+  let traces = null;
+  let robot = null;
+  let plots = [];
+  fill(container, element("p", { class: "waiting", role: "status" }, "Drawing every channel …"));
+  load();
+  return {
+    use(known) {
+      robot = known;
+      if (traces !== null) show();
+    },
+    destroy: clear,
+  };
+
+  async function load() {
+    try {
+      traces = await get(`/v1/logs/${encodeURIComponent(log.id)}/traces?points=${POINTS}`);
+      show();
+    } catch (error) {
+      showError(container, error);
+    }
+  }
+
+  function clear() {
+    for (const plot of plots) plot.destroy();
+    plots = [];
+  }
+
+  function show() {
+    clear();
+    const start = traces.time.values[0];
+    const x = { label: "time", unit: "s", values: traces.time.values.map((stamp) => stamp - start) };
+    const thinned = traces.rows_per_stretch > 1 ? `Each point pair holds the extremes of ${traces.rows_per_stretch} samples.` : "";
+    fill(container, element("p", { class: "hint" }, `Does every plot look like the motion you know? Drag over a plot to zoom, press Escape on it to see all. ${thinned}`),
+      log.channels.map((channel) => group(channel, x, start)));
+  }
+
+  function group(channel, x, start) {
+    const grid = element("div", { class: "plots" });
+    const own = traces.traces.filter((trace) => trace.channel === channel);
+    const open = AT_ONCE.includes(channel);
+    const box = element("details", { class: "channel", open }, element("summary", {}, capital(channel)), grid);
+    const drawAll = () => own.forEach((trace) => {
+      const place = element("div", {});
+      grid.append(place);
+      plots.push(draw(place, {
+        title: `${capital(channel)} of joint ${trace.joint}`,
+        unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type),
+        x,
+        traces: [{ label: channel, values: trace.values, colour: channel === "position" ? 1 : 2 }],
+        height: HEIGHT,
+        together: log.id,
+        marks: marksOf(channel, trace.joint, start),
+      }));
+    });
+    if (open) requestAnimationFrame(drawAll); // once the grid has its width
+    else box.addEventListener("toggle", drawAll, { once: true });
+    return box;
+  }
+
+  function marksOf(channel, joint, start) {
+    return log.defects
+      .filter((defect) => (defect.channel === channel && (defect.joint ?? joint) === joint) || defect.channel === "time")
+      .flatMap((defect) => defect.intervals.map(([from, to]) => ({ from: from - start, to: to - start, label: defect.kind })))
+      .filter((mark) => mark.to - mark.from < WHOLE * log.duration_s); // what concerns all of the log has no place in it
+  }
+}
+
+function capital(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

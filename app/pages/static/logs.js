@@ -1,0 +1,126 @@
+// Choose logs: upload files or take what was uploaded before, and look at each: rate, columns, defects, every channel.
+import { get, upload } from "./api.js";
+import { showChannels } from "./channels.js";
+import { dropZone, field, menu } from "./controls.js";
+import { columnsOf, mappingForm } from "./mapping.js";
+import { element, fill } from "./dom.js";
+import { showError } from "./problem.js";
+import { bytes, count, duration, number, percent, plain, plural } from "./words.js";
+
+const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.bag";
+const LISTED = 50;
+
+/**
+ * Offer the ways to logs.
+ * @param {HTMLElement} container
+ * @param {Object} options `wanted`: ids of logs to begin with; `chosen(logs)` hears of every change
+ * @returns {{use: function(Object): void}} to be told which robot they are of
+ */
+export function chooseLogs(container, { wanted = [], chosen }) {
+  const cards = element("div", { class: "stack" });
+  const said = element("div", { class: "said", "aria-live": "polite" });
+  const earlier = element("div", {});
+  const logs = new Map();
+  let robot = null;
+  fill(container,
+    element("div", { class: "split even" }, dropZone("Drop a log here", "or choose the file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) => take(file, null)), earlier),
+    said, cards);
+  offerEarlier();
+  for (const id of wanted) read(id);
+  return {
+    use(chosenRobot) {
+      robot = chosenRobot;
+      for (const one of logs.values()) one.redraw();
+    },
+  };
+
+  async function offerEarlier() {
+    try {
+      const known = (await get(`/v1/logs?limit=${LISTED}`)).logs;
+      if (!known.length) return;
+      const choices = [["", "Choose a log"], ...known.map((log) => [log.id, `${log.name} (${plural("joint", log.joints)}, ${duration(log.duration_s)})`])];
+      const list = menu(choices, "", (id) => { if (id) read(id); list.value = ""; });
+      fill(earlier, field("Or one that is here already", list));
+    } catch (error) {
+      showError(said, error);
+    }
+  }
+
+  async function read(id) {
+    try {
+      keep(await get(`/v1/logs/${encodeURIComponent(id)}`), null);
+    } catch (error) {
+      showError(said, error);
+    }
+  }
+
+  async function take(file, mapping) {
+    const bar = element("progress", { max: 1, value: 0, "aria-label": `Upload of ${file.name}` });
+    const words = element("p", { class: "hint", role: "status" }, `Uploading ${file.name}, ${bytes(file.size)} …`);
+    fill(said, element("div", { class: "upload" }, words, bar));
+    const told = (fraction) => {
+      bar.value = fraction;
+      words.textContent = fraction < 1 ? `Uploading ${file.name}: ${percent(fraction)} of ${bytes(file.size)}` : `Reading ${file.name} …`;
+    };
+    const query = new URLSearchParams({ name: file.name });
+    if (mapping !== null) query.set("mapping", JSON.stringify(mapping));
+    try {
+      const log = await upload(`/v1/logs?${query}`, file, { told });
+      fill(said);
+      keep(log, file);
+    } catch (error) {
+      showError(said, error);
+      if (error?.problem?.type === "urn:veritorque:problem:log") await offerMapping(file, said, error.problem);
+    }
+  }
+
+  async function offerMapping(file, place, problem) {
+    const columns = await columnsOf(file) ?? problem?.evidence?.columns ?? [];
+    const form = element("div", {});
+    place.append(form);
+    mappingForm(form, { columns, readings: problem?.evidence?.plausible_readings ?? {}, finished: (mapping) => take(file, mapping) });
+  }
+
+  function keep(log, file) {
+    const known = logs.get(log.id);
+    if (known) known.card.remove();
+    const plots = element("div", { class: "stack" });
+    const again = element("div", {});
+    const card = element("article", { class: "log", "aria-label": `Log ${log.name}` },
+      element("div", { class: "row spread" }, element("h3", {}, log.name),
+        element("span", { class: "row" },
+          file === null ? null : element("button", { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null) } }, "Map the columns otherwise"),
+          element("button", { type: "button", class: "tiny", "aria-label": `Take ${log.name} out`, on: { click: remove } }, "Take out"))),
+      facts(log), again, defects(log), plots);
+    cards.append(card);
+    const shown = showChannels(plots, log);
+    logs.set(log.id, { card, log, redraw: () => shown.use(robot) });
+    shown.use(robot);
+    chosen([...logs.values()].map((one) => one.log));
+
+    function remove() {
+      shown.destroy();
+      card.remove();
+      logs.delete(log.id);
+      chosen([...logs.values()].map((one) => one.log));
+    }
+  }
+}
+
+function facts(log) {
+  const rows = [
+    ["Length", `${duration(log.duration_s)}, ${count(log.samples)} samples`],
+    ["Rate", `${number(log.rate_hz)} Hz`],
+    ["Joints", log.joints],
+    ["Read as", log.channels.join(", ")],
+    log.ignored_columns.length ? ["Not used", log.ignored_columns.join(", ")] : null,
+  ].filter(Boolean);
+  return element("dl", { class: "facts" }, rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+}
+
+function defects(log) {
+  if (!log.defects.length) return element("p", { class: "sound" }, "No defects were found.");
+  return element("details", { class: "defects", open: log.defects.length <= 4 },
+    element("summary", {}, `${plural("defect", log.defects.length)} found, marked where they have a place`),
+    element("ul", {}, log.defects.map((defect) => element("li", {}, element("strong", {}, plain(defect.kind)), ` ${defect.statement}`))));
+}

@@ -1,0 +1,72 @@
+// Show what came out of a successful job: in words first, then what those words rest on, section by section.
+import { get, request } from "./api.js";
+import { showBodies } from "./bodies.js";
+import { element, fill } from "./dom.js";
+import { showExcitation } from "./excitation.js";
+import { showFindings, showRemainder } from "./findings.js";
+import { showHeadline } from "./headline.js";
+import { showParameters } from "./parameters.js";
+import { showError } from "./problem.js";
+import { showResiduals } from "./residuals.js";
+import { showTakeaway } from "./takeaway.js";
+import { showMotion, showTorque } from "./torque.js";
+import { tracesOf } from "./traces.js";
+
+/**
+ * Show the result of a job.
+ * @param {HTMLElement} container
+ * @param {Object} job as the API answers it
+ */
+export async function show(container, job) {
+  fill(container, element("p", { class: "waiting", role: "status" }, "Reading the result …"));
+  const [document, report] = await Promise.all([get(job.links.results, { headers: { Accept: "application/json" } }), reportOf(job)]);
+  const study = { job, document, report, traces: tracesOf(job, document) };
+  const sections = document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
+  const headline = element("div", {});
+  const parts = sections.map(([id, title]) => element("section", { class: "card part", id, "aria-labelledby": `${id}-title` },
+    element("h2", { id: `${id}-title` }, title), element("div", { class: "content" })));
+  fill(container, headline, contents(sections), parts);
+  showHeadline(headline, study);
+  sections.forEach(([, , draw], place) => whenSeen(parts[place], (content) => draw(content, study)));
+}
+
+const DIAGNOSED = [
+  ["findings", "Findings", showFindings],
+  ["remainder", "What stays unexplained", showRemainder],
+];
+const COMMON = [
+  ["torque", "Torque", showTorque],
+  ["parameters", "Parameters", showParameters],
+  ["residuals", "Residuals", showResiduals],
+  ["bodies", "Bodies", showBodies],
+  ["excitation", "Excitation", showExcitation],
+  ["motion", "Motion", showMotion],
+  ["take-home", "Take it home", showTakeaway],
+];
+
+async function reportOf(job) {
+  const text = await (await request(job.links.report)).text();
+  const unstyled = text.replace(/<style>.*?<\/style>/s, ""); // the page's own styles serve what is taken over
+  return new DOMParser().parseFromString(unstyled, "text/html"); // inert: nothing of it runs or is loaded
+}
+
+function contents(sections) {
+  return element("nav", { class: "contents", "aria-label": "Sections of the result" },
+    sections.map(([id, title]) => element("a", { href: `#${id}` }, title)));
+}
+
+// What lies far below is drawn when it comes near, so that the first screen is there at once.
+function whenSeen(section, draw) {
+  const content = section.querySelector(".content");
+  const seen = new IntersectionObserver(async (entries) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    seen.disconnect();
+    try {
+      await draw(content);
+    } catch (error) {
+      showError(content, error);
+    }
+    section.dataset.drawn = "true";
+  }, { rootMargin: "400px" });
+  seen.observe(section);
+}

@@ -1,0 +1,140 @@
+// Choose a robot: one that is known, one described by its table, or one from a URDF. Whatever is chosen is drawn.
+import { get, post, request } from "./api.js";
+import { drawChain } from "./chain.js";
+import { dropZone, field, menu, readNumber, segments } from "./controls.js";
+import { element, fill } from "./dom.js";
+import { showError } from "./problem.js";
+import { robotTable } from "./table.js";
+import { number, plural } from "./words.js";
+
+const WAYS = { list: "From the list", table: "Describe it", urdf: "URDF" };
+
+/**
+ * Offer the ways to a robot.
+ * @param {HTMLElement} container
+ * @param {Object} options `wanted`: the id of a robot to begin with; `chosen(robot)` hears of every choice, null for none
+ */
+export function chooseRobot(container, { wanted, chosen }) {
+  const form = element("div", { class: "stack" });
+  const said = element("div", { class: "said", "aria-live": "polite" });
+  const figure = element("div", { class: "figure" });
+  const layout = element("div", { class: "split" }, element("div", { class: "stack" }, form, said), figure);
+  fill(container, segments("How to choose the robot", WAYS, "list", turn), layout);
+  let drawn = null;
+  let names = [];
+  turn("list");
+
+  function turn(way) {
+    fill(said);
+    layout.classList.toggle("stacked", way === "table");
+    ({ list: showList, table: showTable, urdf: showUrdf })[way]();
+  }
+
+  async function showList() {
+    try {
+      names = (await get("/v1/robots?limit=1000")).robots;
+    } catch (error) {
+      showError(said, error);
+      return;
+    }
+    const choices = [["", "Choose a robot"], ...names.map((one) => [one.id, `${one.name} (${plural("joint", one.joints)})${one.built_in ? ", built in" : ""}`])];
+    const known = names.some((one) => one.id === wanted) ? wanted : "";
+    fill(form, field("Robot", menu(choices, known, read), "Built-in robots first, then those that were described here."));
+    if (known) await read(known);
+  }
+
+  async function read(id) {
+    if (!id) {
+      use(null);
+      return;
+    }
+    try {
+      use(await get(`/v1/robots/${encodeURIComponent(id)}`));
+    } catch (error) {
+      showError(said, error);
+    }
+  }
+
+  function showTable() {
+    chosen(null);
+    robotTable(form, {
+      known: names,
+      changed: draw,
+      finished: async (description, refused) => {
+        try {
+          use(await post("/v1/robots", description));
+        } catch (error) {
+          refused(error?.problem?.evidence?.pointer ?? "");
+          showError(said, error);
+        }
+      },
+    });
+  }
+
+  function showUrdf() {
+    const texts = { base_link: element("input", { type: "text", spellcheck: "false" }), tip_link: element("input", { type: "text", spellcheck: "false" }), gravity: element("input", { type: "text", placeholder: "0, 0, -9.81" }) };
+    fill(form,
+      dropZone("Drop a URDF here", "or choose the file. Masses and inertias in it become what is believed.", ".urdf,.xml", take),
+      element("details", {}, element("summary", {}, "Only a part of it, or mounted otherwise"),
+        element("div", { class: "fields" },
+          field("From link", texts.base_link, "default: the root"),
+          field("To link", texts.tip_link, "default: every moving link"),
+          field("Gravity, m/s²", texts.gravity, "x, y, z in the base frame"))));
+
+    async function take(file) {
+      const query = new URLSearchParams(Object.entries(texts).map(([name, input]) => [name, input.value.trim()]).filter(([, value]) => value));
+      if (query.has("gravity")) query.set("gravity", query.get("gravity").split(/[,;\s]+/).map(readNumber).join(","));
+      try {
+        const response = await request(`/v1/robots?${query}`, { method: "POST", body: file, headers: { "Content-Type": "application/xml" } });
+        use(await response.json());
+      } catch (error) {
+        showError(said, error);
+      }
+    }
+  }
+
+  function use(robot) {
+    fill(said, robot === null ? null : summary(robot));
+    draw(robot?.description ?? null);
+    chosen(robot);
+  }
+
+  function draw(description) {
+    if (description === null || !description.joints.length) {
+      fill(figure);
+      drawn = null;
+    } else if (drawn === null) {
+      drawn = drawChain(figure, description);
+    } else {
+      drawn.update(description);
+    }
+  }
+}
+
+/** The rows of a robot as they are read, in degrees and metres; what is given by frames has no row. */
+function rowsOf(description) {
+  const tabular = description.convention === "modified-dh";
+  const degrees = (angle) => number((angle * 180) / Math.PI, 4);
+  const range = (joint) => {
+    const limits = joint.limits?.position;
+    if (!limits) return "–";
+    return joint.type === "revolute" ? `${degrees(limits[0])} … ${degrees(limits[1])}°` : `${number(limits[0])} … ${number(limits[1])} m`;
+  };
+  const heads = ["joint", ...(tabular ? ["α, °", "d, m", "θ, °", "r, m"] : ["type"]), "range"];
+  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Joints of the robot" }, element("table", { class: "rows" },
+    element("thead", {}, element("tr", {}, heads.map((name) => element("th", { scope: "col" }, name)))),
+    element("tbody", {}, description.joints.map((joint, index) => element("tr", {},
+      element("th", { scope: "row" }, joint.name ?? `joint_${index + 1}`),
+      (tabular ? [degrees(joint.alpha), number(joint.d), degrees(joint.theta_offset), number(joint.r)] : [joint.type]).map((value) => element("td", {}, value)),
+      element("td", {}, range(joint)))))));
+}
+
+function summary(robot) {
+  const { description } = robot;
+  const sliding = description.joints.filter((joint) => joint.type === "prismatic").length;
+  const facts = [plural("joint", robot.joints) + (sliding ? `, ${sliding} sliding` : ""), description.convention === "modified-dh" ? "modified Denavit-Hartenberg table" : "frames", `gravity ${description.gravity.map((value) => number(value, 3)).join(", ")} m/s²`, description.prior ? "bodies are believed" : null];
+  return element("div", {},
+    element("p", { class: "chosen" }, element("strong", {}, robot.name), ` · ${facts.filter(Boolean).join(" · ")}`),
+    rowsOf(description),
+    robot.suspicions.length ? element("div", { class: "notice" }, element("strong", {}, "Is this meant?"), element("ul", {}, robot.suspicions.map((one) => element("li", {}, one)))) : null);
+}

@@ -1,0 +1,38 @@
+// Every file of a result with what it is, and how to do it all again from a shell.
+import { follow } from "./api.js";
+import { element, fill } from "./dom.js";
+
+const FILES = [
+  ["report", "The report: one page that opens offline, prints, and can be passed on"],
+  ["results", "The whole result as JSON: every number of this page"],
+  ["results/parameters.csv", "Base parameters with standard deviations and %P"],
+  ["results/standard_parameters.csv", "Standard parameters: one feasible representative"],
+  ["results/residuals.parquet", "Motion, torque and residual of every joint at every kept instant"],
+  ["results/robot.urdf", "URDF with the identified bodies"],
+  ["results/robot.xml", "MJCF, for MuJoCo"],
+  ["results/robot.sdf", "SDFormat, for Gazebo"],
+  ["results/parameters.yaml", "The robot and its parameters as YAML"],
+  ["results/parameters.mat", "The same for MATLAB"],
+  ["results/parameters.h", "Inverse dynamics in C"],
+  ["results/model.json", "The whole model, extended by what was found, to be loaded again"],
+];
+
+/** Show the files and the commands. */
+export function showTakeaway(container, { job }) {
+  const here = location.origin;
+  const body = { kind: job.kind, robot: job.robot, logs: job.logs, options: job.options };
+  const commands = [
+    `curl -H 'Content-Type: application/json' -H 'Prefer: wait=60' \\\n  -d '${JSON.stringify(body).replaceAll("'", "'\\''")}' \\\n  ${here}/v1/jobs`,
+    `curl ${here}${job.links.results}`,
+  ].join("\n");
+  fill(container,
+    element("p", { class: "hint" }, "Standard parameters that are identifiable only in combination stand for one robot of many with the same dynamics; every file says which."),
+    element("ul", { class: "files" }, FILES.map(([path, title]) => {
+      const name = path === "results" ? "results.json" : path === "report" ? "report.html" : path.split("/").pop();
+      const link = element("a", { href: `${job.links.self}/${path}`, download: path === "report" ? null : name }, name);
+      return element("li", {}, follow(link), element("span", {}, title));
+    })),
+    element("h3", {}, "The same again from a shell"),
+    element("pre", { tabindex: "0" }, element("code", {}, commands)),
+    element("p", { class: "hint" }, "With a key: add -H 'Authorization: Bearer …'. Equal requests are answered with the job that is there already."));
+}

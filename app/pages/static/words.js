@@ -1,0 +1,69 @@
+// Say numbers, times and sizes as people read them.
+
+/** A number with so many significant digits, without trailing zeros; a true minus sign. */
+export function number(value, digits = 4) {
+  if (value === null || value === undefined) return "–";
+  if (!Number.isFinite(value)) return String(value);
+  const size = Math.abs(value);
+  const text = size !== 0 && (size < 1e-3 || size >= 1e6)
+    ? value.toExponential(Math.max(0, digits - 1)).replace(/\.?0+e/, "e").replace("e+", "e")
+    : String(Number(value.toPrecision(digits)));
+  return text.replaceAll("-", "−");
+}
+
+/** A whole number with thin spaces between thousands. */
+export function count(value) {
+  return Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, "\u202f");
+}
+
+/** How many, with its noun: plural("joint", 2) is "2 joints". */
+export function plural(noun, many) {
+  return `${count(many)} ${noun}${many === 1 ? "" : "s"}`;
+}
+
+/** A share as percent. */
+export function percent(fraction) {
+  return `${Math.round(100 * fraction)} %`;
+}
+
+/** How long something lasts: seconds below two minutes, then minutes and hours. */
+export function duration(seconds) {
+  if (seconds < 10) return `${number(seconds, 2)} s`;
+  if (seconds < 120) return `${Math.round(seconds)} s`;
+  if (seconds < 7200) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
+  return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
+}
+
+/** How long ago an instant was, in its largest unit. */
+export function ago(instant, now = Date.now()) {
+  const seconds = Math.max(0, (now - Date.parse(instant)) / 1000);
+  for (const [unit, length] of [["d", 86400], ["h", 3600], ["min", 60]]) {
+    if (seconds >= length) return `${Math.floor(seconds / length)} ${unit} ago`;
+  }
+  return seconds < 10 ? "just now" : `${Math.floor(seconds)} s ago`;
+}
+
+/** A size in bytes. */
+export function bytes(size) {
+  for (const [unit, length] of [["GB", 1e9], ["MB", 1e6], ["kB", 1e3]]) {
+    if (size >= length) return `${number(size / length, 3)} ${unit}`;
+  }
+  return `${size} bytes`;
+}
+
+/** The first letters of an id, which tell it from its neighbours. */
+export function short(id) {
+  return id.length <= 14 ? id : `${id.slice(0, 12)}…`;
+}
+
+/** A name of the API for people: "repeated_rows" is "repeated rows". */
+export function plain(name) {
+  return name.replaceAll("_", " ");
+}
+
+/** The unit of a channel where the robot tells whether a joint turns or slides; else as the log says. */
+export function unitOf(trace, type) {
+  const [turning, sliding] = trace.unit.split(" or ");
+  if (sliding === undefined) return turning;
+  return type === "prismatic" ? sliding : turning;
+}

@@ -1,0 +1,40 @@
+"""Serve what a job computed instant by instant, for the eye."""
+
+from fastapi import Response
+
+from app.finished import find_job, traces_of
+from app.looking import Number, ViewOf, traces_response, views_response
+from app.openapi import problems
+from app.results import UNCHANGED, IfNoneMatch
+from app.routing import chapter
+from app.schemas.traces import ResidualViews, ResultTraces
+from app.services import DeskOf
+
+ROUTER = chapter("/v1/jobs", tag="jobs")
+
+
+@ROUTER.get(
+    "/{job_id}/traces",
+    response_model=ResultTraces,
+    summary="Look at torque and motion",
+    responses=problems(404, 409, 422) | UNCHANGED,
+)
+def read_result_traces(
+    desk: DeskOf, job_id: str, view: ViewOf, if_none_match: IfNoneMatch = None
+) -> Response:
+    """Read signals of one joint with few points, of which no extreme is missing; from and to zoom in."""
+    return traces_response(traces_of(desk, find_job(desk, job_id)), view, if_none_match)
+
+
+@ROUTER.get(
+    "/{job_id}/residuals",
+    response_model=ResidualViews,
+    summary="Look at what is left of the torque",
+    responses=problems(404, 409, 422) | UNCHANGED,
+)
+def read_residual_views(
+    desk: DeskOf, job_id: str, joint: Number, log: Number = 1, if_none_match: IfNoneMatch = None
+) -> Response:
+    """Read a joint's residual over position, velocity and frequency, of the instants that count."""
+    kept = traces_of(desk, find_job(desk, job_id))
+    return views_response(kept, log=log, joint=joint, if_none_match=if_none_match)

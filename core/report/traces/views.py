@@ -1,0 +1,142 @@
+"""Show what a model leaves of a joint's torque over position, velocity and frequency, from a file of traces.
+
+Over a coordinate, rows that count are sorted into bins of nearly equally many: a mean that leaves zero by
+more than its neighbours says that the model lacks something which depends on that coordinate, and the band
+between quantiles says how far single rows stray. Over frequency the density of unbroken runs is averaged.
+Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+from scipy.signal import welch
+
+from core.arrays import Mask, Samples, Vector
+from core.errors import ExcitationError
+from core.report.traces.layout import TIME, USED, column
+from core.report.traces.reading import LogOfTraces, stretches
+
+COORDINATES = ("position", "velocity")
+RESIDUALS = ("residual", "residual_after")
+BINS = 40
+FEWEST_IN_BIN = 5
+BAND = (0.05, 0.95)
+LONGEST_RUN, SHORTEST_RUN = 256, 32
+"""Rows of one transform: more resolve finer, fewer are averaged more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Carry one residual over a coordinate: mean, and the quantiles of `BAND`, per bin."""
+
+    signal: str
+    mean: Vector
+    low: Vector
+    high: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class OverCoordinate:
+    """Carry residuals over one coordinate, with the bins' medians of it."""
+
+    coordinate: str
+    unit: str
+    centre: Vector
+    curves: tuple[Curve, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Density:
+    """Carry the power density of one residual, its unit squared per Hz; empty where no run is long enough."""
+
+    signal: str
+    frequency_hz: Vector
+    density: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Views:
+    """Hold what is left of one joint's torque, over what it may depend on.
+
+    Attributes
+    ----------
+    unit, samples
+        Of the residual, and the number of rows that count.
+    """
+
+    unit: str
+    samples: int
+    over: tuple[OverCoordinate, ...]
+    densities: tuple[Density, ...]
+
+
+def read_views(path: Path, *, log: int, joint: int) -> Views:
+    """Read the residuals of a joint of a log, both counted from 1.
+
+    Raises
+    ------
+    OptionError
+        If there is no such log or joint.
+    ExcitationError
+        If too few rows count.
+    """
+    with pq.ParquetFile(path) as file:
+        rows = LogOfTraces(file, log)
+        signals = [one for one in rows.known(joint) if one in RESIDUALS]
+        used = rows.column(column(USED, joint))
+        residual = {one: rows.column(column(one, joint)).astype(float) for one in signals}
+        if used.sum() < 2 * FEWEST_IN_BIN:
+            raise ExcitationError(
+                f"too few instants count for joint {joint}",
+                evidence={"instants": int(used.sum()), "at_least": 2 * FEWEST_IN_BIN},
+                remedy="look at another joint, or record a motion of this one",
+            )
+        over = tuple(
+            _over(
+                name, rows.unit(column(name, joint)), rows.column(column(name, joint))[used], residual, used
+            )
+            for name in COORDINATES
+        )
+        runs = list(_runs(rows.column(TIME), used))
+        rate = 1.0 / float(np.median(np.diff(rows.column(TIME))))
+        densities = tuple(_density(name, values, runs, rate) for name, values in residual.items())
+        return Views(rows.unit(column("residual", joint)), int(used.sum()), over, densities)
+
+
+def _over(name: str, unit: str, values: Samples, residual: dict[str, Samples], used: Mask) -> OverCoordinate:
+    parts = np.array_split(np.argsort(values, kind="stable"), min(BINS, len(values) // FEWEST_IN_BIN))
+    curves = []
+    for signal, left in residual.items():
+        binned = [left[used][part] for part in parts]
+        low, high = np.array([np.quantile(one, BAND) for one in binned]).T
+        curves.append(Curve(signal, np.array([one.mean() for one in binned]), low, high))
+    centre = np.array([np.median(values[part]) for part in parts], dtype=float)
+    return OverCoordinate(name, unit, centre, tuple(curves))
+
+
+def _runs(time: Samples, used: Mask) -> Iterator[slice]:
+    """Give the unbroken runs of rows that count."""
+    for start, stop in stretches(time):
+        borders = np.flatnonzero(np.diff(used[start:stop].astype(np.int8), prepend=0, append=0)) + start
+        for begin, end in list(pairwise(borders.tolist()))[::2]:
+            yield slice(begin, end)
+
+
+def _density(signal: str, values: Samples, runs: list[slice], rate_hz: float) -> Density:
+    """Average the runs' densities, each weighted by its rows."""
+    longest = max((run.stop - run.start for run in runs), default=0)
+    if longest < SHORTEST_RUN:
+        return Density(signal, np.zeros(0), np.zeros(0))
+    size = min(LONGEST_RUN, longest)
+    total, rows = np.zeros(size // 2 + 1), 0
+    frequency = np.fft.rfftfreq(size, 1.0 / rate_hz)
+    for run in runs:
+        length = run.stop - run.start
+        if length >= SHORTEST_RUN:
+            _, density = welch(values[run], rate_hz, nperseg=min(size, length), nfft=size, detrend=False)
+            total, rows = total + length * density, rows + length
+    return Density(signal, frequency, total / rows)

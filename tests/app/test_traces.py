@@ -1,0 +1,79 @@
+import numpy as np
+import pytest
+
+from app.schemas.logs import LogTraces
+from tests.app.conftest import assert_problem
+from tests.app.planar_arm import columns, csv_log
+
+CSV = {"Content-Type": "text/csv"}
+
+
+@pytest.fixture(scope="module")
+def long_log(client):
+    """2400 rows of two joints."""
+    return client.post("/v1/logs", content=csv_log(), headers=CSV).json()["id"]
+
+
+def test_a_log_is_looked_at_with_few_points_that_miss_none_of_its_extremes(client, long_log):
+    answer = client.get(f"/v1/logs/{long_log}/traces", params={"points": 200})
+    seen = LogTraces.model_validate_json(answer.content)
+    time, position, torque = columns()
+    assert [(trace.channel, trace.joint) for trace in seen.traces] == [
+        ("position", 1), ("position", 2), ("torque", 1), ("torque", 2),
+    ]  # fmt: skip  # a table
+    assert (seen.samples, seen.rows_per_stretch) == (2400, 24)
+    assert len(seen.time.values) == 200
+    for trace, measured in zip(seen.traces, np.hstack([position, torque]).T, strict=True):
+        assert len(trace.values) == 200
+        # Single precision has seven digits, and the file was written with seven decimals.
+        assert max(trace.values) == pytest.approx(measured.max(), abs=1e-5)
+        assert min(trace.values) == pytest.approx(measured.min(), abs=1e-5)
+    assert (seen.time.values[0], seen.time.values[-1]) == (time[0], time[-1])
+
+
+def test_a_short_log_is_shown_row_by_row(client, log_id):
+    seen = client.get(f"/v1/logs/{log_id}/traces").json()
+    assert (seen["rows_per_stretch"], len(seen["time"]["values"])) == (1, 800)
+
+
+def test_channels_are_chosen_by_name(client, log_id):
+    traces = client.get(f"/v1/logs/{log_id}/traces?channels=torque").json()["traces"]
+    assert {(trace["channel"], trace["unit"]) for trace in traces} == {("torque", "N m or N")}
+    problem = assert_problem(client.get(f"/v1/logs/{log_id}/traces?channels=velocity"), 422, "request")
+    assert problem["evidence"]["known"] == ["position", "torque"]
+
+
+@pytest.mark.parametrize("points", [9, 4001, "many"])
+def test_the_number_of_points_is_bounded(client, log_id, points):
+    assert_problem(client.get(f"/v1/logs/{log_id}/traces", params={"points": points}), 422, "request")
+
+
+def test_who_has_the_traces_is_told_so_without_the_log_being_read(client, log_id, monkeypatch):
+    first = client.get(f"/v1/logs/{log_id}/traces?points=100")
+    monkeypatch.setattr("app.inspection.inspector.Inspector.trace", None)
+    known = {"If-None-Match": first.headers["etag"]}
+    assert client.get(f"/v1/logs/{log_id}/traces?points=100", headers=known).status_code == 304
+
+
+def test_other_traces_have_another_tag(client, log_id):
+    tags = {
+        client.get(f"/v1/logs/{log_id}/traces?{query}").headers["etag"]
+        for query in ("points=100", "points=200", "points=100&channels=torque")
+    }
+    assert len(tags) == 3
+
+
+def test_traces_of_a_log_that_is_not_there_are_not_found(client):
+    assert_problem(client.get("/v1/logs/log-none/traces"), 404, "not-found")
+
+
+def test_a_log_whose_bytes_changed_is_not_drawn(client, long_log):
+    summary = client.get(f"/v1/logs/{long_log}").json()
+    path = client.app.state.services.store.blobs.path(summary["sha256"])
+    content = path.read_bytes()
+    path.chmod(0o600)
+    path.write_bytes(content.replace(b"0.1", b"0.2", 1))
+    try:
+        assert_problem(client.get(f"/v1/logs/{long_log}/traces"), 500, "damaged")
+    finally:
+        path.write_bytes(content)

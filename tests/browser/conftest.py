@@ -1,0 +1,87 @@
+import shutil
+
+import pytest
+
+from app.store.keys import KeyStore
+from tests.app.stubs import StubExecutor
+from tests.browser.services import serving
+from tests.browser.watch import Watched
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+PATIENCE_MS = 120_000  # of a machine that is busy otherwise
+
+
+@pytest.fixture(scope="session")
+def browser():
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        pytest.skip(f"NO BROWSER: none of {', '.join(BROWSERS)} is installed, so no page was looked at")
+    playwright = pytest.importorskip("playwright.sync_api", reason="NO PLAYWRIGHT: no page was looked at")
+    with playwright.sync_playwright() as driver:
+        # Chromium cannot make a sandbox of its own inside most containers, and sees nothing but our pages.
+        started = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield started
+        started.close()
+
+
+@pytest.fixture(scope="session")
+def service(tmp_path_factory):
+    """The service as people start it: address only."""
+    with serving(tmp_path_factory.mktemp("service")) as (_, address):
+        yield address
+
+
+@pytest.fixture(scope="session")
+def staged(tmp_path_factory):
+    """A service that asks for keys, and whose jobs end when told to: application, address, executor."""
+    executor = StubExecutor()
+    with serving(tmp_path_factory.mktemp("staged"), executor=executor, guarded=True) as (app, address):
+        yield app, address, executor
+        executor.release.set()
+
+
+@pytest.fixture(scope="session")
+def key(staged):
+    _, secret = KeyStore(staged[0].state.services.store.database).create(
+        tenant="lab", name="lab", scopes=("read", "write")
+    )
+    staged[0].state.services.keys._until = 0.0  # as if the seconds had passed
+    return secret
+
+
+@pytest.fixture(scope="session")
+def studied(browser, service):
+    """The address of a finished study of the example, made by one click on the start page."""
+    page = browser.new_page()
+    page.goto(service)
+    page.get_by_role("button", name="Identify the arm").click(timeout=120_000)
+    page.wait_for_url("**/studies/*", timeout=120_000)
+    page.locator(".state.successful").wait_for(timeout=180_000)
+    address = page.url
+    page.close()
+    return address
+
+
+@pytest.fixture
+def look(browser):
+    """Open pages in windows of their own; at the end none may have complained or called anybody else."""
+    opened = []
+
+    def at(address, *, width=1200, height=900, scheme="light", key=None):
+        context = browser.new_context(
+            viewport={"width": width, "height": height}, color_scheme=scheme, reduced_motion="reduce"
+        )
+        context.set_default_timeout(PATIENCE_MS)
+        if key is not None:
+            context.add_init_script(f"sessionStorage.setItem('veritorque-key', '{key}')")
+        watched = Watched(context.new_page(), address)
+        opened.append((context, watched))
+        return watched
+
+    yield at
+    complaints = [one for _, watched in opened for one in watched.complaints]
+    elsewhere = [url for _, watched in opened for url in watched.elsewhere]
+    for context, _ in opened:
+        context.close()
+    assert complaints == []
+    assert elsewhere == []

@@ -1,0 +1,184 @@
+import json
+import math
+
+import pytest
+
+from tests.app.planar_arm import columns, csv_log
+
+MINUS = "\N{MINUS SIGN}"
+
+
+@pytest.fixture(scope="module")
+def odd_log(tmp_path_factory):
+    """A log whose names say nothing to a reader: degrees, milliseconds, milli-newton-metres."""
+    time, position, torque = columns(seconds=4.0)
+    lines = ["clock_ms,pos_b,pos_a,effort_b,effort_a,note"]
+    for stamp, (first, second), (tau_1, tau_2) in zip(time, position, torque, strict=True):
+        angles = f"{math.degrees(second):.6f},{math.degrees(first):.6f}"
+        lines.append(f"{stamp * 1e3:.3f},{angles},{tau_2 * 1e3:.3f},{tau_1 * 1e3:.3f},0")
+    path = tmp_path_factory.mktemp("odd") / "odd.csv"
+    path.write_text("\n".join(lines))
+    return path
+
+
+@pytest.fixture(scope="module")
+def holed_log(tmp_path_factory):
+    """A log that stops for a second in the middle."""
+    rows = csv_log(seconds=8.0).decode().split("\n")
+    path = tmp_path_factory.mktemp("holed") / "holed.csv"
+    path.write_text("\n".join([*rows[:600], *rows[800:]]))
+    return path
+
+
+def posted(page, path, act):
+    """Give what a page sends to a path while something is done."""
+    with page.expect_request(lambda request: path in request.url and request.method == "POST") as asked:
+        act()
+    return asked.value
+
+
+def test_a_table_in_degrees_and_millimetres_is_sent_in_si(look, service):
+    seen = look(service)
+    page = seen.open("/new")
+    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("radio", name="mm").check()
+    page.get_by_label("Name", exact=True).fill("typed arm")
+    page.get_by_role("button", name="Remove joint 3").click()
+    typed = {
+        "Joint 1: alpha, deg": "0", "Joint 1: d, mm": "0",
+        "Joint 1: theta, deg": "-180", "Joint 1: r, mm": "166",
+        "Joint 1: lowest q, deg": "-168,5", "Joint 1: highest q, deg": "168.5",
+        "Joint 2: alpha, deg": "90", "Joint 2: d, mm": "30",
+        "Joint 2: theta, deg": "0", "Joint 2: r, mm": "0",
+    }  # fmt: skip  # a table
+    for label, value in typed.items():
+        page.get_by_label(label, exact=True).fill(value)
+    seen.photograph("new_table_light")
+    sent = json.loads(
+        posted(page, "/v1/robots", page.get_by_role("button", name="Use this robot").click).post_data
+    )
+    first, second = sent["joints"]
+    assert (sent["name"], first["r"], second["d"]) == ("typed arm", 0.166, 0.03)
+    assert first["theta_offset"] == pytest.approx(-math.pi)
+    assert second["alpha"] == pytest.approx(math.pi / 2)
+    assert first["limits"]["position"] == pytest.approx([math.radians(-168.5), math.radians(168.5)])
+    page.locator(".chosen", has_text="typed arm").wait_for()
+    assert seen.barriers() == []
+
+
+def test_numbers_are_read_as_people_write_them(look, service):
+    page = look(service).open("/new")
+    read = """async (texts) => {
+      const { readNumber } = await import("/static/controls.js");
+      return texts.map((text) => Number.isNaN(readNumber(text)) ? null : readNumber(text));
+    }"""
+    texts = ["1.5", "1,5", "-pi/2", "3*pi/4", "π", "2e-3", f"{MINUS}90", "", "abc", "1.2.3", "pi/x"]
+    expected = [1.5, 1.5, -math.pi / 2, 0.75 * math.pi, math.pi, 2e-3, -90, None, None, None, None]
+    assert page.evaluate(read, texts) == pytest.approx(expected)
+
+
+def test_a_cell_that_is_no_number_is_named_and_one_that_is_refused_is_marked(look, service):
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.get_by_role("radio", name="Describe it").check()
+    cell = page.get_by_label("Joint 2: d, m", exact=True)
+    cell.fill("wide")
+    page.get_by_text("“wide” is no number.").wait_for()
+    cell.fill("0.2")
+    page.get_by_label("Joint 3: lowest q, deg", exact=True).fill("10")
+    page.get_by_label("Joint 3: highest q, deg", exact=True).fill("-10")
+    page.get_by_role("button", name="Use this robot").click()
+    page.get_by_role("alert").get_by_text("lower limit at or above the upper one").first.wait_for()
+    assert page.evaluate("document.activeElement.getAttribute('aria-label')").startswith("Joint 3: lowest q")
+
+
+def test_a_urdf_is_read_and_drawn(look, service, tmp_path):
+    from app.schemas.examples import PENDULUM_URDF
+
+    path = tmp_path / "pendulum.urdf"
+    path.write_text(PENDULUM_URDF)
+    page = look(service).open("/new")
+    page.get_by_role("radio", name="URDF").check()
+    page.set_input_files("#robot input[type=file]", path)
+    page.locator(".chosen", has_text="pendulum").wait_for()
+    assert page.locator(".stage3d .joint").count() == 1
+
+
+def test_columns_that_say_nothing_are_mapped_in_a_form(look, service, odd_log):
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", odd_log)
+    page.get_by_role("heading", name="Say which column is what").wait_for()
+    assert page.get_by_label("What clock_ms is").input_value() == ""  # no name of time that is known
+    page.get_by_label("What clock_ms is").select_option("time")
+    assert page.get_by_label("What effort_a is").input_value() == "torque"
+    for column, joint in {"pos_b": 2, "pos_a": 1, "effort_b": 2, "effort_a": 1}.items():
+        page.get_by_label(f"Joint of {column}").fill(str(joint))
+        page.get_by_label(f"Joint of {column}").press("Tab")
+    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_text("Choose the unit of time").wait_for()  # units are never guessed
+    for channel, unit in {"time": "ms", "position": "deg", "torque": "mN m"}.items():
+        page.get_by_label(f"Unit of {channel}").select_option(unit)
+    seen.photograph("new_mapping_light")
+    assert seen.barriers() == []
+    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("article", name="Log odd.csv").wait_for()
+    assert "note" in page.locator(".facts").text_content()
+    page.locator(".plot").nth(3).wait_for()
+    summary = page.get_by_role("img", name="Plot of Torque of joint 1").get_attribute("aria-label")
+    _, _, torque = columns(seconds=4.0)
+    low, high = torque[:, 0].min(), torque[:, 0].max()
+    assert f"from {low:.4g} to {high:.4g}".replace("-", MINUS) in summary
+
+
+def test_a_gap_is_listed_and_marked_where_it_is(look, service, holed_log):
+    seen = look(service)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", holed_log)
+    page.locator(".defects").get_by_text("gap", exact=True).wait_for()
+    page.locator(".plot").nth(3).wait_for()
+    seen.photograph("new_defects_light")
+    amber = """(canvas) => {
+      const { width, height } = canvas;
+      const row = canvas.getContext("2d").getImageData(0, Math.round(height * 0.2), width, 1).data;
+      const columns = [];
+      for (let x = 0; x < width; x += 1) {
+        const [red, , blue, cover] = row.slice(4 * x, 4 * x + 4);
+        if (cover > 20 && red > 200 && blue < 60) columns.push(x / width);
+      }
+      return columns;
+    }"""
+    marked = page.locator(".plot canvas").first.evaluate(amber)
+    # The log lasts from 0 to 8 s and is silent from 3 to 4 s; the plot begins right of its axis.
+    assert marked
+    assert 0.4 < min(marked) < max(marked) < 0.65
+
+
+def test_a_log_of_another_number_of_joints_cannot_be_started_with(look, service, holed_log):
+    page = look(service).open("/new?robot=yumi-left")
+    page.set_input_files("#log input[type=file]", holed_log)
+    page.get_by_text("holed.csv has 2 joints, yumi-left has 7.").wait_for()
+    assert page.get_by_role("button", name="Start").is_disabled()
+    page.get_by_role("button", name="Take holed.csv out").click()
+    page.get_by_text("Still to do: add a log.").wait_for()
+
+
+def test_a_plot_zooms_by_keys_with_its_neighbours_and_comes_back(look, service, holed_log):
+    page = look(service).open("/new")
+    page.set_input_files("#log input[type=file]", holed_log)
+    page.locator(".plot").nth(3).wait_for()
+    whole = page.get_by_role("button", name="Whole range")
+    assert whole.count() == 0
+    page.locator(".plot .canvas").first.focus()
+    page.keyboard.press("+")
+    page.wait_for_function("document.querySelectorAll('.plot .tools button:not([hidden])').length === 8")
+    assert whole.count() == 4
+    page.keyboard.press("Escape")
+    page.wait_for_function("document.querySelectorAll('.plot .tools button:not([hidden])').length === 4")
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Save Position of joint 1 as CSV").click()
+    text = saved.value.path().read_text()
+    assert text.startswith("time [s],position [rad]\n")
+    assert len(text.splitlines()) <= 4001

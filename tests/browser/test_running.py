@@ -1,0 +1,158 @@
+import itertools
+
+import pytest
+
+from app.jobs.computation import Failed
+from app.problems import Problem
+from tests.app.planar_arm import csv_log, description
+
+SEEDS = itertools.count()  # what was asked before is answered at once
+
+
+@pytest.fixture
+def held(staged, key, look):
+    """Open the page of a job that runs until it is let go; the executor decides how it ends."""
+    _, address, executor = staged
+    executor.release.clear()
+    executor.started.clear()
+    executor.stopped.clear()
+    outcome = executor.outcome
+    seen = look(address, key=key)
+    seen.open("/")
+    job = seen.page.evaluate(
+        """async ([robot, log, seed]) => {
+          const { post, upload } = await import("/static/api.js");
+          const made = await post("/v1/robots", robot);
+          const kept = await upload("/v1/logs?name=swing.csv", new Blob([log]), { mediaType: "text/csv" });
+          const options = { bootstrap: { seed } };
+          return post("/v1/jobs", { kind: "identify", robot: made.id, logs: [kept.id], options });
+        }""",
+        [description(), csv_log(seconds=4.0).decode(), next(SEEDS)],
+    )
+    assert executor.started.wait(60.0)
+    seen.open(f"/studies/{job['id']}")
+    seen.page.get_by_role("progressbar").wait_for()
+    yield seen, executor
+    executor.release.set()
+    executor.outcome = outcome
+
+
+def test_a_running_study_tells_how_far_it_is_and_shows_its_end_by_itself(held):
+    seen, executor = held
+    page = seen.page
+    page.get_by_text("Estimate, 50 %").wait_for()
+    page.get_by_text("running for").wait_for()
+    assert page.get_by_role("progressbar").get_attribute("value") == "0.5"
+    seen.photograph("study_running_light")
+    assert seen.barriers() == []
+    executor.release.set()
+    page.locator(".state.successful").wait_for()
+    page.locator("a[href$='/report']").first.wait_for()
+
+
+def test_a_study_that_fails_says_why_and_what_to_do(held):
+    seen, executor = held
+    problem = Problem("excitation", "the motion is too slow", evidence={"speed": 0.01}, remedy="move faster")
+    executor.outcome = Failed(problem.document())
+    executor.release.set()
+    alert = seen.page.get_by_role("alert")
+    alert.wait_for()
+    assert "The motion is too slow." in alert.text_content()
+    assert "What to do: Move faster." in alert.text_content()
+    seen.photograph("study_failed_light")
+    assert seen.barriers() == []
+
+
+def test_a_running_study_can_be_cancelled(held):
+    seen, executor = held
+    seen.page.get_by_role("button", name="Cancel the study").click()
+    seen.page.locator(".state.dismissed").wait_for()
+    assert executor.stopped.wait(30.0)
+    seen.page.get_by_text("The study was dismissed").wait_for()
+
+
+def test_a_stream_that_breaks_is_taken_up_again(held):
+    seen, executor = held
+    seen.complaints.clear()
+    seen.page.context.set_offline(True)
+    seen.page.wait_for_timeout(300)
+    seen.page.context.set_offline(False)
+    executor.release.set()
+    seen.page.locator(".state.successful").wait_for()
+    seen.complaints[:] = [one for one in seen.complaints if "ERR_INTERNET_DISCONNECTED" not in one]
+
+
+def test_whoever_has_no_key_is_asked_for_one_and_goes_on(look, staged, key):
+    seen = look(staged[1])
+    seen.statuses.add(401)
+    page = seen.open("/")
+    dialog = page.get_by_role("dialog", name="This service asks for a key")
+    dialog.wait_for()
+    seen.photograph("key_light")
+    assert seen.barriers() == []
+    dialog.get_by_label("Key").fill(key)
+    dialog.get_by_role("button", name="Use this key").click()
+    page.locator("#studies table, #studies p.soft").first.wait_for()
+    assert page.get_by_role("dialog").count() == 0
+    page.reload()
+    page.locator("#studies table, #studies p.soft").first.wait_for()
+
+
+def test_a_wrong_key_is_asked_for_again_and_none_is_a_problem(look, staged):
+    seen = look(staged[1])
+    seen.statuses.add(401)
+    page = seen.open("/")
+    dialog = page.get_by_role("dialog")
+    dialog.get_by_label("Key").fill("wrong")
+    dialog.get_by_role("button", name="Use this key").click()
+    dialog.get_by_text("not known, or was revoked").wait_for()
+    dialog.get_by_role("button", name="Cancel").click()
+    page.get_by_role("alert").get_by_text("The request carries no key that is known").wait_for()
+
+
+def test_a_study_that_does_not_exist_is_said_so(look, service):
+    seen = look(service)
+    seen.statuses.add(404)
+    page = seen.open("/studies/job-none")
+    page.get_by_role("alert").get_by_text("There is no such resource").wait_for()
+
+
+class Keyboard:
+    """Go through a page by keys alone."""
+
+    def __init__(self, page):
+        self.page = page
+
+    def reach(self, what):
+        for _ in range(80):
+            self.page.keyboard.press("Tab")
+            if self.page.evaluate("(what) => document.activeElement.matches(what)", what):
+                return
+        raise AssertionError(f"{what} is not reached by the tabulator")
+
+    def press(self, what, key="Enter"):
+        self.reach(what)
+        self.page.keyboard.press(key)
+
+
+def test_the_whole_path_goes_by_keys(look, staged, key, tmp_path):
+    _, address, executor = staged
+    executor.release.set()
+    path = tmp_path / "keys.csv"
+    path.write_bytes(csv_log(seconds=4.0))
+    page = look(address, key=key).open("/")
+    keyboard = Keyboard(page)
+    keyboard.press("nav a[href='/new']")
+    page.wait_for_url("**/new")
+    keyboard.press("input[type=radio][value=list]", "ArrowRight")
+    keyboard.press("button[aria-label='Remove joint 3']")
+    keyboard.press("#robot button.primary")
+    page.locator(".chosen").wait_for()
+    keyboard.reach("#log input[type=file]")
+    page.set_input_files("#log input[type=file]", path)  # the window of files is the system's own
+    page.locator(".plot").nth(3).wait_for()
+    keyboard.press("input[name=question]", "ArrowDown")
+    keyboard.press("#question button.primary")
+    page.wait_for_url("**/studies/*")
+    page.locator(".state.successful").wait_for()
+    keyboard.reach("a[href$='/report']")

@@ -1,0 +1,82 @@
+"""Every block of every page: what can run runs, what cannot says why, examples follow the contract."""
+
+import json
+import subprocess
+import threading
+import time
+
+import pytest
+
+from app.main import create_app
+from app.schemas.common import ProblemDocument
+from app.schemas.robots import RobotDescription
+from app.server import Server
+from app.settings import Settings
+from core.options import parse_options
+from tests.docs.blocks import BLOCKS, blocks_of
+from tests.docs.runner import RUN, run_page
+
+LANGUAGES = {"bash", "python", "c", "json", "xml", "text", ""}
+RUNNABLE = [block for block in BLOCKS if block.language in RUN]
+LEFT_OUT = [block for block in RUNNABLE if block.reason]
+TYPED = sorted(
+    dict.fromkeys(block.page for block in RUNNABLE if not block.reason),
+    key=lambda page: page.name == "diagnosis.md",
+)
+"""The page that leaves a long job behind comes last: the service ends it."""
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    """A service with the real science on a free port: its address and its data directory."""
+    data = tmp_path_factory.mktemp("data")
+    settings = Settings(data_dir=data, port=0)
+    server = Server(create_app(settings), settings)
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    while not server.started:
+        time.sleep(0.01)
+    yield f"http://127.0.0.1:{server.servers[0].sockets[0].getsockname()[1]}", data
+    server.should_exit = True
+    thread.join()
+
+
+@pytest.mark.slow
+def test_what_the_pages_tell_their_readers_to_type_runs(served, tmp_path):
+    """All of them in one test, so that the same job on several pages is computed once."""
+    url, data = served
+    for page in TYPED:
+        folder = tmp_path / page.stem
+        folder.mkdir()
+        typed = [block for block in blocks_of(page) if block.language in RUN and not block.reason]
+        run_page(typed, folder, url, data)
+
+
+@pytest.mark.parametrize("block", LEFT_OUT, ids=str)
+def test_what_cannot_run_here_is_at_least_a_command(block):
+    if block.language == "bash":
+        assert subprocess.run(["bash", "-n", "-c", block.body], check=False).returncode == 0
+    else:
+        compile(block.body, str(block), "exec")
+    pytest.skip(f"NOT RUN, {block}: {block.reason}")
+
+
+def test_few_blocks_are_left_out():
+    assert len(LEFT_OUT) <= len(RUNNABLE) / 3
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=str)
+def test_a_block_names_its_language_and_its_remark_is_understood(block):
+    assert block.language in LANGUAGES
+    assert not block.mark or block.reason or block.status
+
+
+@pytest.mark.parametrize("block", [one for one in BLOCKS if one.language == "json"], ids=str)
+def test_a_document_that_is_shown_follows_the_contract(block):
+    document = json.loads(block.body)
+    if "joints" in document:
+        RobotDescription.model_validate_json(block.body)
+    elif "remedy" in document:
+        ProblemDocument.model_validate_json(block.body)
+    else:
+        parse_options(document)
