@@ -17,6 +17,7 @@ from app.jobs.computation import Ended
 from app.jobs.executor import Executor, ProcessExecutor
 from app.jobs.limits import Limits
 from app.jobs.queue import Queue
+from app.jobs.rehearsal import rehearse
 from app.jobs.supervisor import Supervisor
 from app.jobs.worker import Capacity, Worker
 from app.keys import KeyRing
@@ -118,13 +119,15 @@ class Services:
         """Stop the computations, hand their jobs back, and close the store."""
         if self.computing is not None:
             self.computing.close()
+        self.inspector.close()
         self.store.close()
         self.lock.release()
 
 
 def executor_of(settings: Settings) -> Executor:
     """Make what computes as the settings limit it."""
-    return ProcessExecutor(limits=Limits(settings.job_memory_bytes, settings.job_cpus))
+    limits = Limits(settings.job_memory_bytes, settings.job_cpus)
+    return ProcessExecutor(limits=limits, rehearse=rehearse, at_once=settings.workers)
 
 
 def worker_of(

@@ -1,7 +1,7 @@
 """Read one uploaded file in a process of its own, and tell the service over a pipe what is in it.
 
 A message is one letter and its content: ``r`` the summary, ``f`` the problem document, ``t`` the trace of a
-mistake of ours. This module loads everything that reads, so that the server it is loaded into forks quickly.
+mistake of ours.
 """
 
 import signal
@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection
 import pyarrow as pa
 
 from app.documents import json_bytes
+from app.forks import READERS
 from app.inspection.budget import Budget
 from app.inspection.confinement import confine
 from app.jobs import science
@@ -20,26 +21,20 @@ from app.jobs.computation import LogFile
 from app.problems import problem_of
 from core.errors import LogError, VeritorqueError
 
-READERS = (
-    "h5py",
-    "pyarrow.csv",
-    "pyarrow.parquet",
-    "rosbags.rosbag1",
-    "rosbags.rosbag2.storage_mcap",
-    "rosbags.typesys",
-    "scipy.io.matlab",
-)
-"""What reads; what is not installed is passed over."""
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
 
 
-def inspect(pipe: Connection, log: LogFile, media_type: str | None, budget: Budget) -> None:
-    """Read the file and send what was found; the entry point of the process."""
+def inspect(pipe: Connection) -> None:
+    """Wait for a file, read it and send what was found; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
     pa.set_memory_pool(pa.system_memory_pool())  # the others reserve far more than they use
     for name in READERS:  # there already, unless the server ran before it could be told
         with suppress(ImportError):
             import_module(name)
+    try:
+        log, media_type, budget = pipe.recv()
+    except EOFError:  # the service is gone
+        return
     confine(log.path, budget)
     pipe.send_bytes(_inspected(log, media_type, budget))
 

@@ -115,6 +115,7 @@ class Worker:
             stop.set()
         for thread in self._threads:
             thread.join()
+        self._executor.close()
         self._presence.leave()
 
     def _prepare(self) -> None:
