@@ -16,7 +16,7 @@ from app.jobs import science
 from app.jobs.computation import Ended
 from app.jobs.executor import Executor, ProcessExecutor
 from app.jobs.limits import Limits
-from app.jobs.queue import Queue
+from app.jobs.queue import Queue, Wanted
 from app.jobs.rehearsal import rehearse
 from app.jobs.supervisor import Supervisor
 from app.jobs.worker import Capacity, Worker
@@ -41,7 +41,7 @@ class Desk:
     queue: Queue
     readers: anyio.CapacityLimiter
     feed: JobFeed
-    intake: Intake[JobRecord]
+    intake: Intake[Wanted, JobRecord]
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Services:
     store: Store
     keys: KeyRing
     feed: JobFeed
-    intake: Intake[JobRecord]
+    intake: Intake[Wanted, JobRecord]
     pace: Pace
     inspector: Inspector
     computing: Worker | Supervisor | None
@@ -108,11 +108,11 @@ class Services:
             built_in=built_in,
         )
 
-    def desk(self, caller: Caller, trace: str | None = None) -> Desk:
-        """Open what belongs to the tenant of a request, which belongs to a trace."""
+    def desk(self, caller: Caller) -> Desk:
+        """Open what belongs to the tenant of a request."""
         store = self.store.of(caller.tenant)
         catalogue = Catalogue(store, self.inspector, self.built_in, self.base_parameters)
-        queue, readers = Queue(store, trace), self.inspector.limiter
+        queue, readers = Queue(store, catalogue), self.inspector.limiter
         return Desk(caller, store, catalogue, queue, readers, self.feed, self.intake)
 
     def close(self) -> None:
@@ -187,7 +187,7 @@ async def desk_of(request: Request) -> Desk:
         As `known_caller`.
     """
     services: Services = request.app.state.services
-    return services.desk(await known_caller(request), request.state.trace)
+    return services.desk(await known_caller(request))
 
 
 ServicesOf = Annotated[Services, Depends(_services)]
