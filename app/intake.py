@@ -15,10 +15,21 @@ Begin = Callable[[list[Asked]], Callable[[], list[Given | Exception]]]
 """Begins pieces of work together, and gives what waits for them."""
 
 
-class Intake(Generic[Asked, Given]):
-    """Begin pieces of work in one thread, those of one tenant together, and wait for all that were begun."""
+def _nobody() -> None:
+    """Call nobody."""
 
-    def __init__(self) -> None:
+
+class Intake(Generic[Asked, Given]):
+    """Begin pieces of work in one thread, those of one tenant together, and wait for all that were begun.
+
+    Parameters
+    ----------
+    taken
+        Is called whenever something was taken in.
+    """
+
+    def __init__(self, taken: Callable[[], None] = _nobody) -> None:
+        self._taken = taken
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="intake")
         self._waiting: dict[str, _Group[Asked, Given]] = {}
         self._serving: asyncio.Task[None] | None = None
@@ -44,6 +55,7 @@ class Intake(Generic[Asked, Given]):
         while self._waiting:
             groups, self._waiting = list(self._waiting.values()), {}
             given = await loop.run_in_executor(self._thread, _together, groups)
+            self._taken()
             for group, outcomes in zip(groups, given, strict=True):
                 group.tell(outcomes)
         self._serving = None

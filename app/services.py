@@ -99,7 +99,7 @@ class Services:
             store=store,
             keys=KeyRing(store.database),
             feed=JobFeed(store.many_jobs),
-            intake=Intake(),
+            intake=Intake(computing.wake) if computing else Intake(),
             pace=Pace(settings.requests_per_second),
             inspector=inspector,
             computing=computing,

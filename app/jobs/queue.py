@@ -40,31 +40,11 @@ class Queue:
     def __init__(self, store: TenantStore, catalogue: Catalogue) -> None:
         self._store, self._catalogue = store, catalogue
 
-    def submit(self, wanted: Wanted) -> JobRecord:
-        """Queue a job, or find the one that asks for the same; give it once that is on the disk.
-
-        Raises
-        ------
-        OptionError
-            If the kind or an option does not exist or makes no sense.
-        LogError
-            If a log has not as many joints as the robot.
-        RobotError
-            If the robot's own bodies are to be compared with and it brings none.
-        Problem
-            If the robot, a log, or a job that is to be compared with does not exist (422).
-        KeyReused, OverQuota
-            As the store says.
-        """
-        (outcome,) = self.begin_to_submit([wanted])()
-        if isinstance(outcome, Exception):
-            raise outcome
-        return outcome
-
     def begin_to_submit(self, wanted: list[Wanted]) -> Callable[[], list[Outcome]]:
-        """Queue jobs together, and give what waits until they are on the disk.
+        """Queue jobs together, or find those that asked for the same; give what waits until they are kept.
 
-        For each that gives the job, or what `submit` would raise.
+        For each that gives the job, or why it cannot be: an error of the science, a `Problem` where something
+        that is named does not exist, or what the store refuses.
         """
         robot = cache(lambda identity: self._catalogue.robot(identity, named_in_body=True))
         log = cache(lambda identity: self._catalogue.log(identity, named_in_body=True))

@@ -91,7 +91,7 @@ class Worker:
         self._capacity, self._told = capacity, told
         self._presence = Presence(store.directory / "workers")
         self._lives, self._sweep = Lives(store, self._presence), Sweep(store)
-        self._closing = threading.Event()
+        self._closing, self._woken = threading.Event(), threading.Condition()
         self._stops: dict[Held, threading.Event] = {}
         self._forgotten: set[Held] = set()
         self._threads = [threading.Thread(target=self._serve, name=f"job-{n}") for n in range(capacity.slots)]
@@ -107,6 +107,11 @@ class Worker:
         """Begin to work."""
         for thread in (*self._threads, threading.Thread(target=self._prepare, name="prepare", daemon=True)):
             thread.start()
+
+    def wake(self) -> None:
+        """Look for jobs at once: there is a new one."""
+        with self._woken:
+            self._woken.notify_all()
 
     def close(self) -> None:
         """Stop all computations, hand their jobs back, and wait for the threads."""
@@ -129,10 +134,11 @@ class Worker:
         while not self._closing.is_set():
             try:
                 job = self._claim()
-                if job is None:
-                    self._closing.wait(LOOK_EVERY_S)
-                else:
+                if job is not None:
                     self._see_through(job)
+                    continue
+                with self._woken:
+                    self._woken.wait(LOOK_EVERY_S)
             except Unavailable as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
                 self._closing.wait(PAUSE_S)

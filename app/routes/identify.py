@@ -81,7 +81,7 @@ async def identify(
         logs = tuple([await _log(desk, part, mapping) for part in files])
     ids = tuple(log.id for log in logs)
     wanted = Wanted("identify", robot.id, ids, options, trace=request.state.trace)
-    job = await anyio.to_thread.run_sync(desk.queue.submit, wanted)
+    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, wanted)
     seconds = wait_seconds(prefer)
     job = await wait_for(desk.feed, job, LONGEST_WAIT_S if seconds is None else seconds)
     return await anyio.to_thread.run_sync(_answer, desk, job)
