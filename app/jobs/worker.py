@@ -18,6 +18,7 @@ from app.jobs.executor import Executor
 from app.jobs.lives import Lives
 from app.jobs.presence import Presence
 from app.jobs.references import reference_file
+from app.jobs.reporting import Reporter
 from app.lifecycle.retention import expire
 from app.problems import URN, Problem, problem_of
 from app.settings import Kept
@@ -33,7 +34,6 @@ LOOK_EVERY_S = 0.02
 WATCH_EVERY_S = 0.1
 BEAT_EVERY_S = 2.0
 SWEEP_EVERY_S = 60.0
-REPORT_EVERY_S = 0.2
 PAUSE_S = 1.0
 """Time to wait where the database does not answer, or the disk is full."""
 OUTCOMES = {Finished: "successful", Failed: "failed", Died: "died", Stopped: "stopped"}
@@ -221,7 +221,7 @@ class Worker:
         computation = self._computation(job)
         if self._closing.is_set():
             stop.set()
-        progress, timeout_s = _Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
+        progress, timeout_s = Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
         return self._executor.run(computation, progress=progress, stop=stop, timeout_s=timeout_s)
 
     def _tell(self, job: JobRecord, outcome: Outcome, seconds: float) -> None:
@@ -273,23 +273,6 @@ class Worker:
             options=job.request.options,
             reference=reference_file(store, job.request.kind, job.request.options),
         )
-
-
-class _Reporter:
-    """Write progress to the store: every new stage, and fractions a few times a second."""
-
-    def __init__(self, store: Store, held: Held) -> None:
-        self._store, self._held = store, held
-        self._stage, self._next = "", 0.0
-
-    def __call__(self, stage: str, fraction: float) -> None:
-        if stage == self._stage and time.monotonic() < self._next:
-            return
-        self._stage, self._next = stage, time.monotonic() + REPORT_EVERY_S
-        try:
-            self._store.work.report(self._held, stage=stage, fraction=fraction)
-        except Unavailable as error:
-            LOGGER.warning("progress is not written: %s", error.reason)
 
 
 def _gone(what: str, identity: str) -> Problem:
