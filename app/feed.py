@@ -18,7 +18,7 @@ from app.store.many import ManyJobs, Place
 from app.store.records import JobRecord
 
 LOGGER = logging.getLogger(__name__)
-LOOK_EVERY_S = 0.02
+LOOK_EVERY_S = 0.005
 LOOK_SHARE = 0.1
 """Most of the time that is spent on looking, however much is watched."""
 Given = TypeVar("Given")

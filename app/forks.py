@@ -1,12 +1,27 @@
-"""Start processes as forks of one server process that has loaded what they need.
+"""Start processes as forks of one server process that has loaded what they need, and end them for good.
 
 Python keeps one such server per process, hence everybody who forks names here what it shall load before the
-first fork.
+first fork. A child does one task, which it is sent over its pipe; so it can be there before its task is.
 """
 
 import multiprocessing
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from multiprocessing.context import ForkServerContext
+from queue import Empty, SimpleQueue
 
+READERS = (
+    "h5py",
+    "pandas",
+    "pyarrow.csv",
+    "pyarrow.parquet",
+    "rosbags.rosbag1",
+    "rosbags.rosbag2.storage_mcap",
+    "rosbags.typesys",
+    "scipy.io.matlab",
+)
+"""What reads logs; what is not installed is passed over. Where pandas is installed, Arrow loads it."""
 _PRELOAD: list[str] = []
 
 
@@ -16,3 +31,112 @@ def fork_server(*preload: str) -> ForkServerContext:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(_PRELOAD))
     return context
+
+
+class Child:
+    """Start a process, and hold the other end of the pipe that is its first argument.
+
+    Attributes
+    ----------
+    pipe
+        Takes its task, and gives what it sends.
+    """
+
+    def __init__(self, context: ForkServerContext, target: Callable[..., None], *given: object) -> None:
+        self.pipe, theirs = context.Pipe()
+        self._process = context.Process(target=target, args=(theirs, *given), daemon=True)
+        try:
+            self._process.start()
+        except BaseException:
+            self.pipe.close()
+            raise
+        finally:
+            theirs.close()
+
+    @property
+    def alive(self) -> bool:
+        """Tell whether it has not ended yet."""
+        return self._process.is_alive()
+
+    def exit_code(self) -> int | None:
+        """Wait for its end, and give its exit code; a negative one is a signal's number."""
+        self._process.join()
+        return self._process.exitcode
+
+    def kill(self) -> None:
+        """End it, whatever it is doing; `end` has to follow."""
+        self._process.kill()
+
+    def end(self) -> None:
+        """End it, and let go of all that belongs to it."""
+        self._process.kill()
+        self._process.join()
+        self._process.close()
+        self.pipe.close()
+
+
+class Standby:
+    """Keep children that wait for their tasks, so that no task waits for a child.
+
+    Each is used once: while its successor is made, and it is cleared away, whoever used it goes on.
+
+    Parameters
+    ----------
+    make
+        Starts a child.
+    """
+
+    def __init__(self, make: Callable[[], Child]) -> None:
+        self._make = make
+        self._coming: SimpleQueue[Future[Child]] = SimpleQueue()
+        self._keeper = ThreadPoolExecutor(1, thread_name_prefix="standby")
+
+    def prepare(self, count: int) -> list["Future[Child]"]:
+        """Have so many children made; as many tasks at the same time wait for none."""
+        coming = [self._keeper.submit(self._make) for _ in range(count)]
+        for child in coming:
+            self._coming.put(child)
+        return coming
+
+    @contextmanager
+    def child(self) -> Iterator[Child]:
+        """Give a child, and end it afterwards.
+
+        Raises
+        ------
+        OSError, EOFError
+            If there is none to be had.
+        """
+        try:
+            coming = self._coming.get_nowait()
+        except Empty:  # nobody prepared for this
+            child = self._make()
+            try:
+                yield child
+            finally:
+                child.end()
+            return
+        used = []
+        try:
+            used.append(coming.result())
+            if not used[0].alive:
+                used.append(self._make())
+            yield used[-1]
+        finally:
+            for child in used:
+                child.kill()
+            self._coming.put(self._keeper.submit(self._successor, used))
+
+    def close(self) -> None:
+        """End all that wait; nobody may be in use any more."""
+        with suppress(Empty):
+            while True:
+                coming = self._coming.get_nowait()
+                with suppress(OSError, EOFError):
+                    coming.result().end()
+        self._keeper.shutdown()
+
+    def _successor(self, used: list[Child]) -> Child:
+        for child in used:
+            child.end()
+        return self._make()

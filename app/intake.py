@@ -1,29 +1,45 @@
 """Take many requests in together: what comes while others are being written down is written with the next.
 
-A thread per request would spend more on handing over to the next thread than on the request.
+A thread per request would spend more on handing over to the next thread than on the request, and a statement
+per request more than a statement for all of them.
 """
 
 import asyncio
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from typing import Generic, TypeVar
 
+Asked = TypeVar("Asked")
 Given = TypeVar("Given")
-Begin = Callable[[], Future[Given]]
+Begin = Callable[[list[Asked]], Callable[[], list[Given | Exception]]]
+"""Begins pieces of work together, and gives what waits for them."""
 
 
-class Intake(Generic[Given]):
-    """Begin pieces of work in one thread, and wait for all that were begun together."""
+def _nobody() -> None:
+    """Call nobody."""
 
-    def __init__(self) -> None:
+
+class Intake(Generic[Asked, Given]):
+    """Begin pieces of work in one thread, those of one tenant together, and wait for all that were begun.
+
+    Parameters
+    ----------
+    taken
+        Is called whenever something was taken in.
+    """
+
+    def __init__(self, taken: Callable[[], None] = _nobody) -> None:
+        self._taken = taken
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="intake")
-        self._waiting: list[tuple[Begin[Given], asyncio.Future[Given]]] = []
+        self._waiting: dict[str, _Group[Asked, Given]] = {}
         self._serving: asyncio.Task[None] | None = None
 
-    async def take(self, begin: Begin[Given]) -> Given:
+    async def take(self, tenant: str, begin: Begin[Asked, Given], asked: Asked) -> Given:
         """Begin a piece of work in the thread, and give what it gives or raise what it raises."""
         outcome: asyncio.Future[Given] = asyncio.get_running_loop().create_future()
-        self._waiting.append((begin, outcome))
+        group = self._waiting.setdefault(tenant, _Group(begin))
+        group.asked.append(asked)
+        group.outcomes.append(outcome)
         if self._serving is None:
             self._serving = asyncio.create_task(self._serve())
         return await outcome
@@ -35,32 +51,52 @@ class Intake(Generic[Given]):
         self._thread.shutdown()
 
     async def _serve(self) -> None:
+        loop = asyncio.get_running_loop()
         while self._waiting:
-            taken, self._waiting = self._waiting, []
-            begins = [begin for begin, _ in taken]
-            ended = await asyncio.get_running_loop().run_in_executor(self._thread, _together, begins)
-            for (_, outcome), given in zip(taken, ended, strict=True):
-                if outcome.cancelled():  # the client is gone
-                    continue
-                error = given.exception()
-                if error is None:
-                    outcome.set_result(given.result())
-                else:
-                    outcome.set_exception(error)
+            groups, self._waiting = list(self._waiting.values()), {}
+            given = await loop.run_in_executor(self._thread, _together, groups)
+            self._taken()
+            for group, outcomes in zip(groups, given, strict=True):
+                group.tell(outcomes)
         self._serving = None
 
 
-def _together(begins: list[Begin[Given]]) -> list[Future[Given]]:
-    begun = [_begun(begin) for begin in begins]
-    for one in begun:
-        one.exception()  # waits
-    return begun
+class _Group(Generic[Asked, Given]):
+    """Hold what is asked of one tenant, and who waits for it."""
+
+    def __init__(self, begin: Begin[Asked, Given]) -> None:
+        self.begin = begin
+        self.asked: list[Asked] = []
+        self.outcomes: list[asyncio.Future[Given]] = []
+
+    def tell(self, given: list[Given | Exception]) -> None:
+        """Give everybody what is theirs."""
+        for outcome, one in zip(self.outcomes, given, strict=True):
+            if outcome.cancelled():  # the client is gone
+                continue
+            if isinstance(one, Exception):
+                outcome.set_exception(one)
+            else:
+                outcome.set_result(one)
 
 
-def _begun(begin: Begin[Given]) -> Future[Given]:
+def _together(groups: list[_Group[Asked, Given]]) -> list[list[Given | Exception]]:
+    waits = [_begun(group) for group in groups]
+    return [_ended(group, wait) for group, wait in zip(groups, waits, strict=True)]
+
+
+def _begun(group: _Group[Asked, Given]) -> Callable[[], list[Given | Exception]]:
     try:
-        return begin()
-    except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
-        failed: Future[Given] = Future()
-        failed.set_exception(error)
-        return failed
+        return group.begin(group.asked)
+    except Exception as error:  # noqa: BLE001 - it belongs to those who asked
+        failed: list[Given | Exception] = [error] * len(group.asked)
+        return lambda: failed
+
+
+def _ended(
+    group: _Group[Asked, Given], wait: Callable[[], list[Given | Exception]]
+) -> list[Given | Exception]:
+    try:
+        return wait()
+    except Exception as error:  # noqa: BLE001 - it belongs to those who asked
+        return [error] * len(group.asked)

@@ -16,7 +16,8 @@ from app.jobs import science
 from app.jobs.computation import Ended
 from app.jobs.executor import Executor, ProcessExecutor
 from app.jobs.limits import Limits
-from app.jobs.queue import Queue
+from app.jobs.queue import Queue, Wanted
+from app.jobs.rehearsal import rehearse
 from app.jobs.supervisor import Supervisor
 from app.jobs.worker import Capacity, Worker
 from app.keys import KeyRing
@@ -40,7 +41,7 @@ class Desk:
     queue: Queue
     readers: anyio.CapacityLimiter
     feed: JobFeed
-    intake: Intake[JobRecord]
+    intake: Intake[Wanted, JobRecord]
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class Services:
     store: Store
     keys: KeyRing
     feed: JobFeed
-    intake: Intake[JobRecord]
+    intake: Intake[Wanted, JobRecord]
     pace: Pace
     inspector: Inspector
     computing: Worker | Supervisor | None
@@ -98,7 +99,7 @@ class Services:
             store=store,
             keys=KeyRing(store.database),
             feed=JobFeed(store.many_jobs),
-            intake=Intake(),
+            intake=Intake(computing.wake) if computing else Intake(),
             pace=Pace(settings.requests_per_second),
             inspector=inspector,
             computing=computing,
@@ -107,24 +108,26 @@ class Services:
             built_in=built_in,
         )
 
-    def desk(self, caller: Caller, trace: str | None = None) -> Desk:
-        """Open what belongs to the tenant of a request, which belongs to a trace."""
+    def desk(self, caller: Caller) -> Desk:
+        """Open what belongs to the tenant of a request."""
         store = self.store.of(caller.tenant)
         catalogue = Catalogue(store, self.inspector, self.built_in, self.base_parameters)
-        queue, readers = Queue(store, trace), self.inspector.limiter
+        queue, readers = Queue(store, catalogue), self.inspector.limiter
         return Desk(caller, store, catalogue, queue, readers, self.feed, self.intake)
 
     def close(self) -> None:
         """Stop the computations, hand their jobs back, and close the store."""
         if self.computing is not None:
             self.computing.close()
+        self.inspector.close()
         self.store.close()
         self.lock.release()
 
 
 def executor_of(settings: Settings) -> Executor:
     """Make what computes as the settings limit it."""
-    return ProcessExecutor(limits=Limits(settings.job_memory_bytes, settings.job_cpus))
+    limits = Limits(settings.job_memory_bytes, settings.job_cpus)
+    return ProcessExecutor(limits=limits, rehearse=rehearse, at_once=settings.workers)
 
 
 def worker_of(
@@ -184,7 +187,7 @@ async def desk_of(request: Request) -> Desk:
         As `known_caller`.
     """
     services: Services = request.app.state.services
-    return services.desk(await known_caller(request), request.state.trace)
+    return services.desk(await known_caller(request))
 
 
 ServicesOf = Annotated[Services, Depends(_services)]

@@ -1,4 +1,8 @@
-"""What the service adds to a computation: a job that is waited for, and the same by the library, in turns."""
+"""What the service adds to a computation: a job that is waited for, and the same by the library, in turns.
+
+Between them the service comes to rest, so that neither pays for the other. Beside it stand jobs that wait for
+each other, asked for all at once.
+"""
 
 import statistics
 import time
@@ -6,10 +10,11 @@ from collections.abc import Callable
 
 from benchmarks.demo_log import demo_robot
 from benchmarks.figures import Figure
-from benchmarks.running import LOG, running_service
+from benchmarks.running import LOG, Running, running_service
 from core.log.reader import read_log
 from core.study import IdentifyRequest, identify
 
+REST_S = 1.0
 OPTIONS: dict[str, object] = {"bootstrap": {"draws": 0}}
 
 
@@ -22,9 +27,11 @@ def run(*, quick: bool) -> list[Figure]:
         _seconds(lambda: service.ask("POST", "/v1/jobs", service.job(**_options(9.0)), Prefer="wait=60"))
         for number in range(repeats):
             cutoff = 10.0 + 0.01 * number
+            time.sleep(REST_S)
             computed.append(_seconds(lambda cutoff=cutoff: _by_library(cutoff)))
             body = service.job(**_options(cutoff))
             served.append(_seconds(lambda body=body: service.ask("POST", "/v1/jobs", body, Prefer="wait=60")))
+        queued = _seconds(lambda: _all_at_once(service, repeats)) / repeats
     library = statistics.median(computed)
     added = statistics.median(one - other for one, other in zip(served, computed, strict=True))
     return [
@@ -35,7 +42,15 @@ def run(*, quick: bool) -> list[Figure]:
             f"library {1e3 * library:.0f}",
         ),
         Figure("a job over the library's call", f"{statistics.median(served) / library:.2f}", ratio=True),
+        Figure("a job among many over the library's call", f"{queued / library:.2f}", ratio=True),
     ]
+
+
+def _all_at_once(service: Running, count: int) -> None:
+    jobs = [service.job(**_options(20.0 + 0.01 * number)) for number in range(count)]
+    for job in [service.ask("POST", "/v1/jobs", job)["id"] for job in jobs]:
+        while service.ask("GET", f"/v1/jobs/{job}")["state"] != "successful":
+            time.sleep(0.01)
 
 
 def _options(cutoff_hz: float) -> dict[str, object]:

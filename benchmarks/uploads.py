@@ -1,7 +1,8 @@
 """An upload of 20 MB against bare streaming endpoints in the same run, and the memory of eight at once.
 
 The bytes are refused as no log, so that receiving is measured: streaming, hashing, writing, and the process
-that refuses. What reading a sound log adds depends on the log and is told beside it.
+that refuses. What a client waits for a sound log until it is kept depends on the log, which is read and then
+synced to the disk, and stands below.
 """
 
 import http.client
@@ -47,7 +48,8 @@ def run(*, quick: bool) -> list[Figure]:
                     sent.result()
             growth = _peak_mb(process.pid) - before
             log = _parquet()
-            whole = _post(port, "/v1/logs", log)
+            whole = [_post(port, f"/v1/logs?name={number}", log) for number in range(rounds)]
+            bare_whole = [_post(bare, "/write", log) for _ in range(rounds)]
     best = {name: min(times) for name, times in seconds.items()}
     typical = {name: statistics.median(times) for name, times in seconds.items()}
     return [
@@ -61,25 +63,36 @@ def run(*, quick: bool) -> list[Figure]:
         Figure("bare endpoint that writes, MB/s", f"{SIZE / best['write'] / 1e6:.0f}"),
         Figure(
             "rate over the one that counts, %",
-            _share(best, "count"),
+            _share(seconds, "count"),
             ">= 70",
-            f"median {_share(typical, 'count')}",
+            f"of the best {_share_of_best(best, 'count')}",
             ratio=True,
         ),
         Figure(
             "rate over the one that writes, %",
-            _share(best, "write"),
+            _share(seconds, "write"),
             "",
-            f"median {_share(typical, 'write')}",
+            f"of the best {_share_of_best(best, 'write')}",
             ratio=True,
         ),
         Figure(f"memory that {AT_ONCE} at once add, MB", f"{growth:.1f}", "<= 32"),
-        Figure(f"a sound log of {len(log) / 1e6:.0f} MB (Parquet), received and read, s", f"{whole:.2f}"),
+        Figure(
+            f"a sound log of {len(log) / 1e6:.0f} MB (Parquet): received, read and kept, ms",
+            f"{1e3 * statistics.median(whole):.0f}",
+            "",
+            f"written barely {1e3 * statistics.median(bare_whole):.0f}",
+        ),
     ]
 
 
-def _share(seconds: dict[str, float], bare: str) -> str:
-    return f"{100.0 * seconds[bare] / seconds['upload']:.0f}"
+def _share(seconds: dict[str, list[float]], bare: str) -> str:
+    """Compare round by round, and take the median: what else the machine does meets both alike."""
+    shares = [other / ours for other, ours in zip(seconds[bare], seconds["upload"], strict=True)]
+    return f"{100.0 * statistics.median(shares):.0f}"
+
+
+def _share_of_best(best: dict[str, float], bare: str) -> str:
+    return f"{100.0 * best[bare] / best['upload']:.0f}"
 
 
 @contextmanager

@@ -1,8 +1,7 @@
 """Read one uploaded file in a process of its own, and tell the service over a pipe what is in it.
 
 A message is one letter and its content: ``r`` the document that was made of it, ``f`` the problem document,
-``t`` the trace of a mistake of ours. This module loads everything that reads, so that the server it is loaded
-into forks quickly.
+``t`` the trace of a mistake of ours.
 """
 
 import signal
@@ -11,11 +10,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from multiprocessing.connection import Connection
-from pathlib import Path
 
 import pyarrow as pa
 
 from app.documents import json_bytes
+from app.forks import READERS
 from app.inspection.budget import Budget
 from app.inspection.confinement import confine
 from app.problems import problem_of, problem_of_damage
@@ -24,26 +23,20 @@ from app.store.records import Document
 from core.errors import LogError, VeritorqueError
 
 Work = Callable[[], Document]
-READERS = (
-    "h5py",
-    "pyarrow.csv",
-    "pyarrow.parquet",
-    "rosbags.rosbag1",
-    "rosbags.rosbag2.storage_mcap",
-    "rosbags.typesys",
-    "scipy.io.matlab",
-)
-"""What reads; what is not installed is passed over."""
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
 
 
-def inspect(pipe: Connection, work: Work, path: Path, budget: Budget) -> None:
-    """Read the file as the work asks for, and send what was made of it; the entry point of the process."""
+def inspect(pipe: Connection) -> None:
+    """Wait for work on a file, do it and send what was made of it; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
     pa.set_memory_pool(pa.system_memory_pool())  # the others reserve far more than they use
     for name in READERS:  # there already, unless the server ran before it could be told
         with suppress(ImportError):
             import_module(name)
+    try:
+        work, path, budget = pipe.recv()
+    except EOFError:  # the service is gone
+        return
     confine(path, budget)
     pipe.send_bytes(_done(work, budget))
 

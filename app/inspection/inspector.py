@@ -9,14 +9,11 @@ import logging
 import os
 import signal
 from functools import partial
-from multiprocessing import forkserver
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import anyio
 
-from app.forks import fork_server
+from app.forks import READERS, Child, Standby, fork_server
 from app.inspection import child
 from app.inspection.budget import Budget, budget_for
 from app.jobs import science
@@ -40,12 +37,14 @@ class Inspector:
     """
 
     def __init__(self) -> None:
-        self._context = fork_server("app.inspection.child", *child.READERS)
-        self.limiter = anyio.CapacityLimiter(os.cpu_count() or 1)
+        self._context = fork_server("app.inspection.child", *READERS)
+        self._standby = Standby(lambda: Child(self._context, child.inspect))
+        self._at_once = os.cpu_count() or 1
+        self.limiter = anyio.CapacityLimiter(self._at_once)
 
     def prepare(self) -> None:
-        """Let the server process load what reads, without waiting for it."""
-        forkserver.ensure_running()
+        """Have processes made that wait for files, without waiting for them."""
+        self._standby.prepare(self._at_once)
 
     def summarise(self, log: LogFile, *, size: int, media_type: str | None) -> Document:
         """Say what is in a log of so many bytes.
@@ -72,29 +71,22 @@ class Inspector:
     def _read(self, work: child.Work, path: Path, size: int) -> bytes:
         """Let a process of its own do the work, and give the document that it made."""
         budget = budget_for(size)
-        ours, theirs = self._context.Pipe(duplex=False)
-        process = self._context.Process(target=child.inspect, args=(theirs, work, path, budget), daemon=True)
-        try:
-            process.start()
-            theirs.close()
-            return _answer(process, ours, budget)
-        finally:
-            if process.pid is not None:
-                process.kill()
-                process.join()
-            process.close()
-            theirs.close()
-            ours.close()
+        with self._standby.child() as process:
+            process.pipe.send((work, path, budget))
+            return _answer(process, budget)
+
+    def close(self) -> None:
+        """End the processes that wait."""
+        self._standby.close()
 
 
-def _answer(process: BaseProcess, pipe: Connection, budget: Budget) -> bytes:
-    if not pipe.poll(budget.wall_s):
+def _answer(process: Child, budget: Budget) -> bytes:
+    if not process.pipe.poll(budget.wall_s):
         raise problem_of(_too_slow(budget.wall_s, "time"))
     try:
-        message = pipe.recv_bytes(LONGEST_ANSWER)
+        message = process.pipe.recv_bytes(LONGEST_ANSWER)
     except (EOFError, OSError):
-        process.join()
-        raise problem_of(_ended(process.exitcode, budget)) from None
+        raise problem_of(_ended(process.exit_code(), budget)) from None
     letter, content = message[:1], message[1:]
     if letter == child.TRACE:
         LOGGER.error("reading a log met a mistake of ours:\n%s", content.decode(errors="replace"))

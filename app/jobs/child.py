@@ -13,21 +13,41 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 
 from app.documents import json_bytes
-from app.jobs.computation import Computation, Work
+from app.jobs.computation import Computation, Progress, Rehearse, Work
 from app.jobs.limits import Limits
 from app.problems import Problem, problem_of, problem_of_damage
 from app.store.errors import Damaged
 from core.errors import VeritorqueError
 
 PROGRESS, RESULT, FAILURE, TRACE = b"p", b"r", b"f", b"t"
+IDLE_S = 0.02
+"""Where no computation comes for so long, there is time to rehearse."""
 
 
-def compute(pipe: Connection, work: Work, computation: Computation, limits: Limits, timeout_s: float) -> None:
-    """Do the work within its limits and send its outcome; the entry point of the process."""
+def compute(pipe: Connection, work: Work, limits: Limits, rehearse: Rehearse) -> None:
+    """Wait for a computation and carry it out; the entry point of the process.
+
+    Where there is time, the work is rehearsed meanwhile.
+    """
     for told in (signal.SIGINT, signal.SIGTERM):
         signal.signal(told, signal.SIG_IGN)  # they are for the service, which then stops its computations
+    limits.hold()
+    if not pipe.poll(IDLE_S):
+        _rehearse(pipe, rehearse)
+    try:
+        computation, timeout_s = pipe.recv()
+    except EOFError:  # the service is gone
+        return
     threading.Thread(target=_end_with_the_service, args=(pipe,), daemon=True).start()
-    limits.hold(seconds=timeout_s)
+    limits.hold_to_time(timeout_s)
+    _carry_out(pipe, work, computation, limits)
+
+
+def nothing(_progress: Progress) -> None:
+    """Rehearse nothing."""
+
+
+def _carry_out(pipe: Connection, work: Work, computation: Computation, limits: Limits) -> None:
     sending = threading.Lock()
 
     def send(letter: bytes, content: bytes) -> None:
@@ -51,10 +71,6 @@ def compute(pipe: Connection, work: Work, computation: Computation, limits: Limi
         send(FAILURE, json_bytes(mistake().document()))
 
 
-def nothing() -> None:
-    """Do nothing; the work of the process that is started to load the solver."""
-
-
 def out_of_memory(limits: Limits) -> Problem:
     """Say that the memory did not suffice."""
     return Problem(
@@ -76,7 +92,20 @@ def mistake() -> Problem:
     )
 
 
+class _WantedError(Exception):
+    """End a rehearsal: there is a computation."""
+
+
+def _rehearse(pipe: Connection, rehearse: Rehearse) -> None:
+    def look(_stage: str, _fraction: float) -> None:
+        if pipe.poll():
+            raise _WantedError
+
+    with suppress(Exception):  # whatever stands in the way of a rehearsal, the computation itself will tell
+        rehearse(look)
+
+
 def _end_with_the_service(pipe: Connection) -> None:
     with suppress(OSError):
-        pipe.poll(None)  # nothing is ever sent this way: it returns when the other end is gone
+        pipe.poll(None)  # nothing more is sent this way: it returns when the other end is gone
     os._exit(1)

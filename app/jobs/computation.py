@@ -52,6 +52,7 @@ class Computation:
 
 
 Work = Callable[[Computation, Progress], Document]
+Rehearse = Callable[[Progress], None]
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
 """Run computations so that they can be followed, stopped and survived.
 
 The interface is one method; the one implementation gives every computation a process of its own, forked from
-a server process that has the solver loaded already. A crash, a dismissal or a timeout ends that process and
-nothing else.
+a server process that has the solver loaded already, and waiting for its computation ahead of time. A crash, a
+dismissal or a timeout ends that process and nothing else.
 """
 
 import json
@@ -10,14 +10,23 @@ import logging
 import signal
 import time
 from collections.abc import Callable
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
+from multiprocessing.connection import wait
 from threading import Event
 from typing import Protocol
 
-from app.forks import fork_server
+from app.forks import READERS, Child, Standby, fork_server
 from app.jobs import child, science
-from app.jobs.computation import Computation, Died, Failed, Finished, Outcome, Progress, Stopped, Work
+from app.jobs.computation import (
+    Computation,
+    Died,
+    Failed,
+    Finished,
+    Outcome,
+    Progress,
+    Rehearse,
+    Stopped,
+    Work,
+)
 from app.jobs.limits import Limits
 from app.problems import Problem
 
@@ -38,6 +47,10 @@ class Executor(Protocol):
         """Run a computation to its end, until `stop` is set, or until the time is over (s)."""
         ...
 
+    def close(self) -> None:
+        """Let go of all that was prepared, once nothing is computed any more."""
+        ...
+
 
 class ProcessExecutor:
     """Give every computation a process of its own.
@@ -50,6 +63,10 @@ class ProcessExecutor:
         What a computation may use.
     preload
         Modules that the server process loads before it forks.
+    rehearse
+        Does the like of the work in a process that has nothing to do yet, so that all of it is in memory.
+    at_once
+        Computations for which a process waits.
     """
 
     def __init__(
@@ -57,55 +74,48 @@ class ProcessExecutor:
         work: Work = science.compute,
         *,
         limits: Limits = Limits(),  # noqa: B008 - it never changes
-        preload: tuple[str, ...] = ("core.study",),
+        preload: tuple[str, ...] = ("core.study", *READERS),
+        rehearse: Rehearse = child.nothing,
+        at_once: int = 1,
     ) -> None:
-        self._work, self._limits = work, limits
         self._context = fork_server("app.jobs.undisturbed", "app.jobs.child", *preload)
+        self._at_once = at_once
+        self._standby = Standby(lambda: Child(self._context, child.compute, work, limits, rehearse))
 
     def prepare(self) -> None:
         """Let the server process load the solver, and compile the kernels where the disk holds none yet."""
-        process = self._context.Process(target=child.nothing, daemon=True)
-        process.start()
-        process.join()
-        process.close()
+        for coming in self._standby.prepare(self._at_once):
+            coming.result()
 
     def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
-        """Run a computation in a new process; see `Executor`."""
-        ours, theirs = self._context.Pipe()
-        arguments = (theirs, self._work, computation, self._limits, timeout_s)
-        process = self._context.Process(target=child.compute, args=arguments, daemon=True)
+        """Run a computation in a process of its own; see `Executor`."""
         try:
-            process.start()
-            theirs.close()
-            return _follow(process, ours, progress=progress, stop=stop, timeout_s=timeout_s)
+            with self._standby.child() as process:
+                process.pipe.send((computation, timeout_s))
+                return _follow(process, progress=progress, stop=stop, timeout_s=timeout_s)
         except (EOFError, OSError) as error:  # the server that forks is gone; it is started again by itself
             LOGGER.warning("no process could be had: %r", error)
             return Died(_vanished(None).document())
-        finally:
-            if process.pid is not None:
-                process.kill()
-                process.join()
-            process.close()
-            theirs.close()
-            ours.close()
+
+    def close(self) -> None:
+        """End the processes that wait."""
+        self._standby.close()
 
 
-def _follow(
-    process: BaseProcess, pipe: Connection, *, progress: Progress, stop: Event, timeout_s: float
-) -> Outcome:
+def _follow(process: Child, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
     deadline = time.monotonic() + timeout_s
     while not stop.is_set():
         if time.monotonic() > deadline:
             return Failed(_too_slow(timeout_s).document())
-        if not wait([pipe], timeout=LOOK_EVERY_S):
+        if not wait([process.pipe], timeout=LOOK_EVERY_S):
             continue
         try:
-            message = pipe.recv_bytes()
+            message = process.pipe.recv_bytes()
         except (EOFError, OSError):
-            process.join()
-            if process.exitcode == -signal.SIGXCPU:
+            exit_code = process.exit_code()
+            if exit_code == -signal.SIGXCPU:
                 return Failed(_too_slow(timeout_s).document())
-            return Died(_vanished(process.exitcode).document())
+            return Died(_vanished(exit_code).document())
         outcome = _read(message, progress)
         if outcome is not None:
             return outcome

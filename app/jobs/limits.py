@@ -10,6 +10,7 @@ import os
 import resource
 import socket
 import sys
+import time
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,15 +34,18 @@ class Limits:
     memory_bytes: int = 4 * 1024**3
     cpus: int = 1
 
-    def hold(self, *, seconds: float) -> None:
-        """Hold this process to the limits from now on, and its CPU time to what `seconds` allow."""
+    def hold(self) -> None:
+        """Hold this process to the limits from now on."""
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # a dump would hold the logs and fill the disk
         _limit(resource.RLIMIT_DATA, self.memory_bytes)
-        _limit(resource.RLIMIT_CPU, math.ceil(self.cpus * seconds) + 1)
         if sys.platform == "linux":
             with suppress(OSError):  # where memory runs out all the same, the service is not who ends
                 Path("/proc/self/oom_score_adj").write_text("1000")
             _pin(self.cpus)
+
+    def hold_to_time(self, seconds: float) -> None:
+        """Hold this process to the CPU time that so many seconds from now on allow."""
+        _limit(resource.RLIMIT_CPU, math.ceil(time.process_time() + self.cpus * seconds) + 1)
 
     def lift_memory(self) -> None:
         """Let this process use more again, to say in peace that it had too little."""

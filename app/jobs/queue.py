@@ -1,51 +1,76 @@
 """Accept jobs and let go of them; what cannot succeed is refused at once, in the words of the science."""
 
-from concurrent.futures import Future
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
 
+from app.catalogue import Catalogue
 from app.jobs import science
 from app.jobs.references import check_reference
 from app.problems import Problem
+from app.store.queueing import Asked, Outcome
 from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
 from app.store.store import TenantStore
 from core.errors import LogError
 
 
+@dataclass(frozen=True)
+class Wanted:
+    """Ask for a job of a robot and logs by their ids.
+
+    Attributes
+    ----------
+    key
+        What the client calls its request, so that it can send it twice and mean it once.
+    trace
+        Id of the trace that the request belongs to.
+    """
+
+    kind: str
+    robot: str
+    logs: tuple[str, ...]
+    options: Document
+    key: str | None = None
+    trace: str | None = None
+
+
 class Queue:
-    """Accept and dismiss the jobs of a tenant; new ones belong to a trace."""
+    """Accept and dismiss the jobs of a tenant."""
 
-    def __init__(self, store: TenantStore, trace: str | None = None) -> None:
-        self._store, self._trace = store, trace
+    def __init__(self, store: TenantStore, catalogue: Catalogue) -> None:
+        self._store, self._catalogue = store, catalogue
 
-    def submit(
-        self,
-        *,
-        kind: str,
-        robot: RobotRecord,
-        logs: tuple[LogRecord, ...],
-        options: Document,
-        key: str | None = None,
-    ) -> "Future[JobRecord]":
-        """Queue a job, or find the one that asks for the same; give it once that is on the disk.
+    def begin_to_submit(self, wanted: list[Wanted]) -> Callable[[], list[Outcome]]:
+        """Queue jobs together, or find those that asked for the same; give what waits until they are kept.
 
-        `key` is what the client calls its request, so that it can send it twice and mean it once.
-
-        Raises
-        ------
-        OptionError
-            If the kind or an option does not exist or makes no sense.
-        LogError
-            If a log has not as many joints as the robot.
-        RobotError
-            If the robot's own bodies are to be compared with and it brings none.
-        Problem
-            If a job that is to be compared with does not exist (422).
+        For each that gives the job, or why it cannot be: an error of the science, a `Problem` where something
+        that is named does not exist, or what the store refuses.
         """
-        science.check_options(kind, options)
-        for log in logs:
-            _check_joints(robot, log)
-        check_reference(self._store, kind, robot, options)
-        request = JobRequestRecord(kind, robot.id, tuple(log.id for log in logs), options)
-        return self._store.jobs.begin_to_add(request, key=key, trace=self._trace)
+        robot = cache(lambda identity: self._catalogue.robot(identity, named_in_body=True))
+        log = cache(lambda identity: self._catalogue.log(identity, named_in_body=True))
+        checked = [self._checked(one, robot, log) for one in wanted]
+        wait = self._store.jobs.begin_to_add([one for one in checked if isinstance(one, Asked)])
+
+        def outcomes() -> list[Outcome]:
+            queued = iter(wait())
+            return [one if isinstance(one, Exception) else next(queued) for one in checked]
+
+        return outcomes
+
+    def _checked(
+        self, wanted: Wanted, robot_of: Callable[[str], RobotRecord], log_of: Callable[[str], LogRecord]
+    ) -> Asked | Exception:
+        """Refuse at once what cannot succeed."""
+        try:
+            robot, logs = robot_of(wanted.robot), tuple(log_of(identity) for identity in wanted.logs)
+            science.check_options(wanted.kind, wanted.options)
+            for log in logs:
+                _check_joints(robot, log)
+            check_reference(self._store, wanted.kind, robot, wanted.options)
+        except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
+            return error
+        ids = tuple(log.id for log in logs)
+        return Asked(JobRequestRecord(wanted.kind, robot.id, ids, wanted.options), wanted.key, wanted.trace)
 
     def dismiss(self, job: JobRecord) -> JobRecord:
         """Dismiss an unfinished job; whoever computes it notices."""

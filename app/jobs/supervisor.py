@@ -1,7 +1,8 @@
 """Keep a worker process alive beside the service: started again when it dies, killed when it freezes.
 
-The worker writes a line a second; silence means that it is frozen. It ends by itself when the pipe to the
-service closes, so that none is left behind when the service is killed.
+The worker writes a line a second; silence means that it is frozen. The service writes a line when there is a
+job, and the worker ends by itself when that pipe closes, so that none is left behind when the service is
+killed.
 """
 
 import json
@@ -11,7 +12,8 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 
 from app.jobs.computation import Ended
 from app.settings import Settings
@@ -55,6 +57,8 @@ class Supervisor:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="supervisor")
         self._heard = 0.0
+        self._bell: int | None = None
+        self._bell_in_use = threading.Lock()
         self.ready = threading.Event()
 
     @property
@@ -65,6 +69,13 @@ class Supervisor:
     def start(self) -> None:
         """Start the first worker."""
         self._thread.start()
+
+    def wake(self) -> None:
+        """Let the worker look for jobs at once; without that it would look a little later."""
+        with self._bell_in_use:
+            if self._bell is not None:
+                with suppress(OSError):  # the worker is gone, or was told so often that it need not be again
+                    os.write(self._bell, b"\n")
 
     def close(self) -> None:
         """Let the worker hand its jobs back and end."""
@@ -78,12 +89,25 @@ class Supervisor:
             with self._start(self._settings) as process:
                 self._heard = begun + START_S - SILENCE_S
                 threading.Thread(target=self._listen, args=(process,), daemon=True).start()
-                self._watch(process)
+                with self._bell_of(process):
+                    self._watch(process)
                 _end(process)
             lived = time.monotonic() - begun
             failures = 0 if lived > LIVED_S else failures + 1
             if not self._closing.is_set():
                 LOGGER.error("the worker ended (%s) after %.1f s", process.returncode, lived)
+
+    @contextmanager
+    def _bell_of(self, process: "subprocess.Popen[bytes]") -> Iterator[None]:
+        """Let `wake` reach a worker until its pipe is closed, whose number may then be another file's."""
+        if process.stdin is not None:
+            os.set_blocking(process.stdin.fileno(), False)
+            self._bell = process.stdin.fileno()
+        try:
+            yield
+        finally:
+            with self._bell_in_use:
+                self._bell = None
 
     def _watch(self, process: "subprocess.Popen[bytes]") -> None:
         while not self._closing.wait(LOOK_EVERY_S) and process.poll() is None:

@@ -19,6 +19,7 @@ from app.jobs.executor import Executor
 from app.jobs.lives import Lives
 from app.jobs.presence import Presence
 from app.jobs.references import reference_file
+from app.jobs.reporting import Reporter
 from app.lifecycle.retention import expire
 from app.problems import URN, Problem, problem_of
 from app.settings import Kept
@@ -34,7 +35,6 @@ LOOK_EVERY_S = 0.02
 WATCH_EVERY_S = 0.1
 BEAT_EVERY_S = 2.0
 SWEEP_EVERY_S = 60.0
-REPORT_EVERY_S = 0.2
 PAUSE_S = 1.0
 """Time to wait where the database does not answer, or the disk is full."""
 OUTCOMES = {Finished: "successful", Failed: "failed", Died: "died", Stopped: "stopped"}
@@ -92,7 +92,7 @@ class Worker:
         self._capacity, self._told = capacity, told
         self._presence = Presence(store.directory / "workers")
         self._lives, self._sweep = Lives(store, self._presence), Sweep(store)
-        self._closing = threading.Event()
+        self._closing, self._woken = threading.Event(), threading.Condition()
         self._stops: dict[Held, threading.Event] = {}
         self._forgotten: set[Held] = set()
         self._threads = [threading.Thread(target=self._serve, name=f"job-{n}") for n in range(capacity.slots)]
@@ -109,6 +109,11 @@ class Worker:
         for thread in (*self._threads, threading.Thread(target=self._prepare, name="prepare", daemon=True)):
             thread.start()
 
+    def wake(self) -> None:
+        """Look for jobs at once: there is a new one."""
+        with self._woken:
+            self._woken.notify_all()
+
     def close(self) -> None:
         """Stop all computations, hand their jobs back, and wait for the threads."""
         self._closing.set()
@@ -116,6 +121,7 @@ class Worker:
             stop.set()
         for thread in self._threads:
             thread.join()
+        self._executor.close()
         self._presence.leave()
 
     def _prepare(self) -> None:
@@ -129,10 +135,11 @@ class Worker:
         while not self._closing.is_set():
             try:
                 job = self._claim()
-                if job is None:
-                    self._closing.wait(LOOK_EVERY_S)
-                else:
+                if job is not None:
                     self._see_through(job)
+                    continue
+                with self._woken:
+                    self._woken.wait(LOOK_EVERY_S)
             except Unavailable as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
                 self._closing.wait(PAUSE_S)
@@ -215,7 +222,7 @@ class Worker:
         computation = self._computation(job, traces)
         if self._closing.is_set():
             stop.set()
-        progress, timeout_s = _Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
+        progress, timeout_s = Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
         return self._executor.run(computation, progress=progress, stop=stop, timeout_s=timeout_s)
 
     def _tell(self, job: JobRecord, outcome: Outcome, seconds: float) -> None:
@@ -268,23 +275,6 @@ class Worker:
             reference=reference_file(store, job.request.kind, job.request.options),
             traces=traces,
         )
-
-
-class _Reporter:
-    """Write progress to the store: every new stage, and fractions a few times a second."""
-
-    def __init__(self, store: Store, held: Held) -> None:
-        self._store, self._held = store, held
-        self._stage, self._next = "", 0.0
-
-    def __call__(self, stage: str, fraction: float) -> None:
-        if stage == self._stage and time.monotonic() < self._next:
-            return
-        self._stage, self._next = stage, time.monotonic() + REPORT_EVERY_S
-        try:
-            self._store.work.report(self._held, stage=stage, fraction=fraction)
-        except Unavailable as error:
-            LOGGER.warning("progress is not written: %s", error.reason)
 
 
 def _gone(what: str, identity: str) -> Problem:

@@ -8,6 +8,7 @@ from fastapi.responses import JSONResponse
 from starlette.datastructures import FormData, UploadFile
 
 from app.handlers import problem_response
+from app.jobs.queue import Wanted
 from app.negotiation import LONGEST_WAIT_S, wait_seconds
 from app.openapi import body, file_part, problems, text_part
 from app.problems import Problem
@@ -78,9 +79,9 @@ async def identify(
         files = files_of(form, "log")
         robot = await _robot(desk, form)
         logs = tuple([await _log(desk, part, mapping) for part in files])
-    job = await anyio.to_thread.run_sync(
-        lambda: desk.queue.submit(kind="identify", robot=robot, logs=logs, options=options).result()
-    )
+    ids = tuple(log.id for log in logs)
+    wanted = Wanted("identify", robot.id, ids, options, trace=request.state.trace)
+    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, wanted)
     seconds = wait_seconds(prefer)
     job = await wait_for(desk.feed, job, LONGEST_WAIT_S if seconds is None else seconds)
     return await anyio.to_thread.run_sync(_answer, desk, job)

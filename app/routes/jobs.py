@@ -1,8 +1,6 @@
 """Serve jobs: asked for, followed, waited for, dismissed, and read."""
 
 import json
-from concurrent.futures import Future
-from functools import partial
 from typing import Annotated
 
 from fastapi import Header, Path, Request, Response
@@ -11,6 +9,7 @@ from fastapi.responses import HTMLResponse, JSONResponse
 from app.artifacts import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
 from app.feed import no_such_job
 from app.finished import RETRY_AFTER_S, find_job, result_of, traces_of
+from app.jobs.queue import Wanted
 from app.listing import CursorOf, Limit, before, following
 from app.negotiation import matches, preferred, wait_seconds
 from app.openapi import body, problems, reference
@@ -22,7 +21,7 @@ from app.routing import chapter
 from app.schemas.examples import JOB_REQUESTS
 from app.schemas.jobs import Job, JobList, JobRequest
 from app.schemas.results import ResultDocument
-from app.services import Desk, DeskOf
+from app.services import DeskOf
 from app.store.records import JobRecord
 from app.views import job_document
 from app.waiting import wait_for
@@ -56,7 +55,15 @@ async def create_job(
     """Queue a computation, or find one that asks for the same. What cannot succeed is refused at once."""
     require_media_type(request, ("application/json",))
     asked = check(JobRequest, parse_json(await request.body()))
-    job = await desk.intake.take(partial(_submit, desk, asked, idempotency_key))
+    wanted = Wanted(
+        kind=asked.kind,
+        robot=asked.robot,
+        logs=tuple(asked.logs),
+        options=dict(asked.options),
+        key=idempotency_key,
+        trace=request.state.trace,
+    )
+    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, wanted)
     seconds = wait_seconds(prefer)
     if seconds is not None:
         job = await wait_for(desk.feed, job, seconds)
@@ -189,16 +196,6 @@ def delete_job(desk: DeskOf, job_id: str) -> Response:
     if job.finished and desk.store.jobs.remove(job.id):
         return Response(status_code=204)
     return JSONResponse(job_document(desk.queue.dismiss(job)))
-
-
-def _submit(desk: Desk, asked: JobRequest, key: str | None) -> "Future[JobRecord]":
-    return desk.queue.submit(
-        kind=asked.kind,
-        robot=desk.catalogue.robot(asked.robot, named_in_body=True),
-        logs=tuple(desk.catalogue.log(identity, named_in_body=True) for identity in asked.logs),
-        options=dict(asked.options),
-        key=key,
-    )
 
 
 def _job_response(job: JobRecord, *, applied: int | None) -> Response:

@@ -138,10 +138,7 @@ class Unexplained(Open):
     interval_95: list[Interval]
     at_rest_fraction: Annotated[
         PerJoint,
-        Field(
-            description="share of the model's squared error that is friction while the joint rests or turns "
-            "round, and is left out of all that follows; null where it hardly moves"
-        ),
+        Field(description="share of the squared error that is friction at rest; null where it hardly moves"),
     ] = Field(default=[])
     rms_residual: PerJoint
     places: Annotated[list[list[Place]], Field(description="per joint, the largest first")]

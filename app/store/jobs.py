@@ -5,35 +5,23 @@ r"""Keep the jobs of a tenant: asked for, looked at, dismissed, removed.
         `----------`----> dismissed
 
 Every change is one statement that only succeeds from the state it belongs to: a job that was dismissed does
-not come back as successful. What workers do to jobs stands in `app.store.work`.
+not come back as successful. How many are queued at once
+stands in `app.store.queueing`, what workers do to them in `app.store.work`.
 """
 
-import hashlib
-import secrets
-from concurrent.futures import Future
+from collections.abc import Callable
+from functools import partial
 
-from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, insert, select, update
+from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select, update
 
-from app.documents import canonical_json
-from app.store.database import Database, take_turns
-from app.store.errors import KeyReused
-from app.store.quota import refuse_another_job
+from app.store.database import Database
+from app.store.queueing import Asked, Outcome, queue_all
 from app.store.records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
 from app.store.rows import job_record, request_record
-from app.store.tables import JOBS, REPEATS, now, one_of
-from app.version import VERSION
+from app.store.tables import JOBS, now
 
-ANSWERED = (*UNFINISHED, "successful")
-"""States of a job that answers a later request for the same."""
 OURS = JOBS.c.tenant == bindparam("tenant")
 FIND = select(JOBS).where(OURS, JOBS.c.id == bindparam("id"))
-ALIKE = (
-    select(JOBS)
-    .where(OURS, JOBS.c.fingerprint == bindparam("fingerprint"), one_of(JOBS.c.state, ANSWERED))
-    .order_by(JOBS.c.sequence)
-    .limit(1)
-)
-NEW = insert(JOBS).returning(JOBS)
 
 
 class JobStore:
@@ -45,20 +33,7 @@ class JobStore:
     def add(
         self, request: JobRequestRecord, *, key: str | None = None, trace: str | None = None
     ) -> JobRecord:
-        """Queue a job and wait until it is; see `begin_to_add`."""
-        return self.begin_to_add(request, key=key, trace=trace).result()
-
-    def begin_to_add(
-        self, request: JobRequestRecord, *, key: str | None = None, trace: str | None = None
-    ) -> "Future[JobRecord]":
         """Queue a job, or find the one that asked for the same.
-
-        Parameters
-        ----------
-        key
-            What a client calls its request, so that it can send it twice and mean it once.
-        trace
-            Id of the trace that the request belongs to; a job keeps that of the first one.
 
         Raises
         ------
@@ -67,23 +42,26 @@ class JobStore:
         OverQuota
             If the tenant has as many unfinished jobs as it may have.
         """
-        asked = canonical_json(request.document())
-        fingerprint = hashlib.sha256(canonical_json([VERSION, request.document()])).hexdigest()
-        digest = hashlib.sha256(asked).hexdigest()
+        (outcome,) = self.begin_to_add([Asked(request, key, trace)])()
+        if isinstance(outcome, Exception):
+            raise outcome
+        return outcome
 
-        def work(connection: Connection) -> JobRecord:
-            if key is not None:
-                take_turns(connection, f"{self._tenant} {key}")
-            take_turns(connection, fingerprint)
-            known = None if key is None else self._repeated(connection, key, digest)
-            found = known or self._alike(connection, fingerprint)
-            found = found or self._new(connection, asked, fingerprint, trace)
-            if key is not None and known is None:
-                values = {"tenant": self._tenant, "key": key, "digest": digest, "job_id": found.id}
-                connection.execute(insert(REPEATS).values(values | {"created_at": now()}))
-            return found
+    def begin_to_add(self, asked: list[Asked]) -> Callable[[], list[Outcome]]:
+        """Queue jobs together, and give what waits until they are; for each it gives the job, or why not."""
+        if not asked:
+            return list
+        coming = self._database.begin(partial(queue_all, tenant=self._tenant, quota=self._quota, asked=asked))
 
-        return self._database.begin(work)
+        def wait() -> list[Outcome]:
+            try:
+                return coming.result()
+            except Exception as error:  # noqa: BLE001 - it belongs to the one request that brought it about
+                if len(asked) == 1:
+                    return [error]
+            return [outcome for one in asked for outcome in self.begin_to_add([one])()]
+
+        return wait
 
     def get(self, identity: str) -> JobRecord | None:
         """Find a job."""
@@ -129,40 +107,3 @@ class JobStore:
     def _find(self, connection: Connection, identity: str) -> JobRecord | None:
         row = connection.execute(FIND, {"tenant": self._tenant, "id": identity}).one_or_none()
         return None if row is None else job_record(row)
-
-    def _repeated(self, connection: Connection, key: str, digest: str) -> JobRecord | None:
-        """Find what an earlier request with this key led to; None where there was none, or it is deleted."""
-        mine = and_(REPEATS.c.tenant == self._tenant, REPEATS.c.key == key)
-        earlier = connection.execute(select(REPEATS).where(mine)).one_or_none()
-        if earlier is None:
-            return None
-        if earlier.digest != digest:
-            raise KeyReused(key)
-        found = self._find(connection, earlier.job_id)
-        if found is None:
-            connection.execute(delete(REPEATS).where(mine))
-        return found
-
-    def _alike(self, connection: Connection, fingerprint: str) -> JobRecord | None:
-        row = connection.execute(ALIKE, {"tenant": self._tenant, "fingerprint": fingerprint}).one_or_none()
-        return None if row is None else job_record(row)
-
-    def _new(self, connection: Connection, asked: bytes, fingerprint: str, trace: str | None) -> JobRecord:
-        refuse_another_job(connection, self._tenant, self._quota)
-        values = {
-            "tenant": self._tenant,
-            "id": "job-" + secrets.token_hex(10),
-            "fingerprint": fingerprint,
-            "request": asked.decode(),
-            "trace": trace,
-            "state": "accepted",
-            "stage": "",
-            "fraction": 0.0,
-            "version": 1,
-            "attempts": 0,
-            "token": 0,
-            "beat": 0,
-            "result_bytes": 0,
-            "created_at": now(),
-        }
-        return job_record(connection.execute(NEW, values).one())

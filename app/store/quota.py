@@ -1,5 +1,7 @@
 """Bound what a tenant may have, within the transaction that would give it more."""
 
+import math
+
 from sqlalchemy import Connection, bindparam, func, literal, select
 
 from app.store.database import take_turns
@@ -7,28 +9,22 @@ from app.store.errors import OverQuota
 from app.store.records import UNFINISHED, Quota
 from app.store.tables import JOBS, LOGS, one_of
 
-UNFINISHED_AFTER = (
+UNFINISHED_JOBS = select(func.count()).select_from(
     select(literal(1))
     .where(JOBS.c.tenant == bindparam("tenant"), one_of(JOBS.c.state, UNFINISHED))
-    .limit(1)
-    .offset(bindparam("before"))
+    .limit(bindparam("most"))
+    .subquery()
 )
+"""No more than `most` of them are counted."""
 
 
-def refuse_another_job(connection: Connection, tenant: str, quota: Quota) -> None:
-    """Refuse a job where the tenant has as many unfinished ones as it may have.
-
-    Raises
-    ------
-    OverQuota
-        If it has.
-    """
+def room_for_jobs(connection: Connection, tenant: str, quota: Quota) -> float:
+    """Say how many more jobs the tenant may ask for before some of them are finished."""
     if quota.queued is None:
-        return
+        return math.inf
     take_turns(connection, f"jobs of {tenant}")
-    last = {"tenant": tenant, "before": quota.queued - 1}
-    if connection.execute(UNFINISHED_AFTER, last).first() is not None:
-        raise OverQuota("unfinished jobs", most=quota.queued, setting="VERITORQUE_QUEUED_PER_TENANT")
+    counted = connection.execute(UNFINISHED_JOBS, {"tenant": tenant, "most": quota.queued}).scalar_one()
+    return quota.queued - int(counted)
 
 
 def refuse_beyond(connection: Connection, tenant: str, quota: Quota) -> None:

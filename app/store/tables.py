@@ -111,7 +111,7 @@ KEYS = Table(
 """API keys; of a key itself only the hash is kept."""
 
 
-def one_of(column: Column[Any], values: Iterable[str]) -> ColumnElement[bool]:
+def one_of(column: ColumnElement[Any], values: Iterable[str]) -> ColumnElement[bool]:
     """Compare with a few known values, so that the statement is the same each time."""
     return or_(*(column == value for value in values))
 

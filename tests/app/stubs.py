@@ -23,6 +23,9 @@ class StubExecutor:
     def prepare(self):
         pass
 
+    def close(self):
+        pass
+
     def run(self, computation, *, progress, stop, timeout_s):
         self.computations.append(computation)
         progress("estimate", 0.5)
@@ -49,6 +52,9 @@ class InlineExecutor:
         self.told = []
 
     def prepare(self):
+        pass
+
+    def close(self):
         pass
 
     def run(self, computation, *, progress, stop, timeout_s):

@@ -23,7 +23,7 @@ DEAF = f"import signal\nsignal.signal(signal.SIGTERM, signal.SIG_IGN)\n{SPEAKS}"
 
 
 @contextlib.contextmanager
-def supervised(script):
+def supervised(script, told=None):
     """Supervise processes that run a script; `started` lists them."""
     started = []
 
@@ -34,7 +34,7 @@ def supervised(script):
         started.append(process)
         return process
 
-    watching = Supervisor(Settings.model_construct(), start)
+    watching = Supervisor(Settings.model_construct(), start, told=told)
     watching.start()
     try:
         yield watching, started
@@ -107,3 +107,24 @@ def test_a_service_that_is_killed_takes_its_worker_along():
         watching.ready.wait(20.0)
         started[0].stdin.close()
         assert started[0].wait(20.0) == 0
+
+
+WAKES = """
+import os, sys
+os.write(1, b"ready\\n")
+while os.read(0, 1):
+    os.write(1, b"ended {\\"kind\\": \\"identify\\", \\"outcome\\": \\"successful\\", \\"seconds\\": 1.0}\\n")
+"""
+
+
+def test_a_worker_is_told_of_new_jobs_and_one_that_does_not_listen_holds_nobody_up():
+    heard = []
+    with supervised(WAKES, heard.append) as (watching, _):
+        watching.ready.wait(20.0)
+        watching.wake()
+        until(lambda: heard)
+    with supervised(SPEAKS) as (watching, _):
+        watching.ready.wait(20.0)
+        for _ in range(100_000):  # more than a pipe holds
+            watching.wake()
+    watching.wake()

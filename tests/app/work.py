@@ -63,3 +63,19 @@ def not_finite(computation, progress):
 def name_yourself(computation, progress):
     progress(str(os.getpid()), 0.0)
     time.sleep(60.0)
+
+
+def answer(pipe):
+    """Say who answers; the task of a process that waits for one."""
+    pipe.recv()
+    pipe.send(os.getpid())
+
+
+def rehearse_for_ever(progress):
+    while True:
+        progress("again", 0.0)
+        time.sleep(0.01)
+
+
+def refuse_to_rehearse(progress):
+    raise OSError("there is no room for temporary files")

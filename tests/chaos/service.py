@@ -25,7 +25,7 @@ def _executor(settings):
     from tests.chaos.work import compute
 
     limits = Limits(settings.job_memory_bytes, settings.job_cpus)
-    return ProcessExecutor(compute, limits=limits, preload=("tests.chaos.work",))
+    return ProcessExecutor(compute, limits=limits, preload=("tests.chaos.work",), at_once=settings.workers)
 
 
 def _start_worker(settings):

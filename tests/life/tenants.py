@@ -26,7 +26,12 @@ class Tenants:
         self._random = random.Random(seed)  # noqa: S311 - repeatable
         executor = StubExecutor()
         executor.release.set()
-        settings = Settings(data_dir=directory, host="0.0.0.0", requests_per_second=1e9)  # noqa: S104 - keys
+        settings = Settings(
+            data_dir=directory,
+            host="0.0.0.0",  # noqa: S104 - keys
+            hosts=("testserver",),
+            requests_per_second=1e9,
+        )
         self._client = TestClient(create_app(settings, executor=executor))
         self._log = csv_log(seconds=2.0)
         self._ids = {tenant: {"robots": [], "logs": [], "jobs": []} for tenant in TENANTS}

@@ -1,0 +1,178 @@
+"""Queue many jobs of one tenant in one transaction, or find those that asked for the same.
+
+What the database is asked does not grow with their number: what is known of all of them is read first, then
+each is decided, then all that is new is written.
+"""
+
+import hashlib
+import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from sqlalchemy import Connection, and_, bindparam, delete, insert, select
+
+from app.documents import canonical_json
+from app.store.database import take_turns
+from app.store.errors import KeyReused, OverQuota
+from app.store.quota import room_for_jobs
+from app.store.records import UNFINISHED, JobRecord, JobRequestRecord, Quota
+from app.store.rows import job_record
+from app.store.tables import JOBS, REPEATS, now, one_of
+from app.version import VERSION
+
+ANSWERED = (*UNFINISHED, "successful")
+"""States of a job that answers a later request for the same."""
+ALIKE = (
+    select(JOBS)
+    .where(
+        JOBS.c.tenant == bindparam("tenant"),
+        JOBS.c.fingerprint.in_(bindparam("fingerprints", expanding=True)),
+        one_of(JOBS.c.state.concat(""), ANSWERED),
+    )
+    .order_by(JOBS.c.sequence.desc())
+)
+"""The empty text keeps SQLite from looking for the states first, which most jobs of a full queue have."""
+THESE_KEYS = and_(
+    REPEATS.c.tenant == bindparam("tenant"), REPEATS.c.key.in_(bindparam("keys", expanding=True))
+)
+THEIR_JOB = and_(JOBS.c.tenant == REPEATS.c.tenant, JOBS.c.id == REPEATS.c.job_id)
+REPEATED = (
+    select(REPEATS.c.key, REPEATS.c.digest, JOBS)
+    .join_from(
+        REPEATS, JOBS, and_(JOBS.c.tenant == REPEATS.c.tenant, JOBS.c.id == REPEATS.c.job_id), isouter=True
+    )
+    .where(THESE_KEYS)
+)
+FORGET = delete(REPEATS).where(THESE_KEYS)
+NEW = insert(JOBS).returning(JOBS)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Ask for a job.
+
+    Attributes
+    ----------
+    key
+        What a client calls its request, so that it can send it twice and mean it once.
+    trace
+        Id of the trace that the request belongs to; a job keeps that of the first one.
+    """
+
+    request: JobRequestRecord
+    key: str | None = None
+    trace: str | None = None
+
+    @cached_property
+    def document(self) -> bytes:
+        """Write what is asked for, the same for the same."""
+        return canonical_json(self.request.document())
+
+    @cached_property
+    def digest(self) -> str:
+        """Tell requests apart."""
+        return hashlib.sha256(self.document).hexdigest()
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """Tell results apart."""
+        return hashlib.sha256(b"[%b,%b]" % (canonical_json(VERSION), self.document)).hexdigest()
+
+
+Outcome = JobRecord | Exception
+
+
+def queue_all(connection: Connection, tenant: str, quota: Quota, asked: Sequence[Asked]) -> list[Outcome]:
+    """Queue jobs; give for each the job, or why there is none: `KeyReused` or `OverQuota`."""
+    keys = [one.key for one in asked if one.key is not None]
+    for about in sorted({*(one.fingerprint for one in asked), *(f"{tenant} {key}" for key in keys)}):
+        take_turns(connection, about)  # in the same order as everybody, so that no two wait for each other
+    decisions = _Decisions(connection, tenant, quota, asked)
+    decided = [decisions.decide(one) for one in asked]
+    queued = decisions.write()
+    return [queued[one] if isinstance(one, str) else one for one in decided]
+
+
+class _Decisions:
+    """Decide request by request; a job that is about to be queued is named by its fingerprint."""
+
+    def __init__(self, connection: Connection, tenant: str, quota: Quota, asked: Sequence[Asked]) -> None:
+        self._connection, self._tenant, self._quota = connection, tenant, quota
+        mine = {"tenant": tenant}
+        alike = mine | {"fingerprints": [one.fingerprint for one in asked]}
+        rows = connection.execute(ALIKE, alike)
+        self._alike: dict[str, JobRecord | str] = {row.fingerprint: job_record(row) for row in rows}
+        keys = [one.key for one in asked if one.key is not None]
+        repeated = connection.execute(REPEATED, mine | {"keys": keys}).all() if keys else []
+        self._repeated: dict[str, tuple[str, JobRecord | str | None]] = {
+            row.key: (row.digest, None if row.id is None else job_record(row)) for row in repeated
+        }
+        self._room = room_for_jobs(connection, tenant, quota)
+        self._new: list[Asked] = []
+        self._noted: dict[str, tuple[Asked, JobRecord | str]] = {}
+
+    def decide(self, one: Asked) -> Outcome | str:
+        """Give the job that answers a request, why there is none, or the name of a new one."""
+        digest, found = self._repeated.get(one.key or "", (one.digest, None))
+        if digest != one.digest:
+            return KeyReused(str(one.key))
+        if found is not None:
+            return found
+        known = self._alike.get(one.fingerprint)
+        if known is None:
+            if self._room <= 0:
+                return self._no_room()
+            known = self._another(one)
+        if one.key is not None:
+            self._repeated[one.key] = (one.digest, known)
+            self._noted[one.key] = (one, known)
+        return known
+
+    def write(self) -> dict[str, JobRecord]:
+        """Write what is new, and give the new jobs by name."""
+        queued: dict[str, JobRecord] = {}
+        if self._new:
+            rows = self._connection.execute(NEW, [_row(self._tenant, one) for one in self._new])
+            queued = {row.fingerprint: job_record(row) for row in rows}
+        if self._noted:
+            self._connection.execute(FORGET, {"tenant": self._tenant, "keys": list(self._noted)})
+            notes = [
+                self._note(one, queued[found] if isinstance(found, str) else found)
+                for one, found in self._noted.values()
+            ]
+            self._connection.execute(insert(REPEATS), notes)
+        return queued
+
+    def _another(self, one: Asked) -> str:
+        self._room -= 1
+        self._new.append(one)
+        self._alike[one.fingerprint] = one.fingerprint
+        return one.fingerprint
+
+    def _no_room(self) -> OverQuota:
+        most = self._quota.queued or 0
+        return OverQuota("unfinished jobs", most=most, setting="VERITORQUE_QUEUED_PER_TENANT")
+
+    def _note(self, one: Asked, job: JobRecord) -> dict[str, str | None]:
+        mine = {"tenant": self._tenant, "key": one.key, "digest": one.digest}
+        return mine | {"job_id": job.id, "created_at": now()}
+
+
+def _row(tenant: str, one: Asked) -> dict[str, object]:
+    return {
+        "tenant": tenant,
+        "id": "job-" + secrets.token_hex(10),
+        "fingerprint": one.fingerprint,
+        "request": one.document.decode(),
+        "trace": one.trace,
+        "state": "accepted",
+        "stage": "",
+        "fraction": 0.0,
+        "version": 1,
+        "attempts": 0,
+        "token": 0,
+        "beat": 0,
+        "result_bytes": 0,
+        "created_at": now(),
+    }

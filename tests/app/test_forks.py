@@ -1,0 +1,97 @@
+"""Processes wait for their tasks ahead of time, and whatever happens to them costs no task."""
+
+import json
+import os
+import signal
+import threading
+import time
+
+import pytest
+
+from app.forks import Child, Standby, fork_server
+from app.jobs.computation import Finished
+from app.jobs.executor import ProcessExecutor
+from tests.app import work
+from tests.app.test_executor import COMPUTATION
+
+CONTEXT = fork_server()
+
+
+@pytest.fixture
+def standby():
+    kept = Standby(lambda: Child(CONTEXT, work.answer))
+    yield kept
+    kept.close()
+
+
+def asked(standby):
+    with standby.child() as child:
+        child.pipe.send("who are you")
+        return child.pipe.recv()
+
+
+def alive(process):
+    """Tell whether a process runs; what was killed is cleared away by its server in its own time."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_every_task_has_a_process_of_its_own(standby):
+    standby.prepare(1)
+    assert len({asked(standby) for _ in range(3)}) == 3
+
+
+def test_a_process_is_there_before_its_task(standby):
+    coming = standby.prepare(1)[0].result()
+    assert coming.alive
+    assert asked(standby) == coming._process.pid
+
+
+def test_a_waiting_process_that_died_costs_no_task(standby):
+    coming = standby.prepare(1)[0].result()
+    os.kill(coming._process.pid, signal.SIGKILL)
+    coming.exit_code()
+    assert asked(standby) > 0
+    assert asked(standby) > 0
+
+
+def test_as_many_tasks_at_once_as_were_prepared_for_find_processes_and_more_get_them(standby):
+    standby.prepare(2)
+    with standby.child() as one, standby.child() as other, standby.child() as third:
+        pids = set()
+        for child in (one, other, third):
+            child.pipe.send("")
+            pids.add(child.pipe.recv())
+    assert len(pids) == 3
+
+
+def test_what_waits_ends_with_those_who_made_it():
+    kept = Standby(lambda: Child(CONTEXT, work.answer))
+    process = kept.prepare(1)[0].result()._process.pid
+    kept.close()
+    deadline = time.monotonic() + 10.0
+    while alive(process) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not alive(process)
+
+
+def test_a_rehearsal_makes_way_for_a_computation():
+    executor = ProcessExecutor(work.echo, preload=(), rehearse=work.rehearse_for_ever)
+    executor.prepare()
+    time.sleep(0.3)
+    outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=60.0)
+    executor.close()
+    assert isinstance(outcome, Finished)
+    assert json.loads(outcome.result)["robot"] == COMPUTATION.robot
+
+
+def test_a_rehearsal_that_fails_does_no_harm():
+    executor = ProcessExecutor(work.echo, preload=(), rehearse=work.refuse_to_rehearse)
+    executor.prepare()
+    time.sleep(0.3)
+    outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=60.0)
+    executor.close()
+    assert isinstance(outcome, Finished)
