@@ -107,6 +107,14 @@ def test_a_browser_that_has_a_file_is_told_so(client):
     assert client.get("/static/plot.js", headers=known).status_code == 200
 
 
+def test_a_file_travels_packed_to_who_can_unpack_it(client):
+    plain = client.get("/static/swagger-ui-bundle.js", headers={"Accept-Encoding": "identity"})
+    packed = client.get("/static/swagger-ui-bundle.js", headers={"Accept-Encoding": "gzip"})
+    assert packed.content == plain.content
+    assert int(packed.headers["content-length"]) < 0.4 * int(plain.headers["content-length"])
+    assert packed.headers["etag"] != plain.headers["etag"]
+
+
 @pytest.mark.parametrize("path", PAGES)
 def test_a_page_trusts_no_text_of_the_address(client, path):
     assert_problem(client.get(path, headers={"Host": "<script>alert(1)</script>"}), 421, "wrong-host")

@@ -20,7 +20,7 @@ def test_a_page_is_there_within_a_second_and_two_megabytes(look, service, path):
             seen.page.wait_for_load_state("networkidle")
             first = sum(sizes)
     assert min(times) <= LONGEST_LOAD_S
-    assert 10_000 < first <= LARGEST_PAGE
+    assert 1_000 < first <= LARGEST_PAGE
 
 
 @pytest.mark.parametrize("look_at", LOOKS, ids=["light", "dark", "phone"])

@@ -90,7 +90,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
       element("div", { class: "row spread" }, element("h3", {}, log.name),
         element("span", { class: "row" },
           file === null ? null : element("button", { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null) } }, "Map the columns otherwise"),
-          element("button", { type: "button", class: "tiny", "aria-label": `Take ${log.name} out`, on: { click: remove } }, "Take out"))),
+          element("button", { type: "button", class: "tiny", "aria-label": `Take out ${log.name}`, on: { click: remove } }, "Take out"))),
       facts(log), again, defects(log), plots);
     cards.append(card);
     const shown = showChannels(plots, log);
