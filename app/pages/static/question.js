@@ -92,7 +92,7 @@ export function askQuestion(container) {
   return {
     use(told) {
       Object.assign(known, told);
-      if ("robot" in told) offerReferences();
+      if ("robot" in told) offerReferences().catch((error) => showError(said, error));
       show();
     },
   };
@@ -127,14 +127,15 @@ export function askQuestion(container) {
   async function offerReferences() {
     choices.reference = "";
     fill(reference);
-    if (!known.robot) return;
-    const jobs = (await get("/v1/jobs?limit=100")).jobs.filter(
-      (job) => job.robot === known.robot.id && job.state === "successful",
-    );
+    const { robot } = known;
+    if (!robot) return;
+    const { jobs } = await get("/v1/jobs?limit=100");
+    if (known.robot !== robot) return; // another one was chosen meanwhile
+    const earlier = jobs.filter((job) => job.robot === robot.id && job.state === "successful");
     const list = [
       ["", "itself, identified anew"],
-      known.robot.description.prior ? ["prior", "the bodies of its description"] : null,
-      ...jobs.map((job) => [
+      robot.description.prior ? ["prior", "the bodies of its description"] : null,
+      ...earlier.map((job) => [
         job.id,
         `its ${job.kind === "diagnose" ? "diagnosis" : "identification"} of ${ago(job.created_at)}`,
       ]),

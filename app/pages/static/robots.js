@@ -21,35 +21,35 @@ export function chooseRobot(container, { wanted, chosen }) {
   const layout = element("div", { class: "split" }, element("div", { class: "stack" }, form, said), figure);
   fill(container, segments("How to choose the robot", WAYS, "list", turn), layout);
   let drawn = null;
-  let names = [];
+  let now = "list";
   turn("list");
 
-  function turn(way) {
+  async function turn(way) {
+    now = way;
     fill(said);
     layout.classList.toggle("stacked", way === "table");
-    ({ list: showList, table: showTable, urdf: showUrdf })[way]();
-  }
-
-  async function showList() {
-    try {
-      names = (await get("/v1/robots?limit=1000")).robots;
-    } catch (error) {
-      showError(said, error);
+    if (way === "urdf") {
+      use(null);
+      showUrdf();
       return;
     }
-    const choices = [
-      ["", "Choose a robot"],
-      ...names.map((one) => [
-        one.id,
-        `${one.name} (${plural("joint", one.joints)})${one.built_in ? ", built in" : ""}`,
-      ]),
-    ];
-    const known = names.some((one) => one.id === wanted) ? wanted : "";
-    fill(
-      form,
-      field("Robot", menu(choices, known, read), "Built-in robots first, then those that were described here."),
-    );
-    if (known) await read(known);
+    try {
+      const { robots } = await get("/v1/robots?limit=1000");
+      if (now === way) ({ list: showList, table: showTable })[way](robots);
+    } catch (error) {
+      showError(said, error);
+    }
+  }
+
+  function showList(robots) {
+    const entries = robots.map((one) => [
+      one.id,
+      `${one.name} (${plural("joint", one.joints)})${one.built_in ? ", built in" : ""}`,
+    ]);
+    const first = robots.some((one) => one.id === wanted) ? wanted : "";
+    const list = menu([["", "Choose a robot"], ...entries], first, read);
+    fill(form, field("Robot", list, "Built-in robots first, then those that were described here."));
+    read(first);
   }
 
   async function read(id) {
@@ -64,10 +64,10 @@ export function chooseRobot(container, { wanted, chosen }) {
     }
   }
 
-  function showTable() {
-    chosen(null);
+  function showTable(robots) {
+    use(null);
     robotTable(form, {
-      known: names,
+      known: robots,
       changed: draw,
       finished: async (description, refused) => {
         try {
