@@ -2,10 +2,11 @@ import hashlib
 import json
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 
-from app.pages.files import STATIC
+from app.pages.files import EXAMPLE_LOGS, STATIC
 from app.schemas.examples import EXAMPLE_LOG_ID, HIDDEN_LOG_ID
 from app.store.logs import log_id
 from tests.app.conftest import assert_problem, service
@@ -131,3 +132,13 @@ def test_a_page_trusts_no_text_of_the_address(client, path):
 def test_the_example_of_the_start_page_is_the_log_that_ships(client, served, name, identity):
     content = client.get(f"/static/{served}").content
     assert log_id(sha256=hashlib.sha256(content).hexdigest(), name=name, mapping=None) == identity
+
+
+@pytest.mark.parametrize("name", EXAMPLE_LOGS.values())
+def test_the_image_takes_the_example_along(name):
+    docker = Path(__file__).parents[2] / "docker"
+    assert (
+        f"examples/yumi/{name}"
+        in re.search(r"^COPY examples.*$", (docker / "Dockerfile").read_text(), re.MULTILINE)[0]
+    )
+    assert f"!examples/yumi/{name}" in (docker / "Dockerfile.dockerignore").read_text().split()

@@ -258,7 +258,7 @@ export function robotTable(container, { known, changed, finished }) {
       fill(note, "Its couplings and believed bodies are not taken over: describe them to the API.");
     }
     rows = rowsOf(description);
-    gravity.value = description.gravity.join(", ");
+    gravity.value = description.gravity.map((value) => Number(value.toPrecision(7))).join(", ");
     name.value = `${description.name} copy`;
     show();
   }
