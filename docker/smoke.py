@@ -42,6 +42,8 @@ def main() -> None:
     with subprocess.Popen([sys.executable, "-m", "app", "serve"]) as service:
         try:
             wait()
+            with urllib.request.urlopen(ADDRESS + "/static/example-log.csv") as example:  # noqa: S310 - our own
+                print(f"the example of the start page has {len(example.read())} bytes")
             named = ask("/v1/robots", json.dumps(robot).encode(), Content_Type="application/json")
             logged = ask("/v1/logs", log(), Content_Type="text/csv")
             asked = {"kind": "identify", "robot": named["id"], "logs": [logged["id"]], "options": {}}

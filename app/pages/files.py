@@ -4,6 +4,7 @@ Pages are plain HTML and small ES modules, served as they were written; there is
 known by the hash of their bytes, so that a browser asks again and downloads only what changed.
 """
 
+import gzip
 import hashlib
 import sysconfig
 from dataclasses import dataclass
@@ -55,9 +56,14 @@ class PageFile:
         return MEDIA_TYPES[self.path.suffix]
 
     @cached_property
-    def etag(self) -> str:
-        """Name the file's bytes by their hash."""
-        return f'"{hashlib.sha256(self.content()).hexdigest()[:32]}"'
+    def sha256(self) -> str:
+        """Give the hash of the file's bytes."""
+        return hashlib.sha256(self.content()).hexdigest()
+
+    @cached_property
+    def packed(self) -> bytes:
+        """Give the file's bytes for browsers that unpack them."""
+        return gzip.compress(self.content(), mtime=0)
 
     def content(self) -> bytes:
         """Read the file."""

@@ -46,11 +46,17 @@ def docs_page() -> HTMLResponse:
 
 @ROUTER.get("/static/{name}")
 def static_file(name: str, request: Request) -> Response:
-    """Send one of the known files, unless the browser has it."""
+    """Send one of the known files, packed where that is understood, unless the browser has it."""
     if name not in STATIC:
         raise Problem("not-found", f"there is no file {name}", evidence={"known": list(STATIC)})
     file: PageFile = STATIC[name]
-    headers = {"ETag": file.etag, "Cache-Control": "no-cache"}
-    if matches(request.headers.get("if-none-match"), file.etag):
+    packed = "gzip" in request.headers.get("accept-encoding", "")
+    etag = f'"{file.sha256}-gzip"' if packed else f'"{file.sha256}"'
+    headers = {"ETag": etag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
+    if matches(request.headers.get("if-none-match"), etag):
         return Response(status_code=304, headers=headers)
+    if packed:
+        return Response(
+            file.packed, media_type=file.media_type, headers=headers | {"Content-Encoding": "gzip"}
+        )
     return Response(file.content(), media_type=file.media_type, headers=headers)

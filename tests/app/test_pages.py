@@ -2,10 +2,11 @@ import hashlib
 import json
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 
-from app.pages.files import STATIC
+from app.pages.files import EXAMPLE_LOGS, STATIC
 from app.schemas.examples import EXAMPLE_LOG_ID, HIDDEN_LOG_ID
 from app.store.logs import log_id
 from tests.app.conftest import assert_problem, service
@@ -107,6 +108,14 @@ def test_a_browser_that_has_a_file_is_told_so(client):
     assert client.get("/static/plot.js", headers=known).status_code == 200
 
 
+def test_a_file_travels_packed_to_who_can_unpack_it(client):
+    plain = client.get("/static/swagger-ui-bundle.js", headers={"Accept-Encoding": "identity"})
+    packed = client.get("/static/swagger-ui-bundle.js", headers={"Accept-Encoding": "gzip"})
+    assert packed.content == plain.content
+    assert int(packed.headers["content-length"]) < 0.4 * int(plain.headers["content-length"])
+    assert packed.headers["etag"] != plain.headers["etag"]
+
+
 @pytest.mark.parametrize("path", PAGES)
 def test_a_page_trusts_no_text_of_the_address(client, path):
     assert_problem(client.get(path, headers={"Host": "<script>alert(1)</script>"}), 421, "wrong-host")
@@ -123,3 +132,13 @@ def test_a_page_trusts_no_text_of_the_address(client, path):
 def test_the_example_of_the_start_page_is_the_log_that_ships(client, served, name, identity):
     content = client.get(f"/static/{served}").content
     assert log_id(sha256=hashlib.sha256(content).hexdigest(), name=name, mapping=None) == identity
+
+
+@pytest.mark.parametrize("name", EXAMPLE_LOGS.values())
+def test_the_image_takes_the_example_along(name):
+    docker = Path(__file__).parents[2] / "docker"
+    assert (
+        f"examples/yumi/{name}"
+        in re.search(r"^COPY examples.*$", (docker / "Dockerfile").read_text(), re.MULTILINE)[0]
+    )
+    assert f"!examples/yumi/{name}" in (docker / "Dockerfile.dockerignore").read_text().split()

@@ -161,7 +161,7 @@ def test_a_log_of_another_number_of_joints_cannot_be_started_with(look, service,
     page.set_input_files("#log input[type=file]", holed_log)
     page.get_by_text("holed.csv has 2 joints, yumi-left has 7.").wait_for()
     assert page.get_by_role("button", name="Start").is_disabled()
-    page.get_by_role("button", name="Take holed.csv out").click()
+    page.get_by_role("button", name="Take out holed.csv").click()
     page.get_by_text("Still to do: add a log.").wait_for()
 
 

@@ -71,7 +71,12 @@ export function follow(link) {
 /** Turn whatever was thrown into a problem document. */
 export function problemFrom(error) {
   if (error instanceof ProblemError) return error.problem;
-  return { title: "The page made a mistake", cause: String(error?.message ?? error), evidence: {}, remedy: "reload the page" };
+  return {
+    title: "The page made a mistake",
+    cause: String(error?.message ?? error),
+    evidence: {},
+    remedy: "reload the page",
+  };
 }
 
 async function answered(promise) {
@@ -88,9 +93,12 @@ function sent(path, file, mediaType, told, signal) {
     const exchange = new XMLHttpRequest(); // fetch does not tell how much of a body was sent
     exchange.open("POST", path);
     exchange.responseType = "json";
-    for (const [name, value] of Object.entries({ "Content-Type": mediaType, ...keyHeaders() })) exchange.setRequestHeader(name, value);
+    for (const [name, value] of Object.entries({ "Content-Type": mediaType, ...keyHeaders() }))
+      exchange.setRequestHeader(name, value);
     exchange.upload.addEventListener("progress", (event) => told(event.total ? event.loaded / event.total : 0));
-    exchange.addEventListener("load", () => resolve({ status: exchange.status, document: exchange.response ?? silence() }));
+    exchange.addEventListener("load", () =>
+      resolve({ status: exchange.status, document: exchange.response ?? silence() }),
+    );
     exchange.addEventListener("error", () => reject(new ProblemError(silence())));
     exchange.addEventListener("abort", () => reject(new DOMException("given up", "AbortError")));
     signal?.addEventListener("abort", () => exchange.abort());
@@ -102,7 +110,12 @@ async function problemOf(response) {
   try {
     return await response.json();
   } catch {
-    return { title: "The answer cannot be read", cause: `the service answered ${response.status} without a word`, evidence: {}, remedy: "try again" };
+    return {
+      title: "The answer cannot be read",
+      cause: `the service answered ${response.status} without a word`,
+      evidence: {},
+      remedy: "try again",
+    };
   }
 }
 

@@ -1,6 +1,18 @@
 // Draw a robot as a stick figure that can be turned and posed: links as rods, joints as barrels or slides, bodies as ellipsoids.
 import { element, fill, svg } from "./dom.js";
-import { add, apply, column, IDENTITY, movingJoints, multiply, place, rangeOf, times, transposed, turnZ } from "./kinematics.js";
+import {
+  add,
+  apply,
+  IDENTITY,
+  movingJoints,
+  multiply,
+  place,
+  rangeOf,
+  times,
+  transposed,
+  turnZ,
+} from "./kinematics.js";
+import { barrel, ellipsoid, floor, label, rods, triad } from "./shapes.js";
 import { number, plural } from "./words.js";
 
 const HALF = 100; // the drawing reaches from -HALF to HALF
@@ -22,10 +34,27 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
   let fit = null;
   const view = { yaw: -0.9, pitch: 0.32, zoom: 1 };
   const drawing = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, role: "img" });
-  const stage = element("div", { class: "stage3d", tabindex: "0", role: "group", "aria-label": "Figure of the robot. The arrow keys turn it, plus and minus zoom." }, drawing);
+  const stage = element(
+    "div",
+    {
+      class: "stage3d",
+      tabindex: "0",
+      role: "group",
+      "aria-label": "Figure of the robot. The arrow keys turn it, plus and minus zoom.",
+    },
+    drawing,
+  );
   const panel = element("div", { class: "sliders" });
-  fill(container, element("div", { class: "chain" }, stage,
-    element("p", { class: "hint" }, "Drag to turn it, or focus it and use the arrow keys."), panel));
+  fill(
+    container,
+    element(
+      "div",
+      { class: "chain" },
+      stage,
+      element("p", { class: "hint" }, "Drag to turn it, or focus it and use the arrow keys."),
+      panel,
+    ),
+  );
   stage.addEventListener("pointerdown", turn);
   stage.addEventListener("keydown", steer);
   stage.addEventListener("wheel", wheel, { passive: false });
@@ -33,12 +62,20 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
   return { update, destroy: () => fill(container) };
 
   function update(changed) {
-    const before = movingJoints(robot).map((joint) => joint.type).join();
+    const before = movingJoints(robot)
+      .map((joint) => joint.type)
+      .join();
     robot = changed;
     const joints = movingJoints(robot);
-    if (pose.length !== joints.length || before !== joints.map((joint) => joint.type).join()) pose = joints.map(resting);
+    if (pose.length !== joints.length || before !== joints.map((joint) => joint.type).join())
+      pose = joints.map(resting);
     fit = ball(place(robot, pose).flatMap((one) => one.path));
-    if (sliders) fill(panel, joints.map(slider), joints.length ? element("button", { type: "button", class: "tiny", on: { click: rest } }, "Zero pose") : null);
+    if (sliders)
+      fill(
+        panel,
+        joints.map(slider),
+        joints.length ? element("button", { type: "button", class: "tiny", on: { click: rest } }, "Zero pose") : null,
+      );
     draw();
   }
 
@@ -51,18 +88,46 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
     const [low, high] = rangeOf(joint);
     const turning = joint.type === "revolute";
     const shown = element("output", { class: "soft" });
-    const told = () => { shown.textContent = turning ? `${Math.round((pose[index] * 180) / Math.PI)}°` : `${number(pose[index], 3)} m`; };
+    const told = () => {
+      shown.textContent = turning ? `${Math.round((pose[index] * 180) / Math.PI)}°` : `${number(pose[index], 3)} m`;
+    };
     const id = `joint-${index + 1}-slider`;
-    const input = element("input", { type: "range", id, min: low, max: high, step: (high - low) / 200, on: { input: () => { pose[index] = input.valueAsNumber; told(); draw(); } } });
+    const input = element("input", {
+      type: "range",
+      id,
+      min: low,
+      max: high,
+      step: (high - low) / 200,
+      on: {
+        input: () => {
+          pose[index] = input.valueAsNumber;
+          told();
+          draw();
+        },
+      },
+    });
     input.value = pose[index];
     told();
-    return element("div", { class: "slider" }, element("label", { for: id }, joint.name ?? `joint ${index + 1}`), input, shown);
+    return element(
+      "div",
+      { class: "slider" },
+      element("label", { for: id }, joint.name ?? `joint ${index + 1}`),
+      input,
+      shown,
+    );
   }
 
   function draw() {
     const places = place(robot, pose);
     const upright = uprightBy(robot.gravity ?? [0, 0, -1]);
-    const view3 = multiply([[1, 0, 0], [0, Math.sin(view.pitch), Math.cos(view.pitch)], [0, -Math.cos(view.pitch), Math.sin(view.pitch)]], turnZ(view.yaw));
+    const view3 = multiply(
+      [
+        [1, 0, 0],
+        [0, Math.sin(view.pitch), Math.cos(view.pitch)],
+        [0, -Math.cos(view.pitch), Math.sin(view.pitch)],
+      ],
+      turnZ(view.yaw),
+    );
     const camera = multiply(view3, upright);
     const { middle, radius } = fit;
     const scale = (view.zoom * HALF * 0.92) / radius;
@@ -79,7 +144,10 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
       triad({ rotation: IDENTITY, origin: [0, 0, 0] }, size * 1.8, flat),
       ...ends(robot, places).map((one) => triad(one, size * 2.2, flat)),
     ].sort((a, b) => a.depth - b.depth);
-    drawing.replaceChildren(...shapes.map((shape) => shape.node), ...places.map((one, index) => label(index + 1, one, size, flat)));
+    drawing.replaceChildren(
+      ...shapes.map((shape) => shape.node),
+      ...places.map((one, index) => label(index + 1, one, size, flat)),
+    );
     drawing.setAttribute("aria-label", described(robot, places));
   }
 
@@ -99,8 +167,12 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
 
   function steer(event) {
     const actions = {
-      ArrowLeft: () => { view.yaw -= STEP; },
-      ArrowRight: () => { view.yaw += STEP; },
+      ArrowLeft: () => {
+        view.yaw -= STEP;
+      },
+      ArrowRight: () => {
+        view.yaw += STEP;
+      },
       ArrowUp: () => tilt(STEP),
       ArrowDown: () => tilt(-STEP),
       "+": () => zoom(1.2),
@@ -150,66 +222,18 @@ function uprightBy(gravity) {
   const strength = Math.hypot(...gravity);
   if (strength < 1e-9) return IDENTITY;
   const [x, y, z] = times(gravity, -1 / strength);
-  if (z < -1 + 1e-9) return [[1, 0, 0], [0, -1, 0], [0, 0, -1]];
+  if (z < -1 + 1e-9)
+    return [
+      [1, 0, 0],
+      [0, -1, 0],
+      [0, 0, -1],
+    ];
   const k = 1 / (1 + z);
-  return [[1 - x * x * k, -x * y * k, -x], [-x * y * k, 1 - y * y * k, -y], [x, y, z]];
-}
-
-function pathOf(points) {
-  return points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
-}
-
-/** The floor lies level, under the base: `level` leads from level coordinates to those of the base frame. */
-function floor(radius, level, flat) {
-  const lines = [-2, -1, 0, 1, 2].flatMap((step) => {
-    const [at, end] = [step * radius * 0.25, radius * 0.5];
-    return [[[at, -end, 0], [at, end, 0]], [[-end, at, 0], [end, at, 0]]];
-  });
-  return { depth: -Infinity, node: svg("path", { class: "floor", d: lines.map((ends) => pathOf(ends.map((end) => flat(apply(level, end))))).join("") }) };
-}
-
-function rods(one, index, flat) {
-  return one.path.slice(1).map((corner, step) => {
-    const ends = [flat(one.path[step]), flat(corner)];
-    return { depth: (ends[0][2] + ends[1][2]) / 2, node: svg("path", { class: `rod rod-${(index % 2) + 1}`, d: pathOf(ends) }) };
-  });
-}
-
-/** A joint: a barrel about its axis, or a bar along it. */
-function barrel(joint, index, one, { size, camera, scale, flat }) {
-  const axis = column(one.rotation, 2);
-  const half = joint.type === "prismatic" ? 1.5 * size : size;
-  const ends = [-half, half].map((reach) => flat(add(one.origin, times(axis, reach))));
-  const seen = apply(camera, axis);
-  const [far, near] = seen[2] >= 0 ? ends : [...ends].reverse();
-  const radius = size * scale * (joint.type === "prismatic" ? 0.45 : 0.75);
-  const turn = `rotate(${((Math.atan2(-seen[1], seen[0]) * 180) / Math.PI).toFixed(1)})`;
-  const cap = (at, name) => svg("ellipse", { class: name, rx: Math.max(radius * Math.abs(seen[2]), 0.2).toFixed(2), ry: radius.toFixed(2), transform: `translate(${at[0].toFixed(2)} ${at[1].toFixed(2)}) ${turn}` });
-  const node = svg("g", { class: `joint ${joint.type}` }, cap(far, "side"), svg("path", { d: pathOf(ends), "stroke-width": (2 * radius).toFixed(2) }), cap(near, "cap"),
-    svg("title", {}, `${joint.name ?? `joint ${index + 1}`}, ${joint.type}`));
-  return { depth: flat(one.origin)[2] + half / 2, node };
-}
-
-function triad(one, size, flat) {
-  const axes = [0, 1, 2].map((index) => svg("path", { class: `axis axis-${"xyz"[index]}`, d: pathOf([flat(one.origin), flat(add(one.origin, times(column(one.rotation, index), size)))]) }));
-  return { depth: flat(one.origin)[2] + 2e-3, node: svg("g", {}, axes) };
-}
-
-function label(text, one, size, flat) {
-  const [x, y] = flat(add(one.origin, times(column(one.rotation, 2), 1.7 * size)));
-  return svg("text", { class: "number", x: x.toFixed(2), y: (y + 2).toFixed(2) }, String(text));
-}
-
-/** The outline of an ellipsoid seen from afar is an ellipse: of A = camera rotation axes, the first two rows of A A'. */
-function ellipsoid(body, one, camera, scale, flat) {
-  const seen = multiply(camera, multiply(one.rotation, body.axes));
-  const [xx, xy, yy] = [[0, 0], [0, 1], [1, 1]].map(([a, b]) => seen[a].reduce((sum, value, k) => sum + value * seen[b][k], 0));
-  const [mean, half] = [(xx + yy) / 2, Math.hypot((xx - yy) / 2, xy)];
-  const [long, shortest] = [Math.sqrt(mean + half), Math.sqrt(Math.max(mean - half, 0))];
-  const angle = (-Math.atan2(2 * xy, xx - yy) / 2) * (180 / Math.PI);
-  const [x, y, depth] = flat(add(one.origin, apply(one.rotation, body.centre)));
-  const node = svg("ellipse", { class: `body body-${((body.link - 1) % 7) + 1}`, rx: (long * scale).toFixed(2), ry: (shortest * scale).toFixed(2), transform: `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${angle.toFixed(2)})` }, svg("title", {}, body.label));
-  return { depth, node };
+  return [
+    [1 - x * x * k, -x * y * k, -x],
+    [-x * y * k, 1 - y * y * k, -y],
+    [x, y, z],
+  ];
 }
 
 /** The frames that carry no other: the ends of the chain or of the tree's branches. */

@@ -48,9 +48,17 @@ export function showChannels(container, log) {
     clear();
     const start = traces.time.values[0];
     const x = { label: "time", unit: "s", values: traces.time.values.map((stamp) => stamp - start) };
-    const thinned = traces.rows_per_stretch > 1 ? `Each point pair holds the extremes of ${traces.rows_per_stretch} samples.` : "";
-    fill(container, element("p", { class: "hint" }, `Does every plot look like the motion you know? Drag over a plot to zoom, press Escape on it to see all. ${thinned}`),
-      log.channels.map((channel) => group(channel, x, start)));
+    const thinned =
+      traces.rows_per_stretch > 1 ? `Each point pair holds the extremes of ${traces.rows_per_stretch} samples.` : "";
+    fill(
+      container,
+      element(
+        "p",
+        { class: "hint" },
+        `Does every plot look like the motion you know? Drag over a plot to zoom, press Escape on it to see all. ${thinned}`,
+      ),
+      log.channels.map((channel) => group(channel, x, start)),
+    );
   }
 
   function group(channel, x, start) {
@@ -58,28 +66,36 @@ export function showChannels(container, log) {
     const own = traces.traces.filter((trace) => trace.channel === channel);
     const open = AT_ONCE.includes(channel);
     const box = element("details", { class: "channel", open }, element("summary", {}, capital(channel)), grid);
-    const drawAll = () => own.forEach((trace) => {
-      const place = element("div", {});
-      grid.append(place);
-      plots.push(draw(place, {
-        title: `${capital(channel)} of joint ${trace.joint}`,
-        unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type),
-        x,
-        traces: [{ label: channel, values: trace.values, colour: channel === "position" ? 1 : 2 }],
-        height: HEIGHT,
-        together: log.id,
-        marks: marksOf(channel, trace.joint, start),
-      }));
-    });
-    if (open) requestAnimationFrame(drawAll); // once the grid has its width
+    const drawAll = () =>
+      own.forEach((trace) => {
+        const place = element("div", {});
+        grid.append(place);
+        plots.push(
+          draw(place, {
+            title: `${capital(channel)} of joint ${trace.joint}`,
+            unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type),
+            x,
+            traces: [{ label: channel, values: trace.values, colour: channel === "position" ? 1 : 2 }],
+            height: HEIGHT,
+            together: log.id,
+            marks: marksOf(channel, trace.joint, start),
+          }),
+        );
+      });
+    if (open)
+      requestAnimationFrame(drawAll); // once the grid has its width
     else box.addEventListener("toggle", drawAll, { once: true });
     return box;
   }
 
   function marksOf(channel, joint, start) {
     return log.defects
-      .filter((defect) => (defect.channel === channel && (defect.joint ?? joint) === joint) || defect.channel === "time")
-      .flatMap((defect) => defect.intervals.map(([from, to]) => ({ from: from - start, to: to - start, label: defect.kind })))
+      .filter(
+        (defect) => (defect.channel === channel && (defect.joint ?? joint) === joint) || defect.channel === "time",
+      )
+      .flatMap((defect) =>
+        defect.intervals.map(([from, to]) => ({ from: from - start, to: to - start, label: defect.kind })),
+      )
       .filter((mark) => mark.to - mark.from < WHOLE * log.duration_s); // what concerns all of the log has no place in it
   }
 }

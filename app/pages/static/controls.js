@@ -20,25 +20,59 @@ export function field(label, control, hint = null) {
 /** A choice of one among a few, side by side. `choices` maps values to labels. */
 export function segments(legend, choices, value, changed) {
   const name = freshId("choice");
-  return element("fieldset", { class: "segments" }, element("legend", { class: "unseen" }, legend),
+  return element(
+    "fieldset",
+    { class: "switch" },
+    element("legend", { class: "unseen" }, legend),
     Object.entries(choices).map(([key, label]) => {
-      const input = element("input", { type: "radio", name, value: key, checked: key === value, on: { change: () => changed(key) } });
+      const input = element("input", {
+        type: "radio",
+        name,
+        value: key,
+        checked: key === value,
+        on: { change: () => changed(key) },
+      });
       return element("label", {}, input, element("span", {}, label));
-    }));
+    }),
+  );
 }
 
 /** A menu. `choices` are pairs of value and label; `value` is the one that stands first. */
 export function menu(choices, value, changed, attributes = {}) {
-  const made = element("select", { ...attributes, on: { change: () => changed(made.value) } },
-    choices.map(([key, label]) => element("option", { value: key, selected: key === value }, label)));
+  const made = element(
+    "select",
+    { ...attributes, on: { change: () => changed(made.value) } },
+    choices.map(([key, label]) => element("option", { value: key, selected: key === value }, label)),
+  );
   return made;
 }
 
 /** A place to drop files on, or to choose them with a click or a key. */
 export function dropZone(label, hint, accept, taken) {
-  const input = element("input", { type: "file", class: "unseen", accept, on: { change: () => { give(input.files); input.value = ""; } } });
-  const zone = element("label", { class: "drop" }, input, element("strong", {}, label), element("span", { class: "hint" }, hint));
-  for (const [event, over] of [["dragenter", true], ["dragover", true], ["dragleave", false], ["drop", false]]) {
+  const input = element("input", {
+    type: "file",
+    class: "unseen",
+    accept,
+    on: {
+      change: () => {
+        give(input.files);
+        input.value = "";
+      },
+    },
+  });
+  const zone = element(
+    "label",
+    { class: "drop" },
+    input,
+    element("strong", {}, label),
+    element("span", { class: "hint" }, hint),
+  );
+  for (const [event, over] of [
+    ["dragenter", true],
+    ["dragover", true],
+    ["dragleave", false],
+    ["drop", false],
+  ]) {
     zone.addEventListener(event, (happened) => {
       happened.preventDefault();
       zone.classList.toggle("over", over);
@@ -56,6 +90,7 @@ export function dropZone(label, hint, accept, taken) {
 export function readNumber(text) {
   const written = text.trim().replace(",", ".").replaceAll("−", "-");
   const turn = /^([-+]?)(\d*\.?\d*)\s*\*?\s*(?:pi|π)(?:\s*\/\s*(\d+\.?\d*))?$/i.exec(written);
-  if (turn) return (turn[1] === "-" ? -1 : 1) * (turn[2] === "" ? 1 : Number(turn[2])) * Math.PI / Number(turn[3] ?? 1);
+  if (turn)
+    return ((turn[1] === "-" ? -1 : 1) * (turn[2] === "" ? 1 : Number(turn[2])) * Math.PI) / Number(turn[3] ?? 1);
   return written === "" ? NaN : Number(written);
 }

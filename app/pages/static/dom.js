@@ -18,7 +18,9 @@ export function svg(tag, attributes = {}, ...children) {
 
 /** Put other children into an element. */
 export function fill(container, ...children) {
-  container.replaceChildren(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  container.replaceChildren(
+    ...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false),
+  );
   return container;
 }
 

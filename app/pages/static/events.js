@@ -26,7 +26,11 @@ export async function followJob(id, told, signal) {
         if (event.event === "end") return job;
       }
     } catch (error) {
-      if (error.name === "AbortError" || (error instanceof ProblemError && error.problem.status && error.problem.status < 500)) throw error;
+      if (
+        error.name === "AbortError" ||
+        (error instanceof ProblemError && error.problem.status && error.problem.status < 500)
+      )
+        throw error;
     }
     await new Promise((resolve) => setTimeout(resolve, COME_BACK_MS)); // the service was restarted, or the line broke
   }
@@ -38,10 +42,15 @@ async function* eventsOf(body) {
     const blocks = (rest + piece).split("\n\n");
     rest = blocks.pop();
     for (const block of blocks) {
-      const fields = Object.fromEntries(block.split("\n").filter((line) => !line.startsWith(":")).map((line) => {
-        const colon = line.indexOf(":");
-        return [line.slice(0, colon), line.slice(colon + 1).trimStart()];
-      }));
+      const fields = Object.fromEntries(
+        block
+          .split("\n")
+          .filter((line) => !line.startsWith(":"))
+          .map((line) => {
+            const colon = line.indexOf(":");
+            return [line.slice(0, colon), line.slice(colon + 1).trimStart()];
+          }),
+      );
       if (fields.data) yield fields;
     }
   }

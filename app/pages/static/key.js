@@ -21,21 +21,44 @@ export function hasKey() {
  * @returns {Promise<boolean>} whether one was given
  */
 export function askForKey(problem) {
-  asking ??= dialog(problem).finally(() => { asking = null; });
+  asking ??= dialog(problem).finally(() => {
+    asking = null;
+  });
   return asking;
 }
 
 function dialog(problem) {
-  const field = element("input", { type: "password", id: "key", required: true, autocomplete: "current-password", spellcheck: "false" });
-  const box = element("dialog", { "aria-labelledby": "key-title" },
-    element("form", { method: "dialog" },
+  const field = element("input", {
+    type: "password",
+    id: "key",
+    required: true,
+    autocomplete: "current-password",
+    spellcheck: "false",
+  });
+  const box = element(
+    "dialog",
+    { "aria-labelledby": "key-title" },
+    element(
+      "form",
+      { method: "dialog" },
       element("h2", { id: "key-title" }, "This service asks for a key"),
-      element("p", {}, `${capital(problem.cause)}. The operator makes one with `, element("code", {}, "veritorque keys create"),
-        ". It is kept until this tab is closed."),
-      element("label", { for: "key" }, "Key"), field,
-      element("div", { class: "actions" },
+      element(
+        "p",
+        {},
+        `${capital(problem.cause)}. The operator makes one with `,
+        element("code", {}, "veritorque keys create"),
+        ". It is kept until this tab is closed.",
+      ),
+      element("label", { for: "key" }, "Key"),
+      field,
+      element(
+        "div",
+        { class: "actions" },
         element("button", { class: "primary", value: "use" }, "Use this key"),
-        element("button", { type: "button", class: "quiet", on: { click: () => box.close("") } }, "Cancel"))));
+        element("button", { type: "button", class: "quiet", on: { click: () => box.close("") } }, "Cancel"),
+      ),
+    ),
+  );
   document.body.append(box);
   box.showModal();
   return new Promise((resolve) => {

@@ -2,7 +2,11 @@
 // Source: Khalil & Kleinfinger, ICRA 1986; T = Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r).
 
 /** No rotation. */
-export const IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+export const IDENTITY = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
 
 /** The joints that move by themselves: those that mimic no other. */
 export function movingJoints(description) {
@@ -22,7 +26,10 @@ export function place(description, coordinates) {
   description.joints.forEach((joint, index) => {
     const owner = joint.mimics ? owners.findIndex((one) => one.name === joint.mimics) : owners.indexOf(joint);
     const moved = (joint.ratio ?? 1) * (coordinates[owner] ?? 0) + (joint.offset ?? 0);
-    const carrier = (joint.antecedent ?? index) === 0 ? { rotation: IDENTITY, origin: [0, 0, 0] } : places[(joint.antecedent ?? index) - 1];
+    const carrier =
+      (joint.antecedent ?? index) === 0
+        ? { rotation: IDENTITY, origin: [0, 0, 0] }
+        : places[(joint.antecedent ?? index) - 1];
     const own = joint.rotation ? byFrame(joint, moved) : byRow(joint, moved);
     const inBase = (point) => add(carrier.origin, apply(carrier.rotation, point));
     places.push({
@@ -51,7 +58,9 @@ export function add(a, b) {
 
 /** The product of two matrices. */
 export function multiply(a, b) {
-  return a.map((row) => [0, 1, 2].map((column) => row[0] * b[0][column] + row[1] * b[1][column] + row[2] * b[2][column]));
+  return a.map((row) =>
+    [0, 1, 2].map((column) => row[0] * b[0][column] + row[1] * b[1][column] + row[2] * b[2][column]),
+  );
 }
 
 /** The column of a matrix, as a vector. */
@@ -67,13 +76,21 @@ export function transposed(matrix) {
 /** Turn about x by an angle in rad. */
 export function turnX(angle) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
-  return [[1, 0, 0], [0, c, -s], [0, s, c]];
+  return [
+    [1, 0, 0],
+    [0, c, -s],
+    [0, s, c],
+  ];
 }
 
 /** Turn about z by an angle in rad. */
 export function turnZ(angle) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
-  return [[c, -s, 0], [s, c, 0], [0, 0, 1]];
+  return [
+    [c, -s, 0],
+    [s, c, 0],
+    [0, 0, 1],
+  ];
 }
 
 /** A vector times a number. */
@@ -93,5 +110,8 @@ function byRow(joint, moved) {
 
 function byFrame(joint, moved) {
   if (joint.type === "revolute") return { rotation: multiply(joint.rotation, turnZ(moved)), path: [joint.translation] };
-  return { rotation: joint.rotation, path: [joint.translation, add(joint.translation, times(column(joint.rotation, 2), moved))] };
+  return {
+    rotation: joint.rotation,
+    path: [joint.translation, add(joint.translation, times(column(joint.rotation, 2), moved))],
+  };
 }

@@ -22,9 +22,19 @@ export function chooseLogs(container, { wanted = [], chosen }) {
   const earlier = element("div", {});
   const logs = new Map();
   let robot = null;
-  fill(container,
-    element("div", { class: "split even" }, dropZone("Drop a log here", "or choose the file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) => take(file, null)), earlier),
-    said, cards);
+  fill(
+    container,
+    element(
+      "div",
+      { class: "split even" },
+      dropZone("Drop a log here", "or choose the file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) =>
+        take(file, null),
+      ),
+      earlier,
+    ),
+    said,
+    cards,
+  );
   offerEarlier();
   for (const id of wanted) read(id);
   return {
@@ -38,8 +48,14 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     try {
       const known = (await get(`/v1/logs?limit=${LISTED}`)).logs;
       if (!known.length) return;
-      const choices = [["", "Choose a log"], ...known.map((log) => [log.id, `${log.name} (${plural("joint", log.joints)}, ${duration(log.duration_s)})`])];
-      const list = menu(choices, "", (id) => { if (id) read(id); list.value = ""; });
+      const choices = [
+        ["", "Choose a log"],
+        ...known.map((log) => [log.id, `${log.name} (${plural("joint", log.joints)}, ${duration(log.duration_s)})`]),
+      ];
+      const list = menu(choices, "", (id) => {
+        if (id) read(id);
+        list.value = "";
+      });
       fill(earlier, field("Or one that is here already", list));
     } catch (error) {
       showError(said, error);
@@ -60,7 +76,8 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     fill(said, element("div", { class: "upload" }, words, bar));
     const told = (fraction) => {
       bar.value = fraction;
-      words.textContent = fraction < 1 ? `Uploading ${file.name}: ${percent(fraction)} of ${bytes(file.size)}` : `Reading ${file.name} …`;
+      words.textContent =
+        fraction < 1 ? `Uploading ${file.name}: ${percent(fraction)} of ${bytes(file.size)}` : `Reading ${file.name} …`;
     };
     const query = new URLSearchParams({ name: file.name });
     if (mapping !== null) query.set("mapping", JSON.stringify(mapping));
@@ -75,10 +92,14 @@ export function chooseLogs(container, { wanted = [], chosen }) {
   }
 
   async function offerMapping(file, place, problem) {
-    const columns = await columnsOf(file) ?? problem?.evidence?.columns ?? [];
+    const columns = (await columnsOf(file)) ?? problem?.evidence?.columns ?? [];
     const form = element("div", {});
     place.append(form);
-    mappingForm(form, { columns, readings: problem?.evidence?.plausible_readings ?? {}, finished: (mapping) => take(file, mapping) });
+    mappingForm(form, {
+      columns,
+      readings: problem?.evidence?.plausible_readings ?? {},
+      finished: (mapping) => take(file, mapping),
+    });
   }
 
   function keep(log, file) {
@@ -86,12 +107,35 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     if (known) known.card.remove();
     const plots = element("div", { class: "stack" });
     const again = element("div", {});
-    const card = element("article", { class: "log", "aria-label": `Log ${log.name}` },
-      element("div", { class: "row spread" }, element("h3", {}, log.name),
-        element("span", { class: "row" },
-          file === null ? null : element("button", { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null) } }, "Map the columns otherwise"),
-          element("button", { type: "button", class: "tiny", "aria-label": `Take ${log.name} out`, on: { click: remove } }, "Take out"))),
-      facts(log), again, defects(log), plots);
+    const card = element(
+      "article",
+      { class: "log", "aria-label": `Log ${log.name}` },
+      element(
+        "div",
+        { class: "row spread" },
+        element("h3", {}, log.name),
+        element(
+          "span",
+          { class: "row" },
+          file === null
+            ? null
+            : element(
+                "button",
+                { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null) } },
+                "Map the columns otherwise",
+              ),
+          element(
+            "button",
+            { type: "button", class: "tiny", "aria-label": `Take out ${log.name}`, on: { click: remove } },
+            "Take out",
+          ),
+        ),
+      ),
+      facts(log),
+      again,
+      defects(log),
+      plots,
+    );
     cards.append(card);
     const shown = showChannels(plots, log);
     logs.set(log.id, { card, log, redraw: () => shown.use(robot) });
@@ -115,12 +159,23 @@ function facts(log) {
     ["Read as", log.channels.join(", ")],
     log.ignored_columns.length ? ["Not used", log.ignored_columns.join(", ")] : null,
   ].filter(Boolean);
-  return element("dl", { class: "facts" }, rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  return element(
+    "dl",
+    { class: "facts" },
+    rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))),
+  );
 }
 
 function defects(log) {
   if (!log.defects.length) return element("p", { class: "sound" }, "No defects were found.");
-  return element("details", { class: "defects", open: log.defects.length <= 4 },
+  return element(
+    "details",
+    { class: "defects", open: log.defects.length <= 4 },
     element("summary", {}, `${plural("defect", log.defects.length)} found, marked where they have a place`),
-    element("ul", {}, log.defects.map((defect) => element("li", {}, element("strong", {}, plain(defect.kind)), ` ${defect.statement}`))));
+    element(
+      "ul",
+      {},
+      log.defects.map((defect) => element("li", {}, element("strong", {}, plain(defect.kind)), ` ${defect.statement}`)),
+    ),
+  );
 }

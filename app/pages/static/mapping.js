@@ -11,7 +11,13 @@ const UNITS = {
   current: ["A", "mA"],
   temperature: ["degC", "K"],
 };
-const PROFILES = { "ur-rtde": "Universal Robots, RTDE", franka: "Franka, libfranka", "ros-jointstate": "ROS, JointState", lerobot: "LeRobot", "abb-test-signal-viewer": "ABB, Test Signal Viewer" };
+const PROFILES = {
+  "ur-rtde": "Universal Robots, RTDE",
+  franka: "Franka, libfranka",
+  "ros-jointstate": "ROS, JointState",
+  lerobot: "LeRobot",
+  "abb-test-signal-viewer": "ABB, Test Signal Viewer",
+};
 const LIKELY = [
   ["time", /^t$|time|stamp|^sec/i],
   ["temperature", /temp/i],
@@ -30,7 +36,10 @@ export async function columnsOf(file) {
   const line = head.split(/\r?\n/).find((one) => one.trim() && !one.startsWith("#") && !one.startsWith("%"));
   if (!line) return null;
   const separator = [",", ";", "\t"].find((one) => line.includes(one)) ?? /\s+/;
-  return line.trim().split(separator).map((name) => name.trim().replace(/^"(.*)"$/, "$1"));
+  return line
+    .trim()
+    .split(separator)
+    .map((name) => name.trim().replace(/^"(.*)"$/, "$1"));
 }
 
 /**
@@ -41,7 +50,9 @@ export async function columnsOf(file) {
 export function mappingForm(container, { columns, readings, finished }) {
   const roles = columns.map((name) => (LIKELY.find(([, pattern]) => pattern.test(name)) ?? [""])[0]);
   const time = roles.indexOf("time");
-  roles.forEach((role, index) => { if (role === "time" && index !== time) roles[index] = ""; });
+  roles.forEach((role, index) => {
+    if (role === "time" && index !== time) roles[index] = "";
+  });
   const joints = columns.map(() => null);
   const units = {};
   const scales = {};
@@ -49,33 +60,144 @@ export function mappingForm(container, { columns, readings, finished }) {
   const body = element("tbody", {});
   const declared = element("div", { class: "fields" });
   const wrong = element("p", { class: "hint wrong", role: "status" });
-  fill(container, element("section", { class: "mapping", "aria-label": "Mapping of columns" },
-    element("h3", {}, "Say which column is what"),
-    field("A recorder's names", menu([["", "no, I say it below"], ...Object.entries(PROFILES)], "", (profile) => { if (profile) finished({ profile }); }), "its columns are known, and so are most of its units"),
-    element("div", { class: "wide tall", tabindex: "0", role: "group", "aria-label": "Columns of the file" }, element("table", {},
-      element("thead", {}, element("tr", {}, ["column", "is", "of joint"].map((name) => element("th", { scope: "col" }, name)))), body)),
-    declared,
-    element("div", { class: "actions" }, element("button", { type: "button", class: "primary", on: { click: finish } }, "Read the log so"), wrong)));
+  fill(
+    container,
+    element(
+      "section",
+      { class: "mapping", "aria-label": "Mapping of columns" },
+      element("h3", {}, "Say which column is what"),
+      field(
+        "A recorder's names",
+        menu([["", "no, I say it below"], ...Object.entries(PROFILES)], "", (profile) => {
+          if (profile) finished({ profile });
+        }),
+        "its columns are known, and so are most of its units",
+      ),
+      element(
+        "div",
+        { class: "wide tall", tabindex: "0", role: "group", "aria-label": "Columns of the file" },
+        element(
+          "table",
+          {},
+          element(
+            "thead",
+            {},
+            element(
+              "tr",
+              {},
+              ["column", "is", "of joint"].map((name) => element("th", { scope: "col" }, name)),
+            ),
+          ),
+          body,
+        ),
+      ),
+      declared,
+      element(
+        "div",
+        { class: "actions" },
+        element("button", { type: "button", class: "primary", on: { click: finish } }, "Read the log so"),
+        wrong,
+      ),
+    ),
+  );
   show();
 
   function show() {
     number();
-    fill(body, columns.map((name, index) => element("tr", {},
-      element("th", { scope: "row" }, name),
-      element("td", {}, menu([["", "not used"], ...CHANNELS.map((channel) => [channel, channel])], roles[index], (role) => { roles[index] = role; joints[index] = null; show(); }, { "aria-label": `What ${name} is` })),
-      element("td", {}, roles[index] && roles[index] !== "time"
-        ? element("input", { type: "number", min: 1, max: 64, value: joints[index], "aria-label": `Joint of ${name}`, on: { change: (event) => { joints[index] = event.target.valueAsNumber; } } })
-        : null))));
+    fill(
+      body,
+      columns.map((name, index) =>
+        element(
+          "tr",
+          {},
+          element("th", { scope: "row" }, name),
+          element(
+            "td",
+            {},
+            menu(
+              [["", "not used"], ...CHANNELS.map((channel) => [channel, channel])],
+              roles[index],
+              (role) => {
+                roles[index] = role;
+                joints[index] = null;
+                show();
+              },
+              { "aria-label": `What ${name} is` },
+            ),
+          ),
+          element(
+            "td",
+            {},
+            roles[index] && roles[index] !== "time"
+              ? element("input", {
+                  type: "number",
+                  min: 1,
+                  max: 64,
+                  value: joints[index],
+                  "aria-label": `Joint of ${name}`,
+                  on: {
+                    change: (event) => {
+                      joints[index] = event.target.valueAsNumber;
+                    },
+                  },
+                })
+              : null,
+          ),
+        ),
+      ),
+    );
     const used = CHANNELS.filter((channel) => roles.includes(channel));
-    fill(declared, used.map(unitField), roles.includes("time") ? null : field("Rate, Hz", element("input", { type: "text", inputmode: "decimal", value: rate, on: { input: (event) => { rate = event.target.value; } } }), "of uniform samples, where no column holds the time"));
+    fill(
+      declared,
+      used.map(unitField),
+      roles.includes("time")
+        ? null
+        : field(
+            "Rate, Hz",
+            element("input", {
+              type: "text",
+              inputmode: "decimal",
+              value: rate,
+              on: {
+                input: (event) => {
+                  rate = event.target.value;
+                },
+              },
+            }),
+            "of uniform samples, where no column holds the time",
+          ),
+    );
   }
 
   function unitField(channel) {
-    const hints = [...new Set(columns.filter((_, index) => roles[index] === channel).flatMap((name) => readings[name] ?? []))].filter((hint) => UNITS[channel].includes(hint.split(":")[0]));
-    const list = menu([["", "choose"], ...UNITS[channel].map((unit) => [unit, unit])], units[channel] ?? "", (unit) => { units[channel] = unit; wrong.textContent = ""; show(); });
-    const made = [field(`Unit of ${channel}`, list, hints.length ? `plausible: ${hints.slice(0, 2).join("; ")}` : null)];
+    const hints = [
+      ...new Set(columns.filter((_, index) => roles[index] === channel).flatMap((name) => readings[name] ?? [])),
+    ].filter((hint) => UNITS[channel].includes(hint.split(":")[0]));
+    const list = menu([["", "choose"], ...UNITS[channel].map((unit) => [unit, unit])], units[channel] ?? "", (unit) => {
+      units[channel] = unit;
+      wrong.textContent = "";
+      show();
+    });
+    const made = [
+      field(`Unit of ${channel}`, list, hints.length ? `plausible: ${hints.slice(0, 2).join("; ")}` : null),
+    ];
     if (units[channel] === "counts") {
-      made.push(field(`One count of ${channel}`, element("input", { type: "text", inputmode: "decimal", value: scales[channel] ?? "", on: { input: (event) => { scales[channel] = event.target.value; } } }), channel === "position" ? "in rad or m" : "in N m or N"));
+      made.push(
+        field(
+          `One count of ${channel}`,
+          element("input", {
+            type: "text",
+            inputmode: "decimal",
+            value: scales[channel] ?? "",
+            on: {
+              input: (event) => {
+                scales[channel] = event.target.value;
+              },
+            },
+          }),
+          channel === "position" ? "in rad or m" : "in N m or N",
+        ),
+      );
     }
     return made;
   }
@@ -95,7 +217,9 @@ export function mappingForm(container, { columns, readings, finished }) {
   function finish() {
     const mapping = {};
     for (const channel of CHANNELS) {
-      const own = columns.map((name, index) => ({ name, joint: joints[index], role: roles[index] })).filter((one) => one.role === channel);
+      const own = columns
+        .map((name, index) => ({ name, joint: joints[index], role: roles[index] }))
+        .filter((one) => one.role === channel);
       if (!own.length) continue;
       if (!units[channel]) {
         wrong.textContent = `Choose the unit of ${channel}: a wrong guess would be a wrong robot.`;

@@ -12,23 +12,38 @@ export function showError(container, error) {
 /** Draw a problem document. */
 export function problemBox(problem) {
   const evidence = Object.entries(problem.evidence ?? {});
-  return element("section", { class: "problem", role: "alert" },
+  return element(
+    "section",
+    { class: "problem", role: "alert" },
     element("h3", {}, problem.title),
     element("p", { class: "cause" }, sentence(problem.cause)),
-    problem.remedy ? element("p", { class: "remedy" }, element("strong", {}, "What to do: "), sentence(problem.remedy)) : null,
-    evidence.length ? element("details", {}, element("summary", {}, "What was seen"), list(problem.evidence)) : null);
+    problem.remedy
+      ? element("p", { class: "remedy" }, element("strong", {}, "What to do: "), sentence(problem.remedy))
+      : null,
+    evidence.length ? element("details", {}, element("summary", {}, "What was seen"), list(problem.evidence)) : null,
+  );
 }
 
 function list(object) {
-  return element("dl", { class: "evidence" },
-    Object.entries(object).map(([name, value]) => [element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, shown(value))]));
+  return element(
+    "dl",
+    { class: "evidence" },
+    Object.entries(object).map(([name, value]) => [
+      element("dt", {}, name.replaceAll("_", " ")),
+      element("dd", {}, shown(value)),
+    ]),
+  );
 }
 
 function shown(value) {
   if (value === null) return "none";
   if (Array.isArray(value)) {
     return value.some((one) => one !== null && typeof one === "object")
-      ? element("ul", {}, value.map((one) => element("li", {}, shown(one))))
+      ? element(
+          "ul",
+          {},
+          value.map((one) => element("li", {}, shown(one))),
+        )
       : value.join(", ") || "none";
   }
   return typeof value === "object" ? list(value) : String(value);

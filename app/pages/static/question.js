@@ -6,10 +6,23 @@ import { showError } from "./problem.js";
 import { ago, plural } from "./words.js";
 
 const QUESTIONS = [
-  ["identify", "What are its parameters?", "Masses, inertias and friction as far as this motion can tell them apart, with how well each is known. Takes seconds."],
-  ["diagnose", "What does its simulation get wrong?", "The same, and then the causes of what is left: friction that depends on load, ripple, a spring, a delay, a payload. Takes a little longer."],
+  [
+    "identify",
+    "What are its parameters?",
+    "Masses, inertias and friction as far as this motion can tell them apart, with how well each is known. Takes seconds.",
+  ],
+  [
+    "diagnose",
+    "What does its simulation get wrong?",
+    "The same, and then the causes of what is left: friction that depends on load, ripple, a spring, a delay, a payload. Takes a little longer.",
+  ],
 ];
-const ESTIMATORS = [["", "feasible, weighted (sdp)"], ["irls", "robust, may be infeasible (irls)"], ["wls", "weighted, may be infeasible (wls)"], ["ols", "plain least squares (ols)"]];
+const ESTIMATORS = [
+  ["", "feasible, weighted (sdp)"],
+  ["irls", "robust, may be infeasible (irls)"],
+  ["wls", "weighted, may be infeasible (wls)"],
+  ["ols", "plain least squares (ols)"],
+];
 
 /**
  * Ask for the question.
@@ -24,28 +37,77 @@ export function askQuestion(container) {
   const missing = element("p", { class: "hint", role: "status" });
   const said = element("div", { class: "said", "aria-live": "polite" });
   const start = element("button", { type: "button", class: "primary large", on: { click: begin } }, "Start");
-  fill(container,
-    element("fieldset", { class: "questions" }, element("legend", { class: "unseen" }, "Question"), QUESTIONS.map(([value, title, text]) => element("label", { class: "question" },
-      element("input", { type: "radio", name: "question", value, checked: value === kind, on: { change: () => { kind = value; show(); } } }),
-      element("span", {}, element("strong", {}, title), element("span", { class: "hint" }, text))))),
-    element("details", { class: "options" }, element("summary", {}, "Options"),
-      element("div", { class: "fields" },
-        field("Filter cut-off, Hz", text("cutoff", "from the motion"), "lower is smoother; chosen from the motion if empty"),
+  fill(
+    container,
+    element(
+      "fieldset",
+      { class: "questions" },
+      element("legend", { class: "unseen" }, "Question"),
+      QUESTIONS.map(([value, title, text]) =>
+        element(
+          "label",
+          { class: "question" },
+          element("input", {
+            type: "radio",
+            name: "question",
+            value,
+            checked: value === kind,
+            on: {
+              change: () => {
+                kind = value;
+                show();
+              },
+            },
+          }),
+          element("span", {}, element("strong", {}, title), element("span", { class: "hint" }, text)),
+        ),
+      ),
+    ),
+    element(
+      "details",
+      { class: "options" },
+      element("summary", {}, "Options"),
+      element(
+        "div",
+        { class: "fields" },
+        field(
+          "Filter cut-off, Hz",
+          text("cutoff", "from the motion"),
+          "lower is smoother; chosen from the motion if empty",
+        ),
         field("Held out for validation, %", text("fraction", "20"), "0 to 50 % of each log, in blocks"),
-        field("Estimator", menu(ESTIMATORS, "", (value) => { choices.estimator = value; })),
-        reference)),
-    element("div", { class: "actions" }, start, missing), said);
+        field(
+          "Estimator",
+          menu(ESTIMATORS, "", (value) => {
+            choices.estimator = value;
+          }),
+        ),
+        reference,
+      ),
+    ),
+    element("div", { class: "actions" }, start, missing),
+    said,
+  );
   show();
   return {
     use(told) {
       Object.assign(known, told);
-      if ("robot" in told) offerReferences();
+      if ("robot" in told) offerReferences().catch((error) => showError(said, error));
       show();
     },
   };
 
   function text(name, placeholder) {
-    return element("input", { type: "text", inputmode: "decimal", placeholder, on: { input: (event) => { choices[name] = event.target.value; } } });
+    return element("input", {
+      type: "text",
+      inputmode: "decimal",
+      placeholder,
+      on: {
+        input: (event) => {
+          choices[name] = event.target.value;
+        },
+      },
+    });
   }
 
   function show() {
@@ -53,7 +115,11 @@ export function askQuestion(container) {
     const joints = known.robot?.description.joints.filter((one) => !one.mimics).length;
     const odd = known.logs.find((log) => known.robot && log.joints !== joints);
     start.disabled = wants.length > 0 || odd !== undefined;
-    missing.textContent = wants.length ? `Still to do: ${wants.join(", ")}.` : odd ? `${odd.name} has ${plural("joint", odd.joints)}, ${known.robot.name} has ${joints}.` : "";
+    missing.textContent = wants.length
+      ? `Still to do: ${wants.join(", ")}.`
+      : odd
+        ? `${odd.name} has ${plural("joint", odd.joints)}, ${known.robot.name} has ${joints}.`
+        : "";
     missing.classList.toggle("wrong", odd !== undefined);
     reference.hidden = kind !== "diagnose";
   }
@@ -61,16 +127,40 @@ export function askQuestion(container) {
   async function offerReferences() {
     choices.reference = "";
     fill(reference);
-    if (!known.robot) return;
-    const jobs = (await get("/v1/jobs?limit=100")).jobs.filter((job) => job.robot === known.robot.id && job.state === "successful");
-    const list = [["", "itself, identified anew"], known.robot.description.prior ? ["prior", "the bodies of its description"] : null, ...jobs.map((job) => [job.id, `its ${job.kind === "diagnose" ? "diagnosis" : "identification"} of ${ago(job.created_at)}`])];
-    fill(reference, field("Compare with", menu(list.filter(Boolean), "", (value) => { choices.reference = value; }), "an earlier study tells what has changed since"));
+    const { robot } = known;
+    if (!robot) return;
+    const { jobs } = await get("/v1/jobs?limit=100");
+    if (known.robot !== robot) return; // another one was chosen meanwhile
+    const earlier = jobs.filter((job) => job.robot === robot.id && job.state === "successful");
+    const list = [
+      ["", "itself, identified anew"],
+      robot.description.prior ? ["prior", "the bodies of its description"] : null,
+      ...earlier.map((job) => [
+        job.id,
+        `its ${job.kind === "diagnose" ? "diagnosis" : "identification"} of ${ago(job.created_at)}`,
+      ]),
+    ];
+    fill(
+      reference,
+      field(
+        "Compare with",
+        menu(list.filter(Boolean), "", (value) => {
+          choices.reference = value;
+        }),
+        "an earlier study tells what has changed since",
+      ),
+    );
   }
 
   async function begin() {
     start.disabled = true;
     try {
-      const job = await post("/v1/jobs", { kind, robot: known.robot.id, logs: known.logs.map((log) => log.id), options: options() });
+      const job = await post("/v1/jobs", {
+        kind,
+        robot: known.robot.id,
+        logs: known.logs.map((log) => log.id),
+        options: options(),
+      });
       location.assign(`/studies/${job.id}`);
     } catch (error) {
       showError(said, error);
@@ -81,7 +171,10 @@ export function askQuestion(container) {
   function options() {
     const asked = {};
     if (choices.cutoff.trim()) asked.filter = { cutoff_hz: sent(choices.cutoff) };
-    if (choices.fraction.trim()) asked.validation = { fraction: Number.isFinite(readNumber(choices.fraction)) ? readNumber(choices.fraction) / 100 : choices.fraction };
+    if (choices.fraction.trim())
+      asked.validation = {
+        fraction: Number.isFinite(readNumber(choices.fraction)) ? readNumber(choices.fraction) / 100 : choices.fraction,
+      };
     if (choices.estimator) asked.estimator = choices.estimator;
     if (kind === "diagnose") asked.reference = choices.reference || null;
     return asked;

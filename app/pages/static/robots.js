@@ -21,26 +21,35 @@ export function chooseRobot(container, { wanted, chosen }) {
   const layout = element("div", { class: "split" }, element("div", { class: "stack" }, form, said), figure);
   fill(container, segments("How to choose the robot", WAYS, "list", turn), layout);
   let drawn = null;
-  let names = [];
+  let now = "list";
   turn("list");
 
-  function turn(way) {
+  async function turn(way) {
+    now = way;
     fill(said);
     layout.classList.toggle("stacked", way === "table");
-    ({ list: showList, table: showTable, urdf: showUrdf })[way]();
-  }
-
-  async function showList() {
-    try {
-      names = (await get("/v1/robots?limit=1000")).robots;
-    } catch (error) {
-      showError(said, error);
+    if (way === "urdf") {
+      use(null);
+      showUrdf();
       return;
     }
-    const choices = [["", "Choose a robot"], ...names.map((one) => [one.id, `${one.name} (${plural("joint", one.joints)})${one.built_in ? ", built in" : ""}`])];
-    const known = names.some((one) => one.id === wanted) ? wanted : "";
-    fill(form, field("Robot", menu(choices, known, read), "Built-in robots first, then those that were described here."));
-    if (known) await read(known);
+    try {
+      const { robots } = await get("/v1/robots?limit=1000");
+      if (now === way) ({ list: showList, table: showTable })[way](robots);
+    } catch (error) {
+      showError(said, error);
+    }
+  }
+
+  function showList(robots) {
+    const entries = robots.map((one) => [
+      one.id,
+      `${one.name} (${plural("joint", one.joints)})${one.built_in ? ", built in" : ""}`,
+    ]);
+    const first = robots.some((one) => one.id === wanted) ? wanted : "";
+    const list = menu([["", "Choose a robot"], ...entries], first, read);
+    fill(form, field("Robot", list, "Built-in robots first, then those that were described here."));
+    read(first);
   }
 
   async function read(id) {
@@ -55,10 +64,10 @@ export function chooseRobot(container, { wanted, chosen }) {
     }
   }
 
-  function showTable() {
-    chosen(null);
+  function showTable(robots) {
+    use(null);
     robotTable(form, {
-      known: names,
+      known: robots,
       changed: draw,
       finished: async (description, refused) => {
         try {
@@ -72,20 +81,54 @@ export function chooseRobot(container, { wanted, chosen }) {
   }
 
   function showUrdf() {
-    const texts = { base_link: element("input", { type: "text", spellcheck: "false" }), tip_link: element("input", { type: "text", spellcheck: "false" }), gravity: element("input", { type: "text", placeholder: "0, 0, -9.81" }) };
-    fill(form,
-      dropZone("Drop a URDF here", "or choose the file. Masses and inertias in it become what is believed.", ".urdf,.xml", take),
-      element("details", {}, element("summary", {}, "Only a part of it, or mounted otherwise"),
-        element("div", { class: "fields" },
+    const texts = {
+      base_link: element("input", { type: "text", spellcheck: "false" }),
+      tip_link: element("input", { type: "text", spellcheck: "false" }),
+      gravity: element("input", { type: "text", placeholder: "0, 0, -9.81" }),
+    };
+    fill(
+      form,
+      dropZone(
+        "Drop a URDF here",
+        "or choose the file. Masses and inertias in it become what is believed.",
+        ".urdf,.xml",
+        take,
+      ),
+      element(
+        "details",
+        {},
+        element("summary", {}, "Only a part of it, or mounted otherwise"),
+        element(
+          "div",
+          { class: "fields" },
           field("From link", texts.base_link, "default: the root"),
           field("To link", texts.tip_link, "default: every moving link"),
-          field("Gravity, m/s²", texts.gravity, "x, y, z in the base frame"))));
+          field("Gravity, m/s²", texts.gravity, "x, y, z in the base frame"),
+        ),
+      ),
+    );
 
     async function take(file) {
-      const query = new URLSearchParams(Object.entries(texts).map(([name, input]) => [name, input.value.trim()]).filter(([, value]) => value));
-      if (query.has("gravity")) query.set("gravity", query.get("gravity").split(/[,;\s]+/).map(readNumber).join(","));
+      const query = new URLSearchParams(
+        Object.entries(texts)
+          .map(([name, input]) => [name, input.value.trim()])
+          .filter(([, value]) => value),
+      );
+      if (query.has("gravity"))
+        query.set(
+          "gravity",
+          query
+            .get("gravity")
+            .split(/[,;\s]+/)
+            .map(readNumber)
+            .join(","),
+        );
       try {
-        const response = await request(`/v1/robots?${query}`, { method: "POST", body: file, headers: { "Content-Type": "application/xml" } });
+        const response = await request(`/v1/robots?${query}`, {
+          method: "POST",
+          body: file,
+          headers: { "Content-Type": "application/xml" },
+        });
         use(await response.json());
       } catch (error) {
         showError(said, error);
@@ -118,23 +161,71 @@ function rowsOf(description) {
   const range = (joint) => {
     const limits = joint.limits?.position;
     if (!limits) return "–";
-    return joint.type === "revolute" ? `${degrees(limits[0])} … ${degrees(limits[1])}°` : `${number(limits[0])} … ${number(limits[1])} m`;
+    return joint.type === "revolute"
+      ? `${degrees(limits[0])} … ${degrees(limits[1])}°`
+      : `${number(limits[0])} … ${number(limits[1])} m`;
   };
   const heads = ["joint", ...(tabular ? ["α, °", "d, m", "θ, °", "r, m"] : ["type"]), "range"];
-  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Joints of the robot" }, element("table", { class: "rows" },
-    element("thead", {}, element("tr", {}, heads.map((name) => element("th", { scope: "col" }, name)))),
-    element("tbody", {}, description.joints.map((joint, index) => element("tr", {},
-      element("th", { scope: "row" }, joint.name ?? `joint_${index + 1}`),
-      (tabular ? [degrees(joint.alpha), number(joint.d), degrees(joint.theta_offset), number(joint.r)] : [joint.type]).map((value) => element("td", {}, value)),
-      element("td", {}, range(joint)))))));
+  return element(
+    "div",
+    { class: "wide", tabindex: "0", role: "group", "aria-label": "Joints of the robot" },
+    element(
+      "table",
+      { class: "rows" },
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          heads.map((name) => element("th", { scope: "col" }, name)),
+        ),
+      ),
+      element(
+        "tbody",
+        {},
+        description.joints.map((joint, index) =>
+          element(
+            "tr",
+            {},
+            element("th", { scope: "row" }, joint.name ?? `joint_${index + 1}`),
+            (tabular
+              ? [degrees(joint.alpha), number(joint.d), degrees(joint.theta_offset), number(joint.r)]
+              : [joint.type]
+            ).map((value) => element("td", {}, value)),
+            element("td", {}, range(joint)),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 function summary(robot) {
   const { description } = robot;
   const sliding = description.joints.filter((joint) => joint.type === "prismatic").length;
-  const facts = [plural("joint", robot.joints) + (sliding ? `, ${sliding} sliding` : ""), description.convention === "modified-dh" ? "modified Denavit-Hartenberg table" : "frames", `gravity ${description.gravity.map((value) => number(value, 3)).join(", ")} m/s²`, description.prior ? "bodies are believed" : null];
-  return element("div", {},
+  const facts = [
+    plural("joint", robot.joints) + (sliding ? `, ${sliding} sliding` : ""),
+    description.convention === "modified-dh" ? "modified Denavit-Hartenberg table" : "frames",
+    `gravity ${description.gravity.map((value) => number(value, 3)).join(", ")} m/s²`,
+    description.prior ? "bodies are believed" : null,
+  ];
+  return element(
+    "div",
+    {},
     element("p", { class: "chosen" }, element("strong", {}, robot.name), ` · ${facts.filter(Boolean).join(" · ")}`),
     rowsOf(description),
-    robot.suspicions.length ? element("div", { class: "notice" }, element("strong", {}, "Is this meant?"), element("ul", {}, robot.suspicions.map((one) => element("li", {}, one)))) : null);
+    robot.suspicions.length
+      ? element(
+          "div",
+          { class: "notice" },
+          element("strong", {}, "Is this meant?"),
+          element(
+            "ul",
+            {},
+            robot.suspicions.map((one) => element("li", {}, one)),
+          ),
+        )
+      : null,
+  );
 }

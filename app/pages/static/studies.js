@@ -16,14 +16,39 @@ export async function showStudies(container) {
       fill(container, element("p", { class: "soft" }, "None yet. The first one takes a click: try the example above."));
       return;
     }
-    const body = element("tbody", {}, page.jobs.map((job) => row(job, names)));
-    const more = element("button", { type: "button", hidden: page.next === null, on: { click: older } }, "Older studies");
+    const body = element(
+      "tbody",
+      {},
+      page.jobs.map((job) => row(job, names)),
+    );
+    const more = element(
+      "button",
+      { type: "button", hidden: page.next === null, on: { click: older } },
+      "Older studies",
+    );
     let next = page.next;
-    fill(container,
-      element("div", { class: "wide" }, element("table", { class: "studies" },
-        element("thead", {}, element("tr", {}, ["Study", "State", "Asked for", "Took", "Read on"].map((name) => element("th", { scope: "col" }, name)))),
-        body)),
-      element("div", { class: "actions" }, more));
+    fill(
+      container,
+      element(
+        "div",
+        { class: "wide" },
+        element(
+          "table",
+          { class: "studies" },
+          element(
+            "thead",
+            {},
+            element(
+              "tr",
+              {},
+              ["Study", "State", "Asked for", "Took", "Read on"].map((name) => element("th", { scope: "col" }, name)),
+            ),
+          ),
+          body,
+        ),
+      ),
+      element("div", { class: "actions" }, more),
+    );
     refresh(body, names);
 
     async function older() {
@@ -71,24 +96,48 @@ function row(job, names) {
   const open = job.state === "accepted" || job.state === "running";
   const logs = job.logs.map((id) => names.get(id) ?? short(id));
   const shown = logs.length > 2 ? `${logs.slice(0, 2).join(", ")} and ${logs.length - 2} more` : logs.join(", ");
-  return element("tr", { "data-open": open ? job.id : null },
-    element("th", { scope: "row" },
-      element("a", { href: `/studies/${job.id}` }, `${KINDS[job.kind] ?? plain(job.kind)} of ${names.get(job.robot) ?? short(job.robot)}`),
-      element("div", { class: "hint" }, shown)),
+  return element(
+    "tr",
+    { "data-open": open ? job.id : null },
+    element(
+      "th",
+      { scope: "row" },
+      element(
+        "a",
+        { href: `/studies/${job.id}` },
+        `${KINDS[job.kind] ?? plain(job.kind)} of ${names.get(job.robot) ?? short(job.robot)}`,
+      ),
+      element("div", { class: "hint" }, shown),
+    ),
     element("td", { "data-label": "State" }, state(job)),
-    element("td", { "data-label": "Asked for" }, element("time", { datetime: job.created_at, title: new Date(job.created_at).toLocaleString() }, ago(job.created_at))),
+    element(
+      "td",
+      { "data-label": "Asked for" },
+      element(
+        "time",
+        { datetime: job.created_at, title: new Date(job.created_at).toLocaleString() },
+        ago(job.created_at),
+      ),
+    ),
     element("td", { "data-label": "Took" }, took(job)),
-    element("td", { "data-label": "Read on" }, element("span", { class: "row" }, onward(job))));
+    element("td", { "data-label": "Read on" }, element("span", { class: "row" }, onward(job))),
+  );
 }
 
 /** The state of a job as a badge, with how far it is. */
 export function state(job) {
   const progress = job.state === "running" ? `, ${percent(job.progress.fraction)}` : "";
-  return element("span", { class: `state ${job.state}` }, `${job.state === "accepted" ? "waiting" : job.state}${progress}`);
+  return element(
+    "span",
+    { class: `state ${job.state}` },
+    `${job.state === "accepted" ? "waiting" : job.state}${progress}`,
+  );
 }
 
 function took(job) {
-  return job.started_at && job.finished_at ? duration((Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000) : "–";
+  return job.started_at && job.finished_at
+    ? duration((Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000)
+    : "–";
 }
 
 function onward(job) {

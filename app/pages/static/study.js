@@ -20,13 +20,22 @@ try {
 async function showStudy(job) {
   const badge = element("span", {}, state(job));
   const content = element("div", {});
-  fill(container, element("div", { class: "row spread heading" }, element("h1", {}, await titleOf(job)), badge), content);
+  fill(
+    container,
+    element("div", { class: "row spread heading" }, element("h1", {}, await titleOf(job)), badge),
+    content,
+  );
   document.title = `${KINDS[job.kind] ?? plain(job.kind)} · Veritorque`;
   const ended = isOpen(job) ? await watch(job, content, badge) : job;
   fill(badge, state(ended));
   if (ended.state === "successful") await show(content, ended);
   else if (ended.state === "failed") fill(content, problemBox(ended.problem), again(ended));
-  else fill(content, element("p", { class: "notice" }, `The study was dismissed ${ago(ended.finished_at)}.`), again(ended));
+  else
+    fill(
+      content,
+      element("p", { class: "notice" }, `The study was dismissed ${ago(ended.finished_at)}.`),
+      again(ended),
+    );
 }
 
 async function titleOf(job) {
@@ -51,17 +60,25 @@ async function watch(job, content, badge) {
   const clock = element("span", { class: "soft" });
   const said = element("div", {});
   const cancel = element("button", { type: "button", on: { click: dismiss } }, "Cancel the study");
-  fill(content, element("section", { class: "card progress" }, stage, bar,
-    element("div", { class: "row spread" }, clock, cancel)), said);
+  fill(
+    content,
+    element("section", { class: "card progress" }, stage, bar, element("div", { class: "row spread" }, clock, cancel)),
+    said,
+  );
 
   let last = job;
   const tick = () => {
     const since = Date.parse(last.started_at ?? last.created_at);
-    clock.textContent = last.started_at ? `running for ${duration(Math.max(0, (Date.now() - since) / 1000))}` : `asked for ${ago(last.created_at)}`;
+    clock.textContent = last.started_at
+      ? `running for ${duration(Math.max(0, (Date.now() - since) / 1000))}`
+      : `asked for ${ago(last.created_at)}`;
   };
   const told = (now) => {
     last = now;
-    const words = now.state === "accepted" ? "Waiting for its turn" : `${capital(plain(now.progress.stage || "starting"))}, ${percent(now.progress.fraction)}`;
+    const words =
+      now.state === "accepted"
+        ? "Waiting for its turn"
+        : `${capital(plain(now.progress.stage || "starting"))}, ${percent(now.progress.fraction)}`;
     if (stage.textContent !== words) stage.textContent = words;
     bar.value = now.progress.fraction;
     fill(badge, state(now));
@@ -88,7 +105,12 @@ async function watch(job, content, badge) {
 
 function again(job) {
   const same = new URLSearchParams([["robot", job.robot], ...job.logs.map((log) => ["log", log])]);
-  return element("div", { class: "actions" }, element("a", { class: "button primary", href: `/new?${same}` }, "Change it and start anew"), element("a", { class: "button", href: "/" }, "All studies"));
+  return element(
+    "div",
+    { class: "actions" },
+    element("a", { class: "button primary", href: `/new?${same}` }, "Change it and start anew"),
+    element("a", { class: "button", href: "/" }, "All studies"),
+  );
 }
 
 function isOpen(job) {

@@ -1,6 +1,12 @@
 // Dark or light: as the system says, unless the reader chose. It runs before the page is drawn, so nothing flashes.
 (() => {
-  const stored = () => { try { return localStorage.getItem("theme"); } catch { return null; } };
+  const stored = () => {
+    try {
+      return localStorage.getItem("theme");
+    } catch {
+      return null;
+    }
+  };
   const root = document.documentElement;
   const systemDark = matchMedia("(prefers-color-scheme: dark)");
   const show = () => {
@@ -20,7 +26,11 @@
     addEventListener("themechange", name);
     button.addEventListener("click", () => {
       const other = root.dataset.theme === "dark" ? "light" : "dark";
-      try { localStorage.setItem("theme", other); } catch { /* not kept, where the browser keeps nothing */ }
+      try {
+        localStorage.setItem("theme", other);
+      } catch {
+        /* not kept, where the browser keeps nothing */
+      }
       root.dataset.theme = other;
       dispatchEvent(new Event("themechange"));
     });

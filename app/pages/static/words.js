@@ -5,15 +5,21 @@ export function number(value, digits = 4) {
   if (value === null || value === undefined) return "–";
   if (!Number.isFinite(value)) return String(value);
   const size = Math.abs(value);
-  const text = size !== 0 && (size < 1e-3 || size >= 1e6)
-    ? value.toExponential(Math.max(0, digits - 1)).replace(/\.?0+e/, "e").replace("e+", "e")
-    : String(Number(value.toPrecision(digits)));
+  const text =
+    size !== 0 && (size < 1e-3 || size >= 1e6)
+      ? value
+          .toExponential(Math.max(0, digits - 1))
+          .replace(/\.?0+e/, "e")
+          .replace("e+", "e")
+      : String(Number(value.toPrecision(digits)));
   return text.replaceAll("-", "−");
 }
 
 /** A whole number with thin spaces between thousands. */
 export function count(value) {
-  return Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, "\u202f");
+  return Math.round(value)
+    .toString()
+    .replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
 /** How many, with its noun: plural("joint", 2) is "2 joints". */
@@ -37,7 +43,11 @@ export function duration(seconds) {
 /** How long ago an instant was, in its largest unit. */
 export function ago(instant, now = Date.now()) {
   const seconds = Math.max(0, (now - Date.parse(instant)) / 1000);
-  for (const [unit, length] of [["d", 86400], ["h", 3600], ["min", 60]]) {
+  for (const [unit, length] of [
+    ["d", 86400],
+    ["h", 3600],
+    ["min", 60],
+  ]) {
     if (seconds >= length) return `${Math.floor(seconds / length)} ${unit} ago`;
   }
   return seconds < 10 ? "just now" : `${Math.floor(seconds)} s ago`;
@@ -45,7 +55,11 @@ export function ago(instant, now = Date.now()) {
 
 /** A size in bytes. */
 export function bytes(size) {
-  for (const [unit, length] of [["GB", 1e9], ["MB", 1e6], ["kB", 1e3]]) {
+  for (const [unit, length] of [
+    ["GB", 1e9],
+    ["MB", 1e6],
+    ["kB", 1e3],
+  ]) {
     if (size >= length) return `${number(size / length, 3)} ${unit}`;
   }
   return `${size} bytes`;
