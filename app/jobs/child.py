@@ -5,6 +5,7 @@ document, ``t`` the trace of a mistake of ours (for the service's own log, never
 does not outlive the service.
 """
 
+import errno
 import os
 import signal
 import threading
@@ -59,16 +60,11 @@ def _carry_out(pipe: Connection, work: Work, computation: Computation, limits: L
 
     try:
         send(RESULT, json_bytes(work(computation, progress)))
-    except VeritorqueError as error:
-        send(FAILURE, json_bytes(problem_of(error).document()))
-    except Damaged as error:
-        send(FAILURE, json_bytes(problem_of_damage(error).document()))
-    except MemoryError:
-        limits.lift_memory()
-        send(FAILURE, json_bytes(out_of_memory(limits).document()))
-    except Exception:  # noqa: BLE001  (the boundary of the process: what is not ours becomes a problem without internals)
-        send(TRACE, traceback.format_exc().encode(errors="replace"))
-        send(FAILURE, json_bytes(mistake().document()))
+    except Exception as error:  # noqa: BLE001  (the boundary of the process: what is not ours becomes a problem without internals)
+        problem = _problem(error, limits)
+        if problem is None:
+            send(TRACE, traceback.format_exc().encode(errors="replace"))
+        send(FAILURE, json_bytes((problem or mistake()).document()))
 
 
 def out_of_memory(limits: Limits) -> Problem:
@@ -80,6 +76,15 @@ def out_of_memory(limits: Limits) -> Problem:
         remedy=(
             "shorten the log, raise the decimation, or let the operator raise VERITORQUE_JOB_MEMORY_BYTES"
         ),
+    )
+
+
+def no_room() -> Problem:
+    """Say that the disk did not suffice."""
+    return Problem(
+        "disk-full",
+        "the disk is full, so that what was computed could not be kept",
+        remedy="delete logs and jobs, or let the operator make room, and ask for the job again",
     )
 
 
@@ -103,6 +108,20 @@ def _rehearse(pipe: Connection, rehearse: Rehearse) -> None:
 
     with suppress(Exception):  # whatever stands in the way of a rehearsal, the computation itself will tell
         rehearse(look)
+
+
+def _problem(error: Exception, limits: Limits) -> Problem | None:
+    """Say what went wrong; None where the mistake is ours."""
+    if isinstance(error, VeritorqueError):
+        return problem_of(error)
+    if isinstance(error, Damaged):
+        return problem_of_damage(error)
+    if isinstance(error, MemoryError):
+        limits.lift_memory()
+        return out_of_memory(limits)
+    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return no_room()
+    return None
 
 
 def _end_with_the_service(pipe: Connection) -> None:

@@ -52,6 +52,7 @@ def test_a_computation_that_takes_too_long_is_ended_with_a_reason():
     [
         (work.refuse, Failed, "excitation", 422),
         (work.stumble, Failed, "internal", 500),
+        (work.fill_the_disk, Failed, "disk-full", 507),
         (work.not_finite, Failed, "internal", 500),
         (work.vanish, Died, "computation-stopped", 500),
         (work.leave, Died, "computation-stopped", 500),
