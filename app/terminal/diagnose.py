@@ -23,9 +23,8 @@ from app.terminal.study import OutOption, ReportOption, Wanted, run
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
-Examples:
-  veritorque diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html
-  veritorque diagnose yumi-left examples/yumi/log.csv --fail-on-findings
+Example:
+  veritorque diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html --fail-on-findings
 """
 ReferenceOption = Annotated[
     str,

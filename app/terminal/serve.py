@@ -33,7 +33,7 @@ OTHERS = ", ".join(PREFIX + name.upper() for name in Settings.model_fields if na
 EPILOG = f"""\b
 Examples:
   veritorque serve
-  veritorque serve --port 9000 --data-dir /var/lib/veritorque
+  veritorque serve --port 9000 --data-dir lab-data
 
 In the environment, besides these: {OTHERS}"""
 

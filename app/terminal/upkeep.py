@@ -26,7 +26,7 @@ PAUSE_S = 20.0
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
-@COMMANDS.command(epilog="\b\nExample:\n  veritorque gc --pause-s 0")
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque gc --pause-s 1")
 def gc(
     pause_s: Annotated[
         float, typer.Option(help="Between the two looks that find bytes needless, s.")
@@ -46,7 +46,7 @@ def gc(
         say(f"{sweep.look()} files removed that nothing needed")
 
 
-@COMMANDS.command(epilog="\b\nExample:\n  veritorque backup /mnt/backup/2026-11-22")
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")
 def backup(directory: Annotated[Path, typer.Argument(help="A new directory for the backup.")]) -> None:
     """Copy everything into a new directory while the service runs."""
     with _opened(Settings()) as store:
@@ -54,7 +54,7 @@ def backup(directory: Annotated[Path, typer.Argument(help="A new directory for t
 
 
 @COMMANDS.command(
-    epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=/srv/new veritorque restore /mnt/backup/2026-11-22"
+    epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday"
 )
 def restore(directory: Annotated[Path, typer.Argument(help="The directory of a backup.")]) -> None:
     """Copy a backup into VERITORQUE_DATA_DIR (and VERITORQUE_DATABASE_URL), which has to be empty."""

@@ -16,7 +16,7 @@ COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
 @COMMANDS.command(
-    epilog="\b\nExample:\n  VERITORQUE_DATABASE_URL=postgresql://lab@db/veritorque veritorque work"
+    epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=lab-data veritorque work"
 )
 def work(
     *,
