@@ -3,7 +3,8 @@
 Both give the documents of the API, so that what is printed does not depend on where it came from.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
@@ -65,12 +66,16 @@ class Bench(Protocol):
         ...
 
 
-def bench(url: str, key: str) -> Bench:
+@contextmanager
+def bench(url: str, key: str) -> Iterator[Bench]:
     """Choose who computes: the service at `url`, or this process where it is empty."""
     if url:
+        from app.client.client import Client
         from app.terminal.remote import RemoteBench
 
-        return RemoteBench(url, key or None)
-    from app.terminal.local import LocalBench
+        with Client(url, key or None) as client:
+            yield RemoteBench(client)
+    else:
+        from app.terminal.local import LocalBench
 
-    return LocalBench()
+        yield LocalBench()

@@ -15,8 +15,8 @@ from core.errors import LogError
 class RemoteBench:
     """Do the work on a service."""
 
-    def __init__(self, url: str, key: str | None) -> None:
-        self._client = Client(url, key)
+    def __init__(self, client: Client) -> None:
+        self._client = client
 
     def robots(self) -> list[Document]:
         """List the robots of the service."""

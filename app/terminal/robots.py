@@ -27,7 +27,8 @@ GEOMETRY = ("alpha", "d", "theta_offset", "r", "gamma", "b")
 @COMMANDS.command(name="list", epilog="\b\nExample:\n  veritorque robots list")
 def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False) -> None:
     """List the robots that need no description."""
-    robots = bench(url, key).robots()
+    with bench(url, key) as one:
+        robots = one.robots()
     if json:
         write(json_bytes(robots))
         return
@@ -50,7 +51,8 @@ def show(  # noqa: PLR0913  # the options of a command line
 ) -> None:
     """Show a robot as it is understood; with --json its description, which a URDF becomes as well."""
     part = FromUrdf(base_link or None, tip_link or None, _vector(gravity))
-    seen = bench(url, key).robot(robot, part)
+    with bench(url, key) as one:
+        seen = one.robot(robot, part)
     if json:
         write(json_bytes(seen["description"]))
         return
@@ -70,7 +72,8 @@ def check(
     key: KeyOption = "",
 ) -> None:
     """Check a description: what cannot be used is an error, what is rarely meant is told with its numbers."""
-    seen = bench(url, key).robot(robot)
+    with bench(url, key) as one:
+        seen = one.robot(robot)
     say(f"{seen['name']}: {seen['joints']} joints; it can be used")
     _tell_suspicions(seen)
     if fail_on_findings and seen["suspicions"]:
@@ -82,7 +85,8 @@ def base_parameters(
     robot: RobotArgument, *, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False
 ) -> None:
     """List the combinations of parameters that a motion of the robot can tell apart, with their groupings."""
-    document = bench(url, key).base_parameters(robot)
+    with bench(url, key) as one:
+        document = one.base_parameters(robot)
     if json:
         write(json_bytes(document))
         return

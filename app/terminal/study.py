@@ -39,8 +39,8 @@ def run(study: Study, *, url: str, key: str, wanted: Wanted) -> Document:
     for path in (wanted.out, wanted.report):
         if path is not None:
             require_folder(path)
-    with bar(aside()) as tell:
-        content = bench(url, key).run(study, tell)
+    with bench(url, key) as one, bar(aside()) as tell:
+        content = one.run(study, tell)
     document: Document = json.loads(content)
     if wanted.out is not None:
         save(wanted.out, content)

@@ -53,9 +53,7 @@ def backup(directory: Annotated[Path, typer.Argument(help="A new directory for t
         _say(back_up(store, directory))
 
 
-@COMMANDS.command(
-    epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday"
-)
+@COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday")
 def restore(directory: Annotated[Path, typer.Argument(help="The directory of a backup.")]) -> None:
     """Copy a backup into VERITORQUE_DATA_DIR (and VERITORQUE_DATABASE_URL), which has to be empty."""
     with _opened(Settings()) as store:

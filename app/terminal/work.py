@@ -15,9 +15,7 @@ from app.terminal.environment import (
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
-@COMMANDS.command(
-    epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=lab-data veritorque work"
-)
+@COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=lab-data veritorque work")
 def work(
     *,
     beside: Annotated[
