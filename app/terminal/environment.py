@@ -1,4 +1,4 @@
-"""Prepare what has to stand before anything is loaded: settings, directories, threads, compiled kernels."""
+"""Prepare what the service and its tools need: settings, a directory, the store, compiled kernels."""
 
 import os
 from collections.abc import Iterator
@@ -51,18 +51,6 @@ def require_directory(data_dir: Path) -> None:
         (data_dir / ".writable").unlink()
     except OSError as error:
         stop(f"nothing can be kept in {data_dir}: {error.strerror}; choose another --data-dir")
-
-
-def limit_threads(cpus: int) -> None:
-    """Let linear algebra use a thread per CPU of a computation, unless the operator has decided otherwise.
-
-    The matrices are small: more threads double the CPU time of a job, wait for each other on a busy machine,
-    and add numbers in an order that depends on their count. Arrow shall not reserve memory that it does not
-    use, because what a computation may use is counted. It has to stand before numpy is loaded.
-    """
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ.setdefault(name, str(cpus))
-    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
 
 
 def keep_compiled_kernels(data_dir: Path) -> Path | None:

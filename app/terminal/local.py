@@ -10,8 +10,8 @@ from pathlib import Path
 
 from app.documents import json_bytes
 from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell
-from app.terminal.environment import limit_threads
 from app.terminal.speech import note
+from app.terminal.threads import limit_threads
 from core.errors import LogError, OptionError, RobotError
 
 PRIOR = "prior"

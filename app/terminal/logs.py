@@ -41,8 +41,8 @@ def check(
     json: JsonOption = False,
 ) -> None:
     """Say what is in a log and what is wrong with it: columns, units, rate, gaps, outliers, saturation ..."""
-    from app.terminal.environment import limit_threads
     from app.terminal.logcheck import document_of, lines_of
+    from app.terminal.threads import limit_threads
     from core.log.check import check_log
 
     limit_threads(1)

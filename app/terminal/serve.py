@@ -13,12 +13,12 @@ from app.settings import PREFIX, Settings
 from app.terminal.environment import (
     chosen_settings,
     keep_compiled_kernels,
-    limit_threads,
     opened,
     require_directory,
     stop,
 )
 from app.terminal.speech import say
+from app.terminal.threads import limit_threads
 
 if TYPE_CHECKING:
     from app.store.store import Store

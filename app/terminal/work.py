@@ -7,10 +7,10 @@ import typer
 from app.terminal.environment import (
     chosen_settings,
     keep_compiled_kernels,
-    limit_threads,
     opened,
     require_directory,
 )
+from app.terminal.threads import limit_threads
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
