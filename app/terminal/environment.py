@@ -1,6 +1,5 @@
-"""Prepare what the service and its tools need: settings, a directory, the store, compiled kernels."""
+"""Prepare what the service and its tools need: settings, a directory, the store."""
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -51,12 +50,6 @@ def require_directory(data_dir: Path) -> None:
         (data_dir / ".writable").unlink()
     except OSError as error:
         stop(f"nothing can be kept in {data_dir}: {error.strerror}; choose another --data-dir")
-
-
-def keep_compiled_kernels(data_dir: Path) -> Path | None:
-    """Let numba keep what it compiles in the data directory; give where, if it has not compiled yet."""
-    kernels = Path(os.environ.setdefault("NUMBA_CACHE_DIR", str((data_dir / "kernels").resolve())))
-    return None if any(kernels.rglob("*.nbi")) else kernels
 
 
 def stop(reason: str) -> NoReturn:

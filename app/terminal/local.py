@@ -1,7 +1,6 @@
 """Compute in this process, on files: no service, no database, nothing kept."""
 
 import hashlib
-import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -10,12 +9,12 @@ from pathlib import Path
 
 from app.documents import json_bytes
 from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell
+from app.terminal.compiled import COMPILING, share_compiled_kernels
 from app.terminal.speech import note
 from app.terminal.threads import limit_threads
 from core.errors import LogError, OptionError, RobotError
 
 PRIOR = "prior"
-KERNELS = Path(__file__).parents[2] / "core" / "regressor" / "__pycache__"
 
 
 class LocalBench:
@@ -135,12 +134,5 @@ def _reference(study: Study) -> Iterator[tuple[Document, Path | None]]:
 
 
 def _tell_of_compiling() -> None:
-    """Let numba share what the service compiled, and say where it has to compile first."""
-    served = Path(os.environ.get("VERITORQUE_DATA_DIR", "data")) / "kernels"
-    if served.is_dir():
-        os.environ.setdefault("NUMBA_CACHE_DIR", str(served.resolve()))
-    kernels = Path(os.environ.get("NUMBA_CACHE_DIR", KERNELS))
-    if not any(kernels.rglob("*.nbi")):
-        from app.terminal.serve import COMPILING
-
+    if not share_compiled_kernels():
         note(f"the first computation on a machine compiles for {COMPILING}; afterwards it starts in seconds")

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from app.settings import PREFIX, Settings
+from app.terminal.compiled import COMPILING, keep_compiled_kernels
 from app.terminal.environment import (
     chosen_settings,
-    keep_compiled_kernels,
     opened,
     require_directory,
     stop,
@@ -23,7 +23,6 @@ from app.terminal.threads import limit_threads
 if TYPE_CHECKING:
     from app.store.store import Store
 
-COMPILING = "about a minute"
 DEFAULTS = Settings.model_construct()
 
 OPTIONS = ("host", "port", "data_dir", "workers", "max_upload_bytes", "job_timeout_s")

@@ -4,9 +4,9 @@ from typing import Annotated
 
 import typer
 
+from app.terminal.compiled import keep_compiled_kernels
 from app.terminal.environment import (
     chosen_settings,
-    keep_compiled_kernels,
     opened,
     require_directory,
 )
