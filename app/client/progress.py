@@ -30,7 +30,7 @@ def bar(console: Console | None = None) -> Iterator[Tell]:
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console, transient=True) as progress:
-        task = progress.add_task("", total=1.0)
+        task = progress.add_task("start", total=1.0)
         yield lambda stage, done: progress.update(task, description=escape(stage), completed=done)
 
 

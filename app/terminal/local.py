@@ -80,11 +80,11 @@ class LocalBench:
         from app.jobs import science
         from app.jobs.computation import Computation, LogFile
 
+        tell("load", 0.0)
         robot = self.robot(study.robot)["description"]
         science.check_options(study.kind, dict(study.options))
         mapping = None if study.mapping is None else dict(study.mapping)
         logs = tuple(LogFile(path, log_name(path.name), mapping, _hash(path)) for path in study.logs)
-        tell("load", 0.0)
         _tell_of_compiling()
         with _reference(study) as (options, reference):
             return json_bytes(science.compute(Computation(study.kind, robot, logs, options, reference), tell))
