@@ -37,7 +37,7 @@ KeyOption = Annotated[
         envvar="VERITORQUE_KEY", help="Key of the service; better in the environment, where nobody sees it."
     ),
 ]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print a document instead of tables, and nothing else.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print a document, and nothing else.")]
 
 
 def mapping_of(mapping: str, profile: str) -> Document | None:
