@@ -18,6 +18,7 @@ import pyarrow.csv as arrow_csv
 
 from core.arrays import Series
 from core.errors import LogError
+from core.log.arrow import numbers
 from core.log.boundary import reading
 from core.log.table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric
 
@@ -63,9 +64,7 @@ class DelimitedTable:
                 rows += batch.num_rows
                 check_rows(rows)
                 check_values(rows * len(wanted))
-                yield np.array(
-                    [column.to_numpy(zero_copy_only=False) for column in batch.columns], dtype=np.float64
-                )
+                yield np.array([numbers(column) for column in batch.columns], dtype=np.float64)
 
     @contextmanager
     def _naming_columns(self) -> Iterator[None]:

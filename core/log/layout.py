@@ -24,12 +24,13 @@ SHOWN_COLUMNS = 24
 
 @dataclass(frozen=True)
 class Channel:
-    """Carry one channel's columns and what turns each into SI: `gain * value + bias`."""
+    """Carry one channel's columns, their units, and what turns each into SI: `gain * value + bias`."""
 
     name: str
     columns: tuple[str, ...]
     gain: tuple[float, ...]
     bias: tuple[float, ...]
+    units: tuple[str, ...] = ()
 
     def convert(self, block: Series) -> JointSeries:
         """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
@@ -159,9 +160,8 @@ def _declared(channel: str, request: ChannelRequest, table: Table) -> Channel:
         for name, unit in zip(request.columns, request.units, strict=True)
     ):
         raise _undeclared(channel, request, table)
-    units = [
-        UNITS[channel][unit] if unit else UNITS[channel][next(iter(UNITS[channel]))] for unit in request.units
-    ]
+    named = tuple(unit or next(iter(UNITS[channel])) for unit in request.units)
+    units = [UNITS[channel][unit] for unit in named]
     return Channel(
         channel,
         request.columns,
@@ -169,6 +169,7 @@ def _declared(channel: str, request: ChannelRequest, table: Table) -> Channel:
         tuple(
             unit.factor * (offset + unit.offset) for unit, offset in zip(units, request.offsets, strict=True)
         ),
+        named,
     )
 
 

@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 
 from core.arrays import Series
 from core.errors import LogError
+from core.log.arrow import numbers
 from core.log.boundary import reading
 from core.log.layout import Layout
 from core.log.model import LogRows
@@ -103,7 +104,7 @@ def _opened(path: Path) -> pq.ParquetFile:
 def _decoded(batch: pa.RecordBatch, names: Sequence[str]) -> Series:
     block = np.empty((len(names), batch.num_rows))
     for row, name in zip(block, names, strict=True):
-        row[:] = batch.column(name).to_numpy(zero_copy_only=False)
+        row[:] = numbers(batch.column(name))
     return block
 
 

@@ -70,11 +70,43 @@ def read_log(
     LogError
         If the file cannot be read, a column is missing or of unknown unit, or the samples cannot be used.
     """
+    table = open_table(path, media_type)[1]
+    layout = lay_out(table, mapping)
+    return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
+
+
+def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:
+    """Recognise a file and open it as named columns, of which none is read yet.
+
+    Raises
+    ------
+    LogError
+        If the file is of no format that holds a log, or damaged.
+    """
     form = recognise(path, media_type)
-    table = OPENERS[form](path)
-    layout = bind(table, parse_mapping(fill_in(mapping, table.names)))
-    source = _source(table, layout)
-    return _examined(name or path.stem, source, layout, sha256 or _hash(path))
+    return form, OPENERS[form](path)
+
+
+def lay_out(table: Table, mapping: Mapping[str, object] | None) -> Layout:
+    """Say which column is which joint's channel.
+
+    Raises
+    ------
+    LogError
+        If a column is missing or of unknown unit, or the mapping is not understood.
+    """
+    return bind(table, parse_mapping(fill_in(mapping, table.names)))
+
+
+def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> JointLog:
+    """Read the samples and find their defects.
+
+    Raises
+    ------
+    LogError
+        If the samples cannot be used.
+    """
+    return _examined(name, _source(table, layout), layout, sha256)
 
 
 def log_from_arrays(

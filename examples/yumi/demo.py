@@ -12,15 +12,17 @@ import os
 import signal
 import sys
 import time
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Final, NoReturn
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from examples.yumi.client import Client, Document, ServiceError
+from app.client.client import Client
+from app.client.progress import bar
+from app.client.records import Job
+from app.terminal.findings import Document
+from core.errors import VeritorqueError
 from examples.yumi.diagnosis import print_diagnosis
 from examples.yumi.service import ROOT, running_service
 from examples.yumi.summary import Truth, print_summary
@@ -47,39 +49,28 @@ def read_hidden(arguments: argparse.Namespace) -> list[Document] | None:
     return effects
 
 
-def compute(client: Client, kind: str, log: Path, robot: str, console: Console) -> tuple[Document, str]:
-    """Upload, ask, follow, fetch; give the result document and the job's id."""
-    summary = client.add_log(log)
+def compute(client: Client, kind: str, log: Path, robot: str, console: Console) -> tuple[Document, Job]:
+    """Upload, ask, follow, fetch; give the result document and the job."""
+    seen = client.upload(log)
     console.print(
-        f"{escape(log.name)}: {summary['samples']} samples, {summary['duration_s']:.1f} s at "
-        f"{summary['rate_hz']:.0f} Hz, {summary['joints']} joints, {len(summary['defects'])} defects listed"
+        f"{escape(log.name)}: {seen.samples} samples, {seen.duration_s:.1f} s at {seen.rate_hz:.0f} Hz, "
+        f"{seen.joints} joints, {len(seen.defects)} defects listed"
     )
-    job = client.start(kind, robot, [summary["id"]])
-    if job["state"] == "successful":
+    job = client.submit(kind, robot, seen)
+    if job.finished:
         console.print("The service has computed this before and answers with the same job.")
-    bar = Progress(
-        TextColumn("{task.description:<24}"),
-        BarColumn(),
-        TextColumn("{task.percentage:>3.0f} %"),
-        TimeElapsedColumn(),
-        console=console,
-    )
-    with bar:
-        task = bar.add_task("accepted", total=1.0)
-        result = client.wait(
-            job["id"], lambda stage, done: bar.update(task, description=escape(stage), completed=done)
-        )
-    return result, str(job["id"])
+    with bar(console) as tell:
+        return client.wait(job, tell).document, job
 
 
 def demonstrate(arguments: argparse.Namespace, console: Console) -> None:
     """Run the whole story once and print it."""
     if arguments.url is None:
-        console.print("starting the service on loopback; the very first start compiles for about a minute")
-    service = nullcontext(Client(arguments.url)) if arguments.url else running_service(arguments.data_dir)
+        console.print("starting the service on loopback; the very first start compiles for about 40 s")
+    service = Client(arguments.url) if arguments.url else running_service(arguments.data_dir)
     with service as client:
         console.print(f"service: {client.url}")
-        robot = client.add_robot(arguments.robot) if arguments.robot else BUILT_IN
+        robot = client.add_robot(arguments.robot).id if arguments.robot else BUILT_IN
         show_identification(client, arguments, robot, console)
         show_diagnosis(client, arguments, robot, console)
 
@@ -115,7 +106,7 @@ def show_diagnosis(client: Client, arguments: argparse.Namespace, robot: str, co
     console.print(f"[bold]Open the report in a browser: {escape(os.path.relpath(target))}[/]")
 
 
-def print_problem(console: Console, error: ServiceError) -> None:
+def print_problem(console: Console, error: VeritorqueError) -> None:
     """Say what is wrong, what was seen and what to do about it."""
     console.print(f"[red]{escape(error.cause)}[/]")
     for name, value in error.evidence.items():
@@ -147,7 +138,7 @@ def main(words: list[str] | None = None) -> int:
     console = Console()
     try:
         demonstrate(parse(words), console)
-    except ServiceError as error:
+    except VeritorqueError as error:
         print_problem(console, error)
         return 1
     except KeyboardInterrupt:

@@ -13,7 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-from examples.yumi.client import Client, ServiceError
+from app.client.client import Client
+from app.client.errors import ServiceError
 
 ROOT: Final = Path(__file__).parents[2]
 START_SECONDS: Final = 180.0
@@ -47,9 +48,9 @@ def running_service(data_dir: Path) -> Iterator[Client]:
             command, cwd=ROOT, stdout=output, stderr=subprocess.STDOUT, start_new_session=True
         )
     try:
-        client = Client(f"http://127.0.0.1:{port}")
-        _await(client, process, journal)
-        yield client
+        with Client(f"http://127.0.0.1:{port}") as client:
+            _await(client, process, journal)
+            yield client
     finally:
         _stop(process)
 

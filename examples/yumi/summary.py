@@ -12,20 +12,19 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from app.terminal import tables
+from app.terminal.tables import LEFT, number, parted, percent, score_table
+
 Document = Mapping[str, Any]
 Truth = Mapping[str, float]
 
-FRICTION: Final = ("OFF", "FC", "FV")
-LEFT: Final[dict[str, Any]] = {"title_justify": "left", "caption_justify": "left", "title_style": "bold"}
 FAR: Final = 3.0
 """Standard deviations from the truth beyond which a number is shown in red."""
 
 
 def print_summary(console: Console, result: Document, truth: Truth | None = None) -> None:
     """Print everything a first reader asks; true values only where the truth is known."""
-    rows = result["base_parameters"]
-    friction = [row for row in rows if str(row["name"]).startswith(FRICTION)]
-    inertial = [row for row in rows if not str(row["name"]).startswith(FRICTION)]
+    friction, inertial = parted(result["base_parameters"])
     for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
         console.print(parameter_table(title, part, truth))
     console.print(score_table(result))
@@ -78,72 +77,14 @@ def parameter_table(title: str, rows: Iterable[Document], truth: Truth | None) -
     return table
 
 
-def score_table(result: Document) -> Table:
-    """Set the error of the predicted torque per joint in a table, fitted and held out."""
-    table = Table(
-        title="Error of the predicted torque, % of its range and of its rms", box=SIMPLE_HEAD, **LEFT
-    )
-    for heading in ("joint", "rms, N m", "fitted: range", "rms", "held out: range", "rms"):
-        table.add_column(heading, justify="right")
-    unseen = {row["joint"]: row for row in result.get("validation") or []}
-    for row in result["fit"]:
-        other = unseen.get(row["joint"], {})
-        table.add_row(
-            str(row["joint"]),
-            number(row.get("rms_torque")),
-            *(
-                percent(part.get(f"nrmse_of_{of}_percent"))
-                for part in (row, other)
-                for of in ("range", "rms")
-            ),
-        )
-    return table
-
-
 def verdict(result: Document, truth: Truth | None) -> list[str]:
-    """Sum up in a few sentences: how many parameters, whether the robot can exist, how near the truth."""
-    counts, feasibility, solver = result["counts"], result["feasibility"], result["solver"]
-    smallest = min(feasibility["pseudo_inertia_min_eigenvalue"])
-    objective, least = number(solver["objective"]), number(solver["objective_ols"])
-    steps = " -> ".join(f"{counts[kind]} {kind}" for kind in ("standard", "base", "essential"))
-    lines = [
-        f"Parameters: {steps}.",
-        f"Least squares: {existence(feasibility.get('ols_feasible'))}.",
-        f"Semidefinite programme: {existence(smallest > 0.0)}.",
-        f"Smallest eigenvalue of a link's pseudo-inertia: {smallest:.2g}.",
-        f"Solver: {solver['status']}, {solver['iterations']} iterations.",
-        f"Price of existence: objective {objective} beside {least} of least squares.",
-    ]
-    workspace = feasibility.get("mass_matrix_min_eigenvalue") or {}
-    if "workspace" in workspace:
-        lines.append(
-            f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
-            f"configurations: {number(workspace['workspace'])}."
-        )
+    """Sum up in a few sentences; the last says how near the truth the parameters are."""
+    lines = tables.verdict(result)
     scores = [abs(z) for row in result["base_parameters"] if (z := deviations(row, truth)) is not None]
     if scores:
         near = sum(z <= 1.96 for z in scores)
         lines.append(f"Truth: {near} of {len(scores)} base parameters within 1.96 standard deviations of it.")
     return lines
-
-
-def existence(feasible: bool | None) -> str:  # noqa: FBT001  (three-valued answer, printed)
-    """Say whether a robot can exist, as far as the document tells."""
-    if feasible is None:
-        return "not told whether such a robot can exist"
-    return "[green]a robot that can exist[/]" if feasible else "[red]a robot that cannot exist[/]"
-
-
-def number(value: float | None) -> str:
-    """Write four significant digits."""
-    return "" if value is None else f"{value:.4g}"
-
-
-def percent(value: float | None) -> str:
-    """Write a percentage as far as it says anything."""
-    if value is None:
-        return ""
-    return "> 999" if value > 999.0 else f"{value:.2f}" if value < 100.0 else f"{value:.0f}"
 
 
 def half_width(interval: tuple[float, float] | None) -> str:

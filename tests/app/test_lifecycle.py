@@ -9,9 +9,7 @@ import pytest
 from sqlalchemy import update
 from typer.testing import CliRunner
 
-from app.cli import COMMANDS
 from app.lifecycle.backup import NOTE, NoBackup, back_up, restore
-from app.lifecycle.commands import install
 from app.lifecycle.doctor import examine
 from app.lifecycle.retention import expire
 from app.settings import Settings
@@ -19,12 +17,11 @@ from app.store.errors import Damaged
 from app.store.records import JobRequestRecord
 from app.store.store import Store
 from app.store.tables import JOBS, LOGS, REPEATS, written
+from app.terminal.main import COMMANDS
 from tests.app.conftest import service
 from tests.app.postgres import cluster, new_database
 from tests.app.stubs import StubExecutor
 from tests.app.test_jobs import another, asked
-
-install(COMMANDS)
 
 
 @pytest.fixture

@@ -11,8 +11,8 @@ import sys
 def main():
     """Run a command of the service."""
     from app import services
-    from app.cli import main as command
     from app.jobs import process, supervisor
+    from app.terminal.main import main as command
 
     process.executor_of = services.executor_of = _executor
     supervisor.start_worker = _start_worker

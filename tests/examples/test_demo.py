@@ -9,8 +9,8 @@ from typing import ClassVar
 import pytest
 from rich.console import Console
 
+from app.client.errors import ServiceError
 from examples.yumi import demo, diagnosis, service, summary
-from examples.yumi.client import Client, ServiceError
 from tests.core.report.documents import diagnosed, nothing_found
 
 RESULT = {
@@ -120,9 +120,10 @@ class Answers(BaseHTTPRequestHandler):
     def answer(self):
         self.rfile.read(int(self.headers.get("Content-Length", 0)))
         found = self.table.get((self.command, self.path.partition("?")[0]), (404, {"detail": "nothing here"}))
-        status, document = found.pop(0) if isinstance(found, list) else found
+        status, document = found
         body = json.dumps(document).encode()
         self.send_response(status)
+        self.send_header("Content-Type", "application/problem+json" if status >= 400 else "application/json")
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()
         self.wfile.write(body)
@@ -142,38 +143,6 @@ def served():
     server.shutdown()
     thread.join()
     server.server_close()
-
-
-def test_waiting_tells_stage_and_fraction_and_ends_with_the_result(served, monkeypatch):
-    states = [
-        (200, {"state": "running", "progress": {"stage": "estimate", "fraction": 0.5}}),
-        (200, {"state": "successful", "progress": {"stage": "done", "fraction": 1.0}}),
-    ]
-    table = {("GET", "/v1/jobs/7"): states, ("GET", "/v1/jobs/7/results"): (200, RESULT)}
-    monkeypatch.setattr(Answers, "table", table)
-    told = []
-    result = Client(served).wait("7", lambda *progress: told.append(progress), pause=0.0)
-    assert told == [("estimate", 0.5), ("done", 1.0)]
-    assert result == RESULT
-
-
-def test_a_report_is_fetched_as_it_is_and_its_absence_is_a_problem(served, monkeypatch):
-    table = {("GET", "/v1/jobs/7/report"): (200, {"any": "bytes"})}
-    monkeypatch.setattr(Answers, "table", table)
-    assert json.loads(Client(served).report("7")) == {"any": "bytes"}
-    with pytest.raises(ServiceError, match="the service answered 404"):
-        Client(served).report("8")
-
-
-def test_a_failed_job_says_cause_evidence_and_remedy(served, monkeypatch):
-    problem = {"cause": "the log is empty", "evidence": {"rows": 0}, "remedy": "move the robot"}
-    monkeypatch.setattr(
-        Answers, "table", {("GET", "/v1/jobs/7"): (200, {"state": "failed", "problem": problem})}
-    )
-    with pytest.raises(ServiceError) as caught:
-        Client(served).wait("7", lambda *_: None)
-    error = caught.value
-    assert (error.cause, error.evidence, error.remedy) == ("the log is empty", {"rows": 0}, "move the robot")
 
 
 def test_the_demonstration_prints_a_problem_documents_remedy_and_fails(served, monkeypatch, capsys):

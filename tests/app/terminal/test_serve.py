@@ -6,15 +6,16 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from app import cli
 from app.main import create_app
 from app.settings import Settings, reaches_other_machines
 from app.store.lock import DirectoryLock
+from app.terminal import serve
+from app.terminal.main import COMMANDS
 from app.version import VERSION
 
 
 def run(*arguments, **environment):
-    return CliRunner().invoke(cli.COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
+    return CliRunner().invoke(COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +30,7 @@ def the_environment_is_left_as_it_was():
 def listened(monkeypatch):
     """Catch the settings with which the service would listen."""
     caught = []
-    monkeypatch.setattr(cli, "_listen", caught.append)
+    monkeypatch.setattr(serve, "_listen", caught.append)
     return caught
 
 
@@ -115,13 +116,13 @@ def test_linear_algebra_is_told_to_use_one_thread_before_it_is_loaded(listened, 
     run("serve", "--data-dir", str(tmp_path))
     chosen = [os.environ[name] for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")]
     assert chosen == ["1", "1", "3"]
-    loaded = "import sys, app.cli; sys.exit('numpy' in sys.modules)"
+    loaded = "import sys, app.terminal.serve; sys.exit('numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", loaded], check=False).returncode == 0
 
 
 def test_the_first_compilation_is_announced_once(listened, tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
-    assert "compiling the regressor once" in run("serve", "--data-dir", str(tmp_path)).output
+    assert "compiling once" in run("serve", "--data-dir", str(tmp_path)).output
     (tmp_path / "kernels" / "core").mkdir(parents=True)
     (tmp_path / "kernels" / "core" / "kernel.nbi").touch()
     assert "compiling" not in run("serve", "--data-dir", str(tmp_path)).output

@@ -1,0 +1,239 @@
+"""Read a result document as typed tables: arrays to compute with, data frames to look at.
+
+The document itself stays at hand and is what is stored and passed on; see docs/http.md for its fields.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from core.errors import OptionError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Document = Mapping[str, Any]
+Floats = np.ndarray[tuple[int], np.dtype[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Hold rows of a document as columns: names and words as tuples, numbers as arrays (NaN where absent)."""
+
+    def __len__(self) -> int:
+        """Count the rows."""
+        return len(getattr(self, fields(self)[0].name))
+
+    def frame(self) -> "pd.DataFrame":
+        """Give the rows as a data frame.
+
+        Raises
+        ------
+        OptionError
+            If pandas is not installed.
+        """
+        try:
+            import pandas as pd
+        except ImportError as error:
+            raise OptionError(
+                "data frames need pandas, which is not installed",
+                evidence={"missing": "pandas"},
+                remedy="pip install 'veritorque[notebook]', or use the arrays",
+            ) from error
+        return pd.DataFrame({one.name: getattr(self, one.name) for one in fields(self)})
+
+
+@dataclass(frozen=True, eq=False)
+class BaseParameters(Rows):
+    """The combinations of parameters that the motion can tell apart, and how well each is known.
+
+    Attributes
+    ----------
+    value, value_ols
+        Of the robot that can exist, and of least squares, in `unit`.
+    standard_deviation
+        In `unit`.
+    relative_deviation_percent
+        %P.
+    essential
+        Whether the motion needs it.
+    grouping
+        The standard parameters that it adds up.
+    """
+
+    name: tuple[str, ...]
+    joint: np.ndarray
+    unit: tuple[str, ...]
+    value: Floats
+    value_ols: Floats
+    standard_deviation: Floats
+    relative_deviation_percent: Floats
+    essential: np.ndarray
+    grouping: tuple[str, ...]
+
+    @classmethod
+    def from_rows(cls, rows: Sequence[Document]) -> Self:
+        """Read the rows of `base_parameters`."""
+        return cls(
+            name=_words(rows, "name"),
+            joint=_whole(rows, "joint"),
+            unit=_words(rows, "unit"),
+            value=_numbers(rows, "value"),
+            value_ols=_numbers(rows, "value_ols"),
+            standard_deviation=_numbers(rows, "standard_deviation"),
+            relative_deviation_percent=_numbers(rows, "relative_deviation_percent"),
+            essential=np.array([bool(row.get("essential")) for row in rows]),
+            grouping=_words(rows, "grouping"),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class StandardParameters(Rows):
+    """One robot of the many with the same base parameters: ten numbers per link, and the drives'.
+
+    Attributes
+    ----------
+    identifiable
+        ``individually``, ``in_combination`` or ``no``: only the first are measured by themselves.
+    """
+
+    name: tuple[str, ...]
+    joint: np.ndarray
+    unit: tuple[str, ...]
+    value: Floats
+    identifiable: tuple[str, ...]
+
+    @classmethod
+    def from_rows(cls, rows: Sequence[Document]) -> Self:
+        """Read the rows of `standard_parameters`."""
+        return cls(
+            name=_words(rows, "name"),
+            joint=_whole(rows, "joint"),
+            unit=_words(rows, "unit"),
+            value=_numbers(rows, "value"),
+            identifiable=_words(rows, "identifiable"),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class JointErrors(Rows):
+    """How well the torque is predicted, joint by joint; rms in N m (slide: N)."""
+
+    joint: np.ndarray
+    rms_torque: Floats
+    rms_residual: Floats
+    nrmse_of_range_percent: Floats
+    nrmse_of_rms_percent: Floats
+
+    @classmethod
+    def from_rows(cls, rows: Sequence[Document]) -> Self:
+        """Read the rows of `fit` or `validation`."""
+        names = ("rms_torque", "rms_residual", "nrmse_of_range_percent", "nrmse_of_rms_percent")
+        return cls(joint=_whole(rows, "joint"), **{name: _numbers(rows, name) for name in names})
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that the simulation gets wrong; see docs/diagnosis.md.
+
+    Attributes
+    ----------
+    parameters
+        Value and standard deviation by name.
+    ambiguous_with
+        Causes that explain it as well.
+    improvement_percent
+        Of the error on these joints that it takes away on motion no fit has seen; None where not judged.
+    """
+
+    cause: str
+    joints: tuple[int, ...]
+    statement: str
+    confidence: float
+    parameters: Mapping[str, tuple[float, float]]
+    ambiguous_with: tuple[str, ...]
+    improvement_percent: float | None
+
+    @classmethod
+    def from_document(cls, document: Document) -> Self:
+        """Read one of the findings of a diagnosis."""
+        gain = document.get("gain")
+        return cls(
+            cause=document["cause"],
+            joints=tuple(document["joints"]),
+            statement=document["statement"],
+            confidence=document["confidence"],
+            parameters={
+                one["name"]: (one["value"], one["standard_deviation"]) for one in document["parameters"]
+            },
+            ambiguous_with=tuple(rival["cause"] for rival in document["ambiguous_with"]),
+            improvement_percent=None if gain is None else gain["improvement_total_percent"],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """Hold one result: the identified robot, and of a diagnosis its verdict and findings.
+
+    Attributes
+    ----------
+    document
+        The whole of it, as the service sent it.
+    fit, validation
+        Error of the predicted torque on the fitted motion, and on motion held out of the fit.
+    verdict
+        ``causes_found``, ``nothing_found`` or ``unexplained``; None of an identification.
+    """
+
+    document: Document
+    base: BaseParameters
+    standard: StandardParameters
+    fit: JointErrors
+    validation: JointErrors
+    verdict: str | None
+    findings: tuple[Finding, ...]
+
+    @classmethod
+    def from_document(cls, document: Document) -> Self:
+        """Read a result document."""
+        diagnosis = document.get("diagnosis") or {"verdict": None, "findings": ()}
+        return cls(
+            document=document,
+            base=BaseParameters.from_rows(document["base_parameters"]),
+            standard=StandardParameters.from_rows(document["standard_parameters"]),
+            fit=JointErrors.from_rows(document["fit"]),
+            validation=JointErrors.from_rows(document["validation"]),
+            verdict=diagnosis["verdict"],
+            findings=tuple(Finding.from_document(one) for one in diagnosis["findings"]),
+        )
+
+    @property
+    def can_exist(self) -> bool:
+        """Tell whether every identified body is one that can exist."""
+        return bool(min(self.document["feasibility"]["pseudo_inertia_min_eigenvalue"]) > 0.0)
+
+    def save(self, path: Path | str) -> None:
+        """Write the document, from which `Result.load`, reports and exports are made."""
+        Path(path).write_text(json.dumps(self.document), encoding="utf-8")
+
+    @classmethod
+    def load(cls, path: Path | str) -> Self:
+        """Read a document that was saved."""
+        return cls.from_document(json.loads(Path(path).read_text(encoding="utf-8")))
+
+
+def _words(rows: Sequence[Document], name: str) -> tuple[str, ...]:
+    return tuple(str(row.get(name) or "") for row in rows)
+
+
+def _numbers(rows: Sequence[Document], name: str) -> Floats:
+    values = [row.get(name) for row in rows]
+    return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
+
+
+def _whole(rows: Sequence[Document], name: str) -> np.ndarray:
+    return np.array([row[name] for row in rows], dtype=np.int64)

@@ -1,0 +1,65 @@
+"""Diagnose what the simulation of a robot gets wrong."""
+
+from typing import Annotated
+
+import typer
+
+from app.terminal.bench import Study
+from app.terminal.exits import Exit
+from app.terminal.given import (
+    JsonOption,
+    KeyOption,
+    LogsArgument,
+    MappingOption,
+    OptionsOption,
+    ProfileOption,
+    RobotArgument,
+    SetOption,
+    UrlOption,
+    mapping_of,
+    options_of,
+)
+from app.terminal.study import OutOption, ReportOption, Wanted, run
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+EPILOG = """\b
+Example:
+  veritorque diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html --fail-on-findings
+"""
+ReferenceOption = Annotated[
+    str,
+    typer.Option(
+        help="What the logs are compared with: an earlier result (a file; with --url a job), or prior."
+    ),
+]
+FailOption = Annotated[bool, typer.Option("--fail-on-findings", help="End with 1 where something is wrong.")]
+
+
+@COMMANDS.command(epilog=EPILOG)
+def diagnose(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    logs: LogsArgument,
+    *,
+    reference: ReferenceOption = "",
+    fail_on_findings: FailOption = False,
+    mapping: MappingOption = "",
+    profile: ProfileOption = "",
+    options: OptionsOption = "",
+    settings: SetOption = [],  # noqa: B006  # typer reads it and makes a new one
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
+    out: OutOption = None,
+    report: ReportOption = None,
+) -> None:
+    """Identify a robot, then name what its simulation gets wrong, why, and what mending it gains."""
+    chosen = options_of(options, settings) | ({"reference": reference} if reference else {})
+    study = Study("diagnose", robot, tuple(logs), mapping_of(mapping, profile), chosen)
+    document = run(study, url=url, key=key, wanted=Wanted(json, out, report))
+    if not json:
+        from app.terminal.findings import print_diagnosis
+        from app.terminal.speech import out as console
+
+        print_diagnosis(console(), document)
+    if fail_on_findings and document["diagnosis"]["verdict"] != "nothing_found":
+        raise typer.Exit(Exit.FOUND)

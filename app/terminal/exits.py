@@ -1,0 +1,56 @@
+"""List how commands end, in one place: scripts branch on these codes, and docs/terminal.md shows them."""
+
+from enum import IntEnum
+
+from app.client.errors import NoAnswerError, ServiceError
+from core.errors import ExcitationError, SolverError, VeritorqueError
+
+
+class Exit(IntEnum):
+    """Say how a command ended."""
+
+    DONE = 0
+    """It did what it was asked."""
+    FOUND = 1
+    """It found what it was asked to fail on: findings, defects, or harm seen by doctor."""
+    INPUT = 2
+    """The command line, the robot, the log or an option cannot be used."""
+    NO_RESULT = 3
+    """The computation gave no result: the motion cannot tell, no optimum, too little time or memory."""
+    NO_SERVICE = 4
+    """The service does not answer, does not let in, or is in trouble."""
+    MISTAKE = 5
+    """A mistake of ours."""
+    INTERRUPTED = 130
+    """Ctrl-C; a job on a service is dismissed."""
+
+
+NO_RESULT = frozenset(
+    {"excitation", "solver", "job-timeout", "job-memory", "computation-stopped", "dismissed", "job-failed"}
+)
+NO_SERVICE = frozenset(
+    {"no-key", "no-scope", "other-site", "wrong-host", "too-slow", "too-many", "quota", "head-too-large"}
+    | {"internal", "damaged", "not-ready", "unavailable", "disk-full"}
+)
+
+
+def exit_of(kind: str) -> Exit:
+    """Give the code that stands for a problem of a kind; see `app.problems.KINDS`.
+
+    Examples
+    --------
+    >>> exit_of("log").name, exit_of("solver").name, exit_of("quota").name
+    ('INPUT', 'NO_RESULT', 'NO_SERVICE')
+    """
+    if kind in NO_RESULT:
+        return Exit.NO_RESULT
+    return Exit.NO_SERVICE if kind in NO_SERVICE else Exit.INPUT
+
+
+def exit_of_error(error: VeritorqueError) -> Exit:
+    """Give the code that stands for an error."""
+    if isinstance(error, NoAnswerError):
+        return Exit.NO_SERVICE
+    if isinstance(error, ServiceError):
+        return exit_of(error.kind)
+    return Exit.NO_RESULT if isinstance(error, ExcitationError | SolverError) else Exit.INPUT

@@ -1,0 +1,68 @@
+"""Take the identified robot home as files that other tools read."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.terminal.given import KeyOption, UrlOption
+from app.terminal.results import RESULT_HELP, read_result
+from app.terminal.speech import say, write
+from app.terminal.study import require_folder, save
+from core.errors import OptionError
+from core.export.formats import FORMATS
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+EPILOG = "\b\nExamples:\n  veritorque export result.json robot.urdf\n" + (
+    "  veritorque export result.json robot.xml --out yumi.xml\n"
+    "  veritorque export --list\n\n\bFormats:\n"
+    + "\n".join(f"  {name:<24}{form.title}" for name, form in FORMATS.items())
+)
+
+
+def _print_list(wanted: bool) -> None:  # noqa: FBT001  # as typer calls it
+    if wanted:
+        for name, form in FORMATS.items():
+            say(f"{name:<24}{form.media_type:<28}{form.title}")
+        raise typer.Exit
+
+
+@COMMANDS.command(epilog=EPILOG)
+def export(
+    result: Annotated[str, typer.Argument(metavar="RESULT", help=RESULT_HELP)],
+    name: Annotated[str, typer.Argument(metavar="FORMAT", help="One of the formats below.")],
+    *,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="Where to write it, - for the terminal; by default a file of this name."),
+    ] = None,
+    url: UrlOption = "",
+    key: KeyOption = "",
+    _list: Annotated[
+        bool, typer.Option("--list", callback=_print_list, is_eager=True, help="List the formats.")
+    ] = False,
+) -> None:
+    """Write the identified robot as URDF, MJCF, SDFormat, YAML, CSV, MATLAB, C, or a model file."""
+    if name not in FORMATS:
+        raise OptionError(
+            f"there is no format {name}",
+            evidence={"known": list(FORMATS)},
+            remedy="name one of the known formats",
+        )
+    target = out or Path(name)
+    if str(target) != "-":
+        require_folder(target)
+    content = _content(result, name, url, key)
+    if str(target) == "-":
+        write(content)
+    else:
+        save(target, content)
+
+
+def _content(result: str, name: str, url: str, key: str) -> bytes:
+    if url and not Path(result).is_file():
+        from app.client.client import Client
+
+        with Client(url, key or None) as client:
+            return client.export(result, name)
+    return FORMATS[name].write(read_result(result))

@@ -1,0 +1,93 @@
+"""Load commands when they are asked for, and turn whatever stops one into words and an exit code.
+
+A command that needs no solver does not wait for it, and nobody but us reads a traceback.
+"""
+
+import tempfile
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import Any, ClassVar
+
+import typer
+from typer.core import TyperGroup
+from typer.main import get_command
+
+from app.terminal.exits import Exit, exit_of, exit_of_error
+from app.terminal.speech import complain, note
+from core.errors import VeritorqueError
+
+
+class Commands(TyperGroup):
+    """Hold commands by the modules that define them.
+
+    Attributes
+    ----------
+    homes
+        Module by command; it holds a `typer.Typer` called ``COMMANDS`` whose name is the command's own or
+        which is a single command.
+    """
+
+    homes: ClassVar[dict[str, str]] = {}
+
+    def list_commands(self, _ctx: Any) -> list[str]:  # noqa: ANN401  # typer's own type is private
+        """List the commands in the order in which a reader meets them."""
+        return list(self.homes)
+
+    def get_command(self, _ctx: Any, cmd_name: str) -> Any:  # noqa: ANN401
+        """Load a command; None where there is none of this name."""
+        if cmd_name not in self.homes:
+            return None
+        loaded = get_command(import_module(self.homes[cmd_name]).COMMANDS)
+        found = getattr(loaded, "commands", {}).get(cmd_name, loaded)
+        found.name = cmd_name
+        return found
+
+    def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
+        """Run a command; whatever stops it becomes words and an exit code."""
+        with guarded():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def guarded() -> Iterator[None]:
+    """Turn errors into words and an exit code."""
+    try:
+        yield
+    except VeritorqueError as error:
+        complain(error.cause, error.evidence, error.remedy)
+        raise typer.Exit(exit_of_error(error)) from None
+    except KeyboardInterrupt:
+        note("interrupted")
+        raise typer.Exit(Exit.INTERRUPTED) from None
+    except BrokenPipeError:
+        raise typer.Exit(Exit.DONE) from None  # whoever read has read enough
+    except Exception as error:
+        if _is_typers(error):
+            raise
+        raise typer.Exit(_other(error)) from None
+
+
+def _other(error: Exception) -> Exit:
+    from app.problems import Problem
+
+    if isinstance(error, Problem):
+        complain(str(error.detail), error.evidence, error.remedy)
+        return exit_of(error.kind)
+    with tempfile.NamedTemporaryFile(
+        "w", prefix="veritorque-", suffix=".txt", delete=False, encoding="utf-8"
+    ) as file:
+        file.write("".join(traceback.format_exception(error)))
+    complain(
+        "this is a mistake of ours",
+        {"what": f"{type(error).__name__}: {error}"},
+        f"report it with {Path(file.name)}",
+    )
+    return Exit.MISTAKE
+
+
+def _is_typers(error: Exception) -> bool:
+    """Tell whether typer itself wants to end or to complain about the command line."""
+    return type(error).__module__.split(".")[0] in {"typer", "click"}

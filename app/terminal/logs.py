@@ -1,0 +1,70 @@
+"""Look at logs before anything is identified from them; no solver is loaded for that."""
+
+import json as encoder
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from app.terminal.exits import Exit
+from app.terminal.given import JsonOption, MappingOption, ProfileOption, mapping_of
+from app.terminal.speech import complain, note, say
+
+COMMANDS = typer.Typer(
+    help="Look at logs before anything is identified from them.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    epilog="\b\nExample:\n  veritorque logs check examples/yumi/log.csv",
+)
+EPILOG = """\b
+Examples:
+  veritorque logs check examples/yumi/log.csv
+  veritorque logs check examples/yumi/log.csv --fail-on-defects --json
+"""
+
+
+@COMMANDS.callback()
+def _logs() -> None:
+    pass
+
+
+@COMMANDS.command(epilog=EPILOG)
+def check(
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Logs in any format.")],
+    *,
+    mapping: MappingOption = "",
+    profile: ProfileOption = "",
+    fail_on_defects: Annotated[
+        bool, typer.Option("--fail-on-defects", help="End with 1 where a log has defects.")
+    ] = False,
+    json: JsonOption = False,
+) -> None:
+    """Say what is in a log and what is wrong with it: columns, units, rate, gaps, outliers, saturation ..."""
+    from app.terminal.logcheck import document_of, lines_of
+    from app.terminal.threads import limit_threads
+    from core.log.check import check_log
+
+    limit_threads(1)
+    chosen = mapping_of(mapping, profile)
+    checks = [(path, check_log(path, mapping=chosen)) for path in logs]
+    documents = [document_of(path, seen) for path, seen in checks]
+    if json:
+        say(encoder.dumps(documents if len(documents) > 1 else documents[0]))
+    for path, seen in checks:
+        if not json:
+            for line in lines_of(path, seen):
+                say(line)
+        if seen.refusal is not None:
+            complain(seen.refusal.cause, seen.refusal.evidence, seen.refusal.remedy)
+            _tell_suggestion(seen.suggestion)
+    if any(seen.refusal is not None for _, seen in checks):
+        raise typer.Exit(Exit.INPUT)
+    if fail_on_defects and any(document["defects"] for document in documents):
+        raise typer.Exit(Exit.FOUND)
+
+
+def _tell_suggestion(suggestion: Any) -> None:  # noqa: ANN401  # a mapping, or None
+    if suggestion is not None:
+        note("  the names suggest this; look at the units before you believe it:")
+        note(f"  --mapping '{encoder.dumps(suggestion)}'")

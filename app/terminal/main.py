@@ -1,0 +1,61 @@
+"""Name every command and the module that holds it; nothing else is loaded before one is asked for."""
+
+from typing import Annotated
+
+import typer
+
+from app.terminal.guard import Commands
+from app.terminal.speech import say
+from app.version import VERSION
+
+HOMES = {
+    "identify": "app.terminal.identify",
+    "diagnose": "app.terminal.diagnose",
+    "logs": "app.terminal.logs",
+    "robots": "app.terminal.robots",
+    "report": "app.terminal.report",
+    "export": "app.terminal.export",
+    "serve": "app.terminal.serve",
+    "work": "app.terminal.work",
+    "keys": "app.terminal.keys",
+    "doctor": "app.terminal.upkeep",
+    "backup": "app.terminal.upkeep",
+    "restore": "app.terminal.upkeep",
+    "gc": "app.terminal.upkeep",
+    "openapi": "app.terminal.contract",
+    "version": "app.terminal.contract",
+}
+
+
+class _Veritorque(Commands):
+    homes = HOMES
+
+
+COMMANDS = typer.Typer(
+    name="veritorque",
+    cls=_Veritorque,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+def _print_version(wanted: bool) -> None:  # noqa: FBT001  # as typer calls it
+    if wanted:
+        say(VERSION)
+        raise typer.Exit
+
+
+@COMMANDS.callback(epilog="\b\nExample:\n  veritorque identify yumi-left examples/yumi/log.csv")
+def _veritorque(
+    *,
+    _version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """From a robot's log to a robot that can physically exist."""
+
+
+def main() -> None:
+    """Run the command line."""
+    COMMANDS()

@@ -1,0 +1,67 @@
+"""Speak to a terminal: results on standard output, everything else on standard error, plain where piped."""
+
+import sys
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+PIPED_WIDTH = 200
+"""Columns where nobody watches: lines are not folded, so that a table keeps one row a line."""
+
+
+def out() -> "Console":
+    """Give the console for results."""
+    return _console(error=False)
+
+
+def aside() -> "Console":
+    """Give the console for progress, notes and errors."""
+    return _console(error=True)
+
+
+def say(text: str) -> None:
+    """Write a line of a result as it is."""
+    sys.stdout.write(text + "\n")
+    sys.stdout.flush()
+
+
+def note(text: str) -> None:
+    """Write a line beside the result."""
+    sys.stderr.write(text + "\n")
+
+
+def write(content: bytes) -> None:
+    """Write bytes to standard output and nothing else, but for a line's end where somebody watches."""
+    sys.stdout.flush()
+    sys.stdout.buffer.write(content)
+    if sys.stdout.isatty():
+        sys.stdout.buffer.write(b"\n")
+    sys.stdout.buffer.flush()
+
+
+def complain(cause: str, evidence: Mapping[str, object], remedy: str) -> None:
+    """Say on standard error what is wrong, what was seen, and what to do about it."""
+    note(f"error: {cause}")
+    for name, value in evidence.items():
+        note(f"  {name.replace('_', ' ')}: {_shown(value)}")
+    if remedy:
+        note(f"  what to do: {remedy}")
+
+
+def _console(*, error: bool) -> "Console":
+    from rich.console import Console
+
+    console = Console(stderr=error, highlight=False)
+    if not console.is_terminal:
+        console.width = PIPED_WIDTH
+    return console
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, Mapping):
+        return "; ".join(f"{name}: {_shown(one)}" for name, one in value.items()) or "none"
+    if isinstance(value, list | tuple):
+        return ", ".join(_shown(one) for one in value) or "none"
+    return str(value)

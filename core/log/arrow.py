@@ -1,0 +1,24 @@
+"""Take numbers out of Arrow without `Array.to_numpy`, which loads pandas wherever pandas is installed.
+
+That takes longer than reading a log, and a process that may open nothing any more could not do it at all.
+"""
+
+import numpy as np
+import pyarrow as pa
+
+from core.arrays import Samples
+
+
+def numbers(column: pa.Array) -> Samples:
+    """Give a column of numbers as float64; what is missing is NaN.
+
+    Examples
+    --------
+    >>> numbers(pa.array([1, None, 3]))
+    array([ 1., nan,  3.])
+    """
+    if column.type != pa.float64():
+        column = column.cast(pa.float64(), safe=False)  # beyond 2^53 to the nearest, as numpy does
+    if column.null_count:
+        column = column.fill_null(np.nan)
+    return np.asarray(np.from_dlpack(column))

@@ -1,0 +1,95 @@
+"""Look at a log before anything is identified from it: what was recognised, what moved, what is wrong.
+
+A file that cannot be used yet is no error here: why, and which mapping would mend it, is the answer.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from core.arrays import JointVector
+from core.errors import LogError
+from core.log.layout import Channel, Layout
+from core.log.model import JointLog
+from core.log.reader import lay_out, open_table, read_table
+from core.log.suggestion import suggested_mapping
+
+PIECE_ROWS = 1 << 16
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """Say between which values a channel moved, joint by joint, in SI."""
+
+    channel: str
+    low: JointVector
+    high: JointVector
+
+
+@dataclass(frozen=True, eq=False)
+class LogCheck:
+    """Say what is in a file.
+
+    Attributes
+    ----------
+    format
+        ``CSV``, ``Parquet`` ...
+    columns
+        All columns of the file.
+    recognised
+        Time and channels with their columns and units; empty where they are not known.
+    log
+        The log with its defects; None where it cannot be used.
+    reach
+        Between which values every channel moved.
+    refusal
+        Why it cannot be used.
+    suggestion
+        A mapping to confirm, where names or units are not known.
+    """
+
+    format: str
+    columns: tuple[str, ...]
+    recognised: tuple[Channel, ...] = ()
+    log: JointLog | None = None
+    reach: tuple[Reach, ...] = ()
+    refusal: LogError | None = None
+    suggestion: Mapping[str, object] | None = None
+
+
+def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> LogCheck:
+    """Look at a file.
+
+    Raises
+    ------
+    LogError
+        If the file is of no format that holds a log, or damaged.
+    """
+    form, table = open_table(path)
+    try:
+        layout = lay_out(table, mapping)
+    except LogError as error:
+        suggestion = None if mapping else suggested_mapping(table)
+        return LogCheck(form.name, table.names, refusal=error, suggestion=suggestion)
+    recognised = (*((layout.time,) if layout.time else ()), *layout.channels)
+    try:
+        log = read_table(table, layout, name=path.stem, sha256="")
+    except LogError as error:
+        return LogCheck(form.name, table.names, recognised, refusal=error)
+    return LogCheck(form.name, table.names, recognised, log, _reach(log, layout))
+
+
+def _reach(log: JointLog, layout: Layout) -> tuple[Reach, ...]:
+    names = [channel.name for channel in layout.channels]
+    pieces = [_extremes(log, names, start) for start in range(0, log.samples, PIECE_ROWS)]
+    return tuple(
+        Reach(name, np.min([low for low, _ in piece], axis=0), np.max([high for _, high in piece], axis=0))
+        for name, piece in zip(names, zip(*pieces, strict=True), strict=True)
+    )
+
+
+def _extremes(log: JointLog, names: list[str], start: int) -> list[tuple[JointVector, JointVector]]:
+    rows = log.source.rows(start, min(start + PIECE_ROWS, log.samples))
+    return [(getattr(rows, name).min(axis=0), getattr(rows, name).max(axis=0)) for name in names]

@@ -1,0 +1,97 @@
+"""Suggest a mapping for a file whose columns go by other names; whoever knows the recorder confirms it.
+
+A profile that fits says it best. Otherwise columns which differ in a number only are taken for the joints of
+one channel, their words tell which, and their sizes tell the unit. Nothing is read by a suggestion: it is
+shown.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+
+from core.errors import LogError
+from core.log.profiles import PROFILE, PROFILES, fill_in
+from core.log.readings import plausible_readings
+from core.log.table import Table
+from core.log.units import TIME, UNITS
+
+WORDS: Mapping[str, tuple[str, ...]] = {
+    "velocity": ("qd", "dq", "vel", "velocity", "velocities", "speed", "omega", "qdot"),
+    "torque": ("tau", "torque", "torques", "trq", "effort", "moment", "mom", "tq"),
+    "current": ("current", "currents", "cur", "curr", "amp", "amps", "i"),
+    "temperature": ("temperature", "temp"),
+    "position": ("q", "pos", "position", "positions", "angle", "angles", "theta", "joint", "ang"),
+}
+"""Words in a column's name by channel, the more telling channel first."""
+TIME_WORDS = ("time", "t", "timestamp", "stamp", "sec", "seconds", "ms", "clock", "tick")
+UNKNOWN = "?"
+
+
+def suggested_mapping(table: Table) -> dict[str, object] | None:
+    """Give a mapping that fits the names of the columns; None where they tell too little.
+
+    Units are the most plausible by size, or `UNKNOWN` where the size tells none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from core.log.table import MemoryTable
+    >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
+    >>> suggested_mapping(MemoryTable(columns))["position"]
+    {'columns': ['pos1'], 'unit': 'deg'}
+    """
+    profile = _profile(table.names)
+    if profile is not None:
+        return {PROFILE: profile}
+    mapping: dict[str, object] = {}
+    time = next((name for name in table.names if set(_words(name)) & set(TIME_WORDS)), None)
+    if time is not None:
+        mapping[TIME] = {"column": time, "unit": _unit(TIME, table, time)}
+    for stem, columns in _families(table.names).items():
+        channel = _channel(stem)
+        if channel is not None and channel not in mapping:
+            mapping[channel] = {"columns": columns, "unit": _unit(channel, table, columns[0])}
+    useful = "position" in mapping and ("torque" in mapping or "current" in mapping)
+    return {name: mapping[name] for name in UNITS if name in mapping} if useful else None
+
+
+def _profile(names: Sequence[str]) -> str | None:
+    """Find a recorder whose names these are; the units that it leaves open are asked for when it is tried."""
+    for name in PROFILES:
+        try:
+            filled = fill_in({PROFILE: name}, names)
+        except LogError:  # the order of the joints is not known, and would have to be told as well
+            continue
+        if isinstance(filled, dict) and {"position"} < filled.keys() & UNITS.keys():
+            return name
+    return None
+
+
+def _families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Gather columns that differ in their last number only, in the order of that number."""
+    families: dict[str, list[tuple[int, str]]] = {}
+    for name in names:
+        numbers = list(re.finditer(r"\d+", name))
+        if numbers:
+            last = numbers[-1]
+            stem = f"{name[: last.start()]} {name[last.end() :]}"
+            families.setdefault(stem, []).append((int(last.group()), name))
+    return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
+
+
+def _channel(stem: str) -> str | None:
+    words = set(_words(stem))
+    return next((channel for channel, known in WORDS.items() if words & set(known)), None)
+
+
+def _words(name: str) -> list[str]:
+    """Cut a name at its signs, numbers and capitals."""
+    return [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
+
+
+def _unit(channel: str, table: Table, column: str) -> str:
+    try:
+        block = next(iter(table.batches([column])), None)
+    except LogError:
+        return UNKNOWN
+    plausible = [] if block is None else plausible_readings(channel, block[0])
+    return plausible[0].split(":")[0] if plausible else UNKNOWN

@@ -1,0 +1,36 @@
+"""Identify a robot from a log, in this process: nothing runs beside it, nothing is kept.
+
+Run ``python -m examples.01_identify``; it writes `result.json` beside you, which the other examples read too.
+"""
+
+from pathlib import Path
+
+from app.client.result import Result
+from core import IdentifyRequest, builtin_robot, identify, read_log
+
+LOG = Path(__file__).parent / "yumi" / "log.csv"
+
+
+def main() -> None:
+    """Read, identify, look, save."""
+    log = read_log(LOG)
+    for defect in log.defects:
+        print(f"look at this: {defect.statement}")
+
+    document = identify(IdentifyRequest(builtin_robot("yumi-left"), (log,), {"bootstrap": {"draws": 0}}))
+    result = Result.from_document(document)
+
+    print(f"the bodies {'can' if result.can_exist else 'cannot'} exist")
+    print("joint  error on motion that the fit has not seen, % of rms")
+    for joint, error in zip(result.validation.joint, result.validation.nrmse_of_rms_percent, strict=True):
+        print(f"{joint:5}  {error:.2f}")
+    print("the five parameters that are known best")
+    base = result.base
+    for row in base.relative_deviation_percent.argsort()[:5]:
+        known = base.relative_deviation_percent[row]
+        print(f"{base.name[row]:6} {base.value[row]:9.4f} {base.unit[row]:10} {known:.2f} %")
+    result.save("result.json")
+
+
+if __name__ == "__main__":
+    main()

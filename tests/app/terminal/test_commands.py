@@ -1,0 +1,238 @@
+"""What commands print, where, and how they end."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from app.client.client import Client
+from app.jobs import science
+from app.problems import KINDS
+from app.terminal.exits import NO_RESULT, NO_SERVICE, Exit
+from core.errors import ExcitationError, LogError, SolverError
+from tests.app.planar_arm import csv_log, description
+from tests.app.stubs import InlineExecutor, StubExecutor, failing
+from tests.app.terminal.conftest import ROOT, run
+from tests.app.test_server import listening_service
+from tests.core.report.documents import diagnosed, nothing_found
+
+QUICK = ("--set", "bootstrap.draws=0")
+
+
+@pytest.fixture
+def planar(desk):
+    """A folder with a robot of two joints and its log."""
+    (desk / "arm.json").write_text(json.dumps(description()))
+    (desk / "swing.csv").write_bytes(csv_log())
+    return desk
+
+
+def no_tables(ended):
+    return ended.stdout == ""
+
+
+def test_files_and_a_service_give_the_same_document_byte_for_byte(planar, tmp_path_factory):
+    here = run("identify", "arm.json", "swing.csv", *QUICK, "--json")
+    with listening_service(tmp_path_factory.mktemp("data"), InlineExecutor()) as (_, port):
+        url = f"http://127.0.0.1:{port}"
+        there = run("identify", "arm.json", "swing.csv", *QUICK, "--json", VERITORQUE_URL=url)
+        with Client(url) as client:
+            (job,) = client.jobs()
+            stored = client.result_bytes(job)
+    assert (here.exit_code, there.exit_code) == (0, 0)
+    assert here.stdout_bytes == there.stdout_bytes == stored
+    assert "estimate" in here.stderr
+    assert f"job {job.id}" in there.stderr
+
+
+def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
+    monkeypatch.setattr(
+        "app.terminal.local.LocalBench.run", lambda *_: identified.read_bytes()
+    )  # the same document, printed
+    ended = run("identify", "yumi-left", "examples/yumi/log.csv", COLUMNS="40")
+    rows = [line.split() for line in ended.stdout.splitlines()]
+    result = json.loads(identified.read_text())
+    friction = next(row for row in rows if row and row[0] == "FV1*")
+    known = next(row for row in result["base_parameters"] if row["name"] == "FV1")
+    assert friction[1] == f"{known['value']:.4g}"
+    assert friction[-3:] == ["N", "m", "s/rad"]
+    assert [row[0] for row in rows if len(row) == 6 and row[0].isdigit()] == [*"1234567"]
+    assert "98 standard -> 71 base" in ended.stdout
+    assert "\x1b" not in ended.output
+
+
+@pytest.mark.parametrize(("document", "code"), [(diagnosed(), Exit.FOUND), (nothing_found(), Exit.DONE)])
+def test_a_diagnosis_fails_on_findings_only_where_that_is_asked_for(desk, monkeypatch, document, code):
+    content = json.dumps(document).encode()
+    monkeypatch.setattr("app.terminal.local.LocalBench.run", lambda *_: content)
+    command = ("diagnose", "yumi-left", "examples/yumi/log.csv")
+    assert run(*command).exit_code == Exit.DONE
+    failing_run = run(*command, "--fail-on-findings", "--json")
+    assert (failing_run.exit_code, failing_run.stdout_bytes) == (code, content)
+
+
+def test_every_kind_of_problem_has_one_exit_code():
+    assert NO_RESULT.isdisjoint(NO_SERVICE)
+    assert (NO_RESULT - {"dismissed"}) | NO_SERVICE <= set(KINDS)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("identify", "nobody", "swing.csv"), "yumi-left"),
+        (("identify", "arm.json", "absent.csv"), "absent.csv cannot be read"),
+        (("identify", "yumi-left", "swing.csv"), "different numbers of joints"),
+        (("identify", "arm.json", "swing.csv", "--set", "estimator=guess"), "sdp"),
+        (("identify", "arm.json", "swing.csv", "--set", "estimator"), "is not an option"),
+        (("identify", "arm.json", "swing.csv", "--options", "{"), "the options cannot be read"),
+        (("identify", "arm.json", "swing.csv", "--mapping", "[1]"), "the mapping cannot be read"),
+        (("identify", "arm.json", "swing.csv", "--out", "nowhere/result.json"), "cannot be written"),
+        (("diagnose", "arm.json", "swing.csv", "--reference", "gone.json"), "no result gone.json"),
+        (("report", "swing.csv"), "is not a result"),
+        (("report", "arm.json"), "is not a result document"),
+        (("export", "result.json", "robot.step"), "robot.urdf"),
+        (("robots", "show", "arm.json", "--gravity", "down"), "not three numbers"),
+        (("identify",), "Missing argument"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_what_cannot_be_used_ends_with_2_and_says_what_to_do(planar, arguments, said):
+    ended = run(*arguments)
+    assert ended.exit_code == Exit.INPUT
+    assert said in ended.stderr
+    assert no_tables(ended)
+    assert "Traceback" not in ended.output
+
+
+@pytest.mark.parametrize(
+    ("error", "code"),
+    [
+        (LogError("the log is empty", remedy="move"), Exit.INPUT),
+        (ExcitationError("the motion is too slow", remedy="move"), Exit.NO_RESULT),
+        (SolverError("no optimum", remedy="move"), Exit.NO_RESULT),
+        (KeyboardInterrupt(), Exit.INTERRUPTED),
+    ],
+)
+def test_a_computation_that_gives_nothing_says_so_by_its_code(planar, monkeypatch, error, code):
+    def stopped(*_):
+        raise error
+
+    monkeypatch.setattr(science, "compute", stopped)
+    ended = run("identify", "arm.json", "swing.csv", "--json")
+    assert (ended.exit_code, no_tables(ended)) == (code, True)
+    assert getattr(error, "cause", "interrupted") in ended.stderr
+
+
+def test_a_mistake_of_ours_leaves_its_trace_in_a_file_and_not_on_the_screen(planar, monkeypatch):
+    def mistaken(*_):
+        raise ZeroDivisionError("by zero")
+
+    monkeypatch.setattr(science, "compute", mistaken)
+    monkeypatch.setattr(tempfile, "tempdir", str(planar))
+    ended = run("identify", "arm.json", "swing.csv")
+    assert ended.exit_code == Exit.MISTAKE
+    assert "Traceback" not in ended.output
+    (trace,) = planar.glob("veritorque-*.txt")
+    assert str(trace) in ended.stderr
+    assert "ZeroDivisionError: by zero" in trace.read_text()
+
+
+def test_a_service_that_is_not_there_ends_with_4_and_never_shows_the_key(planar):
+    ended = run("robots", "list", "--url", "http://127.0.0.1:9", VERITORQUE_KEY="the-secret")
+    assert ended.exit_code == Exit.NO_SERVICE
+    assert "veritorque serve" in ended.stderr
+    assert "the-secret" not in ended.output
+
+
+def test_a_job_that_fails_on_a_service_ends_as_it_would_here(planar, tmp_path_factory):
+    executor = failing()
+    executor.release.set()
+    with listening_service(tmp_path_factory.mktemp("data"), executor) as (_, port):
+        ended = run("identify", "arm.json", "swing.csv", "--url", f"http://127.0.0.1:{port}")
+    assert (ended.exit_code, no_tables(ended)) == (Exit.NO_RESULT, True)
+    assert "the motion is too slow" in ended.stderr
+    assert "move faster" in ended.stderr
+
+
+@pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
+def test_interrupting_the_command_dismisses_the_job(planar, tmp_path_factory, told):
+    executor = StubExecutor()
+    with listening_service(tmp_path_factory.mktemp("data"), executor) as (_, port):
+        url = f"http://127.0.0.1:{port}"
+        command = [sys.executable, "-m", "app", "identify", "arm.json", "swing.csv", "--url", url]
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        process = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True)
+        assert executor.started.wait(60.0)
+        process.send_signal(told)
+        _, said = process.communicate(timeout=60.0)
+        assert (process.returncode, said.splitlines()[-1]) == (Exit.INTERRUPTED, "interrupted")
+        assert executor.stopped.wait(10.0)
+
+
+def test_a_result_on_disk_is_what_a_diagnosis_compares_with(planar, monkeypatch):
+    assert run("identify", "arm.json", "swing.csv", *QUICK, "--out", "before.json").exit_code == 0
+    seen = []
+
+    def looked(computation, _):
+        seen.append(json.loads(Path(computation.reference).read_bytes()))
+        assert computation.options == {"reference": "before.json"}
+        return diagnosed()
+
+    monkeypatch.setattr(science, "compute", looked)
+    assert run("diagnose", "arm.json", "swing.csv", "--reference", "before.json").exit_code == 0
+    assert seen == [json.loads(Path("before.json").read_text())]
+
+
+def test_robots_are_shown_as_they_are_understood(planar):
+    listed = run("robots", "list").stdout.splitlines()
+    assert [line.split()[:2] for line in listed] == [["yumi-left", "7"], ["yumi-right", "7"], ["yumi", "14"]]
+    written = json.loads(run("robots", "show", "arm.json", "--json").stdout)
+    (planar / "again.json").write_text(json.dumps(written))
+    assert json.loads(run("robots", "show", "again.json", "--json").stdout) == written
+    assert "planar arm: 2 joints" in run("robots", "check", "arm.json").stdout
+    # 22 standard parameters would be an arm with rotor inertias; 12 of these are told apart in a plane
+    assert "12 base parameters" in run("robots", "base-parameters", "arm.json").stdout
+
+
+def test_what_is_rarely_meant_is_told_and_fails_only_where_that_is_asked_for(planar):
+    odd = description() | {"gravity": [0.0, 0.0, 9.81]}
+    (planar / "odd.json").write_text(json.dumps(odd | {"joints": [odd["joints"][0] | {"alpha": 90.0}]}))
+    ended = run("robots", "check", "odd.json")
+    assert (ended.exit_code, "rarely meant" in ended.stdout) == (Exit.DONE, True)
+    assert run("robots", "check", "odd.json", "--fail-on-findings").exit_code == Exit.FOUND
+
+
+def test_a_urdf_is_a_robot_and_becomes_a_description(desk):
+    from app.schemas.examples import PENDULUM_URDF
+
+    (desk / "pendulum.urdf").write_text(PENDULUM_URDF)
+    shown = json.loads(run("robots", "show", "pendulum.urdf", "--gravity=0,-9.81,0", "--json").stdout)
+    assert (len(shown["joints"]), shown["gravity"]) == (1, [0.0, -9.81, 0.0])
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_shells_complete_commands_without_a_network(shell):
+    script = run("--show-completion", shell, SHELL=shell)
+    asked = {"_VERITORQUE_COMPLETE": f"complete_{shell}", "COMP_WORDS": "veritorque ide", "COMP_CWORD": "1"}
+    asked |= {"_TYPER_COMPLETE_ARGS": "veritorque ide", "_TYPER_COMPLETE_FISH_ACTION": "get-args"}
+    called = "import sys; sys.argv[0] = 'veritorque'; from app.terminal.main import main; main()"
+    command = [sys.executable, "-c", called]
+    ended = subprocess.run(
+        command, env={**os.environ, **asked}, capture_output=True, text=True, cwd=ROOT, check=True
+    )
+    assert "identify" in ended.stdout
+    assert script.exit_code == 0
+
+
+def test_the_script_that_is_installed_is_the_command_line():
+    import tomllib
+    from importlib import import_module
+
+    (name, target), *_ = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["scripts"].items()
+    module, _, function = target.partition(":")
+    assert (name, callable(getattr(import_module(module), function))) == ("veritorque", True)

@@ -1,0 +1,109 @@
+"""Every command shows an example in its help, and every example runs."""
+
+import re
+import shlex
+
+import pytest
+from typer.main import get_command
+
+from app.jobs import process
+from app.terminal import serve
+from app.terminal.local import LocalBench
+from app.terminal.main import COMMANDS
+from tests.app.stubs import StubExecutor
+from tests.app.terminal.conftest import ROOT, run
+from tests.app.test_server import listening_service
+from tests.core.report.documents import diagnosed
+
+FOUND = 1
+
+
+def walk(command, path=()):
+    """Give every command with the words that call it."""
+    yield path, command
+    names = command.list_commands(None) if hasattr(command, "list_commands") else command.commands
+    for name in names:
+        inner = command.get_command(None, name)
+        if hasattr(inner, "commands"):
+            yield from walk(inner, (*path, name))
+        else:
+            yield (*path, name), inner
+
+
+EVERY = {" ".join(path): command for path, command in walk(get_command(COMMANDS))}
+
+
+def examples(command):
+    return re.findall(r"^ *((?:[A-Z_]+=\S+ )*veritorque .*)$", command.epilog or "", re.MULTILINE)
+
+
+def test_the_commands_that_were_promised_are_there():
+    promised = {"identify", "diagnose", "serve", "robots list", "robots show", "robots check", "logs check"}
+    assert promised | {"robots base-parameters", "report", "export", "keys create", "doctor"} <= set(EVERY)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_every_command_has_help_with_an_example_of_itself(name):
+    shown = run(*name.split(), "--help")
+    assert shown.exit_code == 0
+    for example in examples(EVERY[name]):
+        assert example in shown.stdout
+        assert f"veritorque {name}".strip() in example or not name
+    assert examples(EVERY[name])
+
+
+@pytest.fixture(scope="module")
+def names(tmp_path_factory):
+    """What examples call by name and this machine calls otherwise: a service, and a job on it."""
+    executor = StubExecutor()
+    executor.release.set()
+    with listening_service(tmp_path_factory.mktemp("served"), executor) as (_, port):
+        url = f"http://127.0.0.1:{port}"
+        asked = run("identify", "yumi-left", str(ROOT / "examples/yumi/log.csv"), "--url", url)
+        assert asked.exit_code == 0, asked.output
+        job = re.search(r"^job (\S+)$", asked.stderr, re.MULTILINE).group(1)
+        yield {"http://127.0.0.1:8000": url, "5f0c1d9e": job}
+
+
+@pytest.fixture
+def prepared(monkeypatch, desk):
+    """A folder in which a service has been run before: with a key and a backup; gives the key's name."""
+    monkeypatch.setattr(serve, "_listen", lambda _: None)
+    monkeypatch.setattr(process, "work_until_told", lambda *_, **__: None)
+    assert run("keys", "create", "lab").exit_code == 0
+    assert run("backup", "backup-of-sunday").exit_code == 0
+    return {"3f2a91": run("keys", "list").stdout.split()[0]}
+
+
+QUICK = sorted({line for name, one in EVERY.items() for line in examples(one) if name != "diagnose"})
+
+
+@pytest.mark.parametrize("line", QUICK)
+def test_every_example_runs(line, names, prepared):
+    ended = called(line, names | prepared)
+    assert ended.exit_code == 0, ended.output
+
+
+def test_the_example_of_a_diagnosis_finds_what_is_hidden_in_its_log(desk, monkeypatch):
+    """The science of it is tested elsewhere and takes its time; here it is what the command does with it."""
+    from app.documents import json_bytes
+
+    (line,) = examples(EVERY["diagnose"])
+    asked = []
+    monkeypatch.setattr(
+        LocalBench, "run", lambda _, study, __: asked.append(study) or json_bytes(diagnosed())
+    )
+    assert called(line, {}).exit_code == FOUND
+    (study,) = asked
+    assert (study.kind, study.robot, study.logs[0].is_file()) == ("diagnose", "yumi-left", True)
+    assert "<html" in (desk / "diagnosis.html").read_text()
+
+
+def called(line, names):
+    """Run an example; what a shell would do with it is done here."""
+    for written, meant in names.items():
+        line = line.replace(written, meant)
+    words = shlex.split(line.partition(" > ")[0])
+    start = words.index("veritorque")
+    environment = dict(word.split("=", 1) for word in words[:start])
+    return run(*words[start + 1 :], **environment)

@@ -1,0 +1,118 @@
+"""A look at a log says what is in it, what is wrong, and how to say what is missing; and loads no solver."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from app.terminal.exits import Exit
+from tests.app.planar_arm import columns
+from tests.app.terminal.conftest import ROOT, run
+
+
+def written(path, names, *, time_factor=1.0, angle_factor=1.0, change=lambda table: table):
+    time, position, torque = columns(seconds=12.0)
+    table = change(np.column_stack([time_factor * time, angle_factor * position, torque]))
+    np.savetxt(path, table, delimiter=",", header=",".join(names), comments="", fmt="%.9g")
+    return str(path)
+
+
+DEFAULT = ("time", "q_1", "q_2", "tau_1", "tau_2")
+
+
+def test_a_clean_log_is_told_with_its_columns_units_rate_and_reach(tmp_path):
+    ended = run("logs", "check", written(tmp_path / "clean.csv", DEFAULT))
+    assert ended.exit_code == 0
+    words = " ".join(ended.stdout.split())
+    assert "clean.csv: CSV, 5 columns" in words
+    assert "2400 samples, 11.99 s at 200 Hz, 2 joints" in words
+    assert "position rad q_1 q_2" in words
+    assert "torque N m tau_1 tau_2" in words
+    position = columns(seconds=12.0)[1]
+    assert f"{position[:, 0].min():.4g} .. {position[:, 0].max():.4g}" in words
+    assert ended.stdout.endswith("0 defects\n")
+
+
+def broken(table):
+    """A gap of half a second, a spike, and a stretch of repeated rows."""
+    table = np.delete(table, slice(400, 500), axis=0)
+    table[200, 3] += 500.0
+    table[600:640, 1:] = table[600, 1:]
+    return table
+
+
+def test_defects_are_told_and_fail_only_where_that_is_asked_for(tmp_path):
+    path = written(tmp_path / "broken.csv", DEFAULT, change=broken)
+    ended = run("logs", "check", path)
+    assert ended.exit_code == Exit.DONE
+    kinds = {line.split()[0] for line in ended.stdout.partition("defects:")[2].splitlines() if line}
+    assert {"gap", "outliers", "repeated_rows"} <= kinds
+    assert "2 stretches" in ended.stdout
+    assert run("logs", "check", path, "--fail-on-defects").exit_code == Exit.FOUND
+    assert {
+        one["kind"] for one in json.loads(run("logs", "check", path, "--json").stdout)["defects"]
+    } == kinds
+
+
+NAMES = {
+    "words": ("Time [ms]", "Joint1 Position", "Joint2 Position", "Joint1 Torque", "Joint2 Torque"),
+    "short": ("t", "pos1", "pos2", "trq1", "trq2"),
+    "camel": ("timeStamp", "jointAngle0", "jointAngle1", "motorCurrent0", "motorCurrent1"),
+}
+
+
+@pytest.mark.parametrize("names", NAMES.values(), ids=list(NAMES))
+def test_the_mapping_that_is_suggested_is_one_that_can_be_used(tmp_path, names):
+    path = written(tmp_path / "foreign.csv", names, time_factor=1000.0, angle_factor=57.29578)
+    refused = run("logs", "check", path)
+    assert refused.exit_code == Exit.INPUT
+    assert "no column for time" in refused.stderr
+    suggested = refused.stderr.partition("--mapping '")[2].partition("'")[0]
+    mapping = json.loads(suggested)
+    assert (mapping["time"]["unit"], mapping["position"]["unit"]) == ("ms", "deg")
+    assert mapping["position"]["columns"] == list(names[1:3])
+    mended = run("logs", "check", path, "--mapping", suggested, "--json")
+    assert mended.exit_code == Exit.DONE
+    told = json.loads(mended.stdout)
+    assert told["rate_hz"] == pytest.approx(200.0, rel=1e-6)
+    reach = next(one for one in told["reach"] if one["channel"] == "position")
+    assert np.allclose(reach["high"], columns(seconds=12.0)[1].max(axis=0), atol=1e-6)
+
+
+def test_a_recorder_that_is_known_is_suggested_by_its_name(tmp_path):
+    names = ("timestamp", "actual_q_0", "actual_q_1", "actual_current_0", "actual_current_1")
+    path = written(tmp_path / "ur.csv", names)
+    refused = run("logs", "check", path)
+    assert """--mapping '{"profile": "ur-rtde"}'""" in refused.stderr
+    assert run("logs", "check", path, "--profile", "ur-rtde").exit_code == Exit.DONE
+
+
+def test_names_that_tell_nothing_are_not_guessed_at(tmp_path):
+    refused = run("logs", "check", written(tmp_path / "dumb.csv", ("a", "b", "c", "d", "e")))
+    assert (refused.exit_code, "--mapping" in refused.stderr) == (Exit.INPUT, False)
+
+
+def test_what_is_no_log_says_so(tmp_path):
+    (tmp_path / "page.csv").write_text("<html>")
+    for name in ("page.csv", "absent.csv"):
+        refused = run("logs", "check", str(tmp_path / name))
+        assert (refused.exit_code, "what to do:" in refused.stderr) == (Exit.INPUT, True)
+
+
+def test_a_look_loads_no_solver_and_no_service(tmp_path):
+    """What is loaded decides how long it takes: the rest is reading the file."""
+    path = written(tmp_path / "clean.csv", DEFAULT)
+    script = (
+        "import sys; from typer.testing import CliRunner; from app.terminal.main import COMMANDS\n"
+        f"assert CliRunner().invoke(COMMANDS, ['logs', 'check', {path!r}]).exit_code == 0\n"
+        "print(*sys.modules)"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, cwd=ROOT, check=True
+    )
+    loaded = set(ended.stdout.split())
+    heavy = {"numba", "cvxpy", "clarabel", "scipy", "sklearn", "fastapi", "sqlalchemy", "httpx2", "pandas"}
+    assert not loaded & heavy
+    assert "pyarrow" in loaded
