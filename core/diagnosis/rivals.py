@@ -14,7 +14,7 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.selection import Key, Selection, Step, hopeful, keeps_beside, merit, rise, with_candidate
+from core.diagnosis.selection import Key, Selection, Step, keeps_beside, merit, rise, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0
@@ -126,8 +126,11 @@ def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[
     own = bench.tried((*without.members, member), without)
     taken = {*chosen.by_key, *given_up}
     excluded = {name for one in without.members for name in one.cause.excludes}
-    scans = [one for one in bench.scanned(without) if one.candidate.cause.id not in excluded]
-    others = [one for one in hopeful(scans, WEIGHED) if one.candidate.key not in taken][:WEIGHED]
+    others = [
+        one
+        for one in bench.scanned(without)
+        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
+    ][:WEIGHED]
     trials = [
         bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
     ]

@@ -26,8 +26,6 @@ FURTHER_LEVEL = 1e-7
 """The same beside another cause: no columns are exact, and what they leave is not luck."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
-LEAST_SCORE, LEAST_OF_BEST = 5.0, 0.1
-"""Rise at the old noise, in itself and over the best's, below which no noise learned anew makes the best."""
 RIVALS = 6
 """The same where one is to take another's place."""
 FITTED_WHOLE = 4
@@ -126,12 +124,11 @@ def best_addition(
     taken = {*now.by_key, *(key for key, least in given_up.items() if least == np.inf)}
     taken |= {one.key for one in bench.candidates if one.cause.id in excluded}
     scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
-    trials = [
-        trial for one in hopeful(scans, most) for trial in [with_candidate(bench, now, one)] if trial.possible
-    ]
+    tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
+    trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
     likely = sorted(
-        (trial for trial in trials if trial.possible and clear_enough(bench, now, trial, count)),
+        (trial for trial in trials if clear_enough(bench, now, trial, count)),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
@@ -147,16 +144,6 @@ def best_addition(
         and not left_over(bench, trial, len(now.members), rise(now, trial))
     )
     return next(deserves, None)
-
-
-def hopeful(scans: Sequence[Scored], most: int) -> list[Scored]:
-    """Keep, of a scan's likeliest, what may turn out best once the noise is learned anew, and all events."""
-    least = max(LEAST_SCORE, LEAST_OF_BEST * max((one.statistic for one in scans), default=0.0))
-    return [
-        one
-        for place, one in enumerate(scans)
-        if one.candidate.cause.event or (place < most and one.statistic >= least)
-    ]
 
 
 def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> bool:
