@@ -78,7 +78,7 @@ def test_an_ellipsoid_keeps_its_outline_whichever_way_it_is_seen(look, service):
     sizes = page.evaluate(
         """async ([description, body]) => {
           const { drawChain } = await import("/static/chain.js");
-          const place = document.getElementById("compare");
+          const place = document.body.appendChild(document.createElement("div"));
           drawChain(place, description, { bodies: [body] });
           const stage = place.querySelector(".stage3d");
           const seen = [];
