@@ -32,6 +32,26 @@ class StandardParameter(Open):
     identifiable: Literal["individually", "in_combination", "no"]
 
 
+class Body(Open):
+    """A link's body as the solid ellipsoid of even density with the same mass, mass centre and inertia."""
+
+    link: Annotated[int, Field(description="counted from 1; what follows is in its frame")]
+    mass: Annotated[float, Field(description="kg")]
+    mass_centre: Annotated[list[float], Field(min_length=3, max_length=3, description="m")]
+    half_axes: Annotated[
+        list[float] | None, Field(description="m, ascending; null where no such body can exist")
+    ]
+    axes: Annotated[list[list[float]] | None, Field(description="their directions, as columns of a rotation")]
+
+
+class HeldOutSpan(Open):
+    """A stretch of a log that no fit has seen."""
+
+    log: Annotated[int, Field(description="counted from 1")]
+    begin_s: float
+    end_s: float
+
+
 class ResultDocument(Open):
     """The identified robot: its parameters, how well each is known, and how well it predicts."""
 
@@ -43,10 +63,14 @@ class ResultDocument(Open):
     counts: Annotated[dict[str, int | None], Field(examples=[{"standard": 98, "base": 71, "essential": 57}])]
     base_parameters: list[BaseParameter]
     standard_parameters: list[StandardParameter]
+    bodies: Annotated[
+        list[Body], Field(description="one feasible representative of each link; none where not modelled")
+    ] = Field(default=[])
     feasibility: dict[str, JsonValue]
     solver: dict[str, JsonValue]
     fit: list[JointFit]
     validation: Annotated[list[JointFit], Field(description="on blocks that the fit has not seen")]
+    held_out: list[HeldOutSpan] = Field(default=[])
     condition_number: float | None
     defects: list[JsonValue]
     doubts: Annotated[

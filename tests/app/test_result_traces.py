@@ -6,6 +6,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from app.schemas.results import ResultDocument
 from app.schemas.traces import ResidualViews, ResultTraces
 from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem, service
@@ -141,3 +142,12 @@ def test_the_residual_is_seen_over_position_velocity_and_frequency(client, job, 
 @pytest.mark.parametrize("query", ["joint=3", "joint=1&log=2"])
 def test_a_residual_that_is_not_there_is_refused(client, job, query):
     assert_problem(client.get(f"{job}/residuals?{query}"), 422, "option")
+
+
+def test_the_result_tells_bodies_to_draw_and_what_was_held_out(client, job):
+    document = ResultDocument.model_validate_json(client.get(f"{job}/results").content)
+    assert [body.link for body in document.bodies] == [1, 2]
+    assert all(body.half_axes for body in document.bodies)
+    held_out = client.get(f"{job}/traces?joint=1").json()["held_out"]
+    for span, (begin, end) in zip(document.held_out, held_out, strict=True):
+        assert (span.begin_s, span.end_s) == pytest.approx((begin, end), abs=1e-6)

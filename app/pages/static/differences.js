@@ -127,7 +127,7 @@ function findings(studies) {
 function table(studies, rows) {
   const only = studies.map((one, place) => one.document.base_parameters.filter((row) => !studies[1 - place].document.base_parameters.some((other) => other.name === row.name)).map((row) => row.name));
   return [element("p", { class: "hint" }, `z is the difference, right minus left, in standard deviations of the difference. More than ${REAL} is hardly chance.`),
-    wide(element("table", { class: "parameters" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z drawn")]),
+    wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z drawn")]),
       element("tbody", {}, rows.map((row) => element("tr", {},
         element("th", { scope: "row" }, row.name, " ", element("span", { class: "unit" }, row.unit === "1" ? "" : row.unit)),
         [row.left, row.right].map((one) => element("td", {}, `${number(one.value)} ± ${number(one.standard_deviation, 2)}`)),
