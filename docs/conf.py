@@ -74,8 +74,7 @@ def _prepare(_: Sphinx, page: str, text: list[str]) -> None:
 
 
 def _branch(kind: str, pages: list[str]) -> str:
-    """Write one kind of documents; a name without a page yet keeps its place."""
-    pages = [page for page in pages if (_HERE / f"{page}.md").exists()]
+    """Write one kind of documents."""
     return "\n".join(["", "```{toctree}", f":caption: {kind}", ":hidden:", "", *pages, "```", ""])
 
 

@@ -61,8 +61,8 @@ class Bench(Protocol):
         """Say what motion of a robot can tell apart."""
         ...
 
-    def run(self, study: Study, tell: Tell) -> bytes:
-        """Compute; give the result document."""
+    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
+        """Compute; give the result document, and write the report where one is wanted."""
         ...
 
 

@@ -5,10 +5,10 @@ from typing import Annotated
 
 import typer
 
+from app.terminal.files import require_folder, save
 from app.terminal.given import KeyOption, UrlOption
 from app.terminal.results import RESULT_HELP, read_result
 from app.terminal.speech import say, write
-from app.terminal.study import require_folder, save
 from core.errors import OptionError
 from core.export.formats import FORMATS
 

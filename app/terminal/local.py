@@ -10,6 +10,7 @@ from pathlib import Path
 from app.documents import json_bytes
 from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell
 from app.terminal.compiled import COMPILING, share_compiled_kernels
+from app.terminal.files import save
 from app.terminal.speech import note
 from app.terminal.threads import limit_threads
 from core.errors import LogError, OptionError, RobotError
@@ -68,7 +69,7 @@ class LocalBench:
         _tell_of_compiling()
         return {"robot": given} | science.base_parameters(description)
 
-    def run(self, study: Study, tell: Tell) -> bytes:
+    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
         """Compute; what cannot succeed is refused before the solver is loaded.
 
         Raises
@@ -77,6 +78,7 @@ class LocalBench:
             If the robot, the logs or the options do not allow it.
         """
         from app.catalogue import log_name
+        from app.drawing import report_page
         from app.jobs import science
         from app.jobs.computation import Computation, LogFile
 
@@ -86,8 +88,14 @@ class LocalBench:
         mapping = None if study.mapping is None else dict(study.mapping)
         logs = tuple(LogFile(path, log_name(path.name), mapping, _hash(path)) for path in study.logs)
         _tell_of_compiling()
-        with _reference(study) as (options, reference):
-            return json_bytes(science.compute(Computation(study.kind, robot, logs, options, reference), tell))
+        with _reference(study) as (options, reference), tempfile.TemporaryDirectory() as folder:
+            traces = None if report is None else Path(folder) / "residuals.parquet"
+            document = science.compute(
+                Computation(study.kind, robot, logs, options, reference, traces=traces), tell
+            )
+            if report is not None:
+                save(report, report_page(document, traces).encode())
+            return json_bytes(document)
 
 
 def _robot_file(given: str, known: Document) -> bytes:

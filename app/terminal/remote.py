@@ -1,6 +1,7 @@
 """Let a service compute: upload, ask, follow, and dismiss the job when the command is interrupted."""
 
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from app.client.client import Client
@@ -8,6 +9,7 @@ from app.client.errors import ServiceError
 from app.client.parcel import require_file
 from app.client.records import Robot
 from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell
+from app.terminal.files import save
 from app.terminal.speech import note
 from core.errors import LogError
 
@@ -34,21 +36,25 @@ class RemoteBench:
         """Say what motion of a robot can tell apart."""
         return self._client.base_parameters(self._robot(given))
 
-    def run(self, study: Study, tell: Tell) -> bytes:
+    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
         """Compute; whoever interrupts this dismisses the job."""
         for path in study.logs:
             require_file(path, LogError)
         robot = self._robot(study.robot)
         tell("upload", 0.0)
         logs = [self._client.upload(path, mapping=study.mapping) for path in study.logs]
-        job = self._client.submit(study.kind, robot, logs, study.options)
-        note(f"job {job.id}")
+        ask = partial(self._client.submit, study.kind, robot, logs, study.options)
+        job = None
         try:
+            job = ask()
+            note(f"job {job.id}")
             self._client.wait(job, tell)
         except KeyboardInterrupt:
             with suppress(ServiceError):
-                self._client.cancel(job)
+                self._client.cancel(job or ask())  # asked for again, it is the same job
             raise
+        if report is not None:
+            save(report, self._client.report(job))
         return self._client.result_bytes(job)
 
     def _robot(self, given: str, part: FromUrdf = WHOLE) -> Robot:

@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
+from app.terminal.files import require_folder, save
 from app.terminal.given import KeyOption, UrlOption
 from app.terminal.results import RESULT_HELP, read_result
-from app.terminal.study import require_folder, save
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b

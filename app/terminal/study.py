@@ -9,8 +9,8 @@ from typing import Annotated, NoReturn
 import typer
 
 from app.terminal.bench import Document, Study, bench
-from app.terminal.speech import aside, note, write
-from core.errors import OptionError
+from app.terminal.files import require_folder, save
+from app.terminal.speech import aside, write
 
 OutOption = Annotated[Path | None, typer.Option(help="Save the result document here.")]
 ReportOption = Annotated[Path | None, typer.Option(help="Save the report, one HTML file, here.")]
@@ -40,52 +40,13 @@ def run(study: Study, *, url: str, key: str, wanted: Wanted) -> Document:
         if path is not None:
             require_folder(path)
     with bench(url, key) as one, bar(aside()) as tell:
-        content = one.run(study, tell)
+        content = one.run(study, tell, wanted.report)
     document: Document = json.loads(content)
     if wanted.out is not None:
         save(wanted.out, content)
-    if wanted.report is not None:
-        from core.report.page.page import compose_page
-
-        save(wanted.report, compose_page(document).encode())
     if wanted.json:
         write(content)
     return document
-
-
-def save(path: Path, content: bytes) -> None:
-    """Write a file and say so.
-
-    Raises
-    ------
-    OptionError
-        If that cannot be.
-    """
-    try:
-        path.write_bytes(content)
-    except OSError as error:
-        raise _unwritable(path, error.strerror or "") from error
-    note(f"saved {path}")
-
-
-def require_folder(path: Path) -> None:
-    """Return where a file could be written, before an hour is spent on what goes into it.
-
-    Raises
-    ------
-    OptionError
-        If its folder is not there, or the file is a folder.
-    """
-    if path.is_dir() or not path.parent.is_dir():
-        raise _unwritable(path, "it is a folder" if path.is_dir() else "its folder is not there")
-
-
-def _unwritable(path: Path, reason: str) -> OptionError:
-    return OptionError(
-        f"{path} cannot be written",
-        evidence={"reason": reason},
-        remedy="name a file in a folder that is there",
-    )
 
 
 def _interrupt(*_: object) -> NoReturn:

@@ -159,6 +159,38 @@ def test_a_job_that_fails_on_a_service_ends_as_it_would_here(planar, tmp_path_fa
     assert "move faster" in ended.stderr
 
 
+def test_a_report_made_from_files_shows_what_was_measured_and_estimated_as_the_service_s_does(
+    planar, tmp_path_factory
+):
+    with listening_service(tmp_path_factory.mktemp("data"), InlineExecutor()) as (_, port):
+        url = f"http://127.0.0.1:{port}"
+        for name, service in (("here.html", ""), ("there.html", url)):
+            asked = ("identify", "arm.json", "swing.csv", *QUICK, "--report", name)
+            assert run(*asked, VERITORQUE_URL=service).exit_code == 0
+    here, there = ((planar / name).read_text() for name in ("here.html", "there.html"))
+    assert here.count("<svg") == there.count("<svg") >= 4
+
+
+def test_a_job_that_was_taken_before_the_interruption_came_is_dismissed_all_the_same(
+    planar, tmp_path_factory, monkeypatch
+):
+    submit, taken = Client.submit, []
+
+    def interrupted(client, *asked):
+        taken.append(submit(client, *asked))
+        if len(taken) == 1:
+            raise KeyboardInterrupt
+        return taken[-1]
+
+    monkeypatch.setattr(Client, "submit", interrupted)
+    with listening_service(tmp_path_factory.mktemp("data"), StubExecutor()) as (_, port):
+        url = f"http://127.0.0.1:{port}"
+        ended = run("identify", "arm.json", "swing.csv", VERITORQUE_URL=url)
+        with Client(url) as client:
+            (job,) = client.jobs()
+    assert (ended.exit_code, job.state) == (Exit.INTERRUPTED, "dismissed")
+
+
 @pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_the_command_dismisses_the_job(planar, tmp_path_factory, told):
     executor = StubExecutor()

@@ -1,0 +1,41 @@
+"""Write the files that a command was asked for, and say so."""
+
+from pathlib import Path
+
+from app.terminal.speech import note
+from core.errors import OptionError
+
+
+def save(path: Path, content: bytes) -> None:
+    """Write a file and say so.
+
+    Raises
+    ------
+    OptionError
+        If that cannot be.
+    """
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise _unwritable(path, error.strerror or "") from error
+    note(f"saved {path}")
+
+
+def require_folder(path: Path) -> None:
+    """Return where a file could be written, before an hour is spent on what goes into it.
+
+    Raises
+    ------
+    OptionError
+        If its folder is not there, or the file is a folder.
+    """
+    if path.is_dir() or not path.parent.is_dir():
+        raise _unwritable(path, "it is a folder" if path.is_dir() else "its folder is not there")
+
+
+def _unwritable(path: Path, reason: str) -> OptionError:
+    return OptionError(
+        f"{path} cannot be written",
+        evidence={"reason": reason},
+        remedy="name a file in a folder that is there",
+    )
