@@ -30,8 +30,10 @@ def test_every_command_of_the_guide_runs_in_the_order_of_reading(
     (desk / "result.json").unlink()
     asked = []
 
-    def computed(_, study, tell):
+    def computed(_, study, tell, report):
         tell("estimate", 0.5)
+        if report is not None:
+            report.write_text("drawn")
         asked.append(study)
         return identified.read_bytes() if study.kind == "identify" else json_bytes(diagnosed())
 
