@@ -16,11 +16,15 @@ from core.options import parse_options
 from tests.docs.blocks import BLOCKS, blocks_of
 from tests.docs.runner import RUN, run_page
 
-LANGUAGES = {"bash", "python", "c", "json", "xml", "text", ""}
+LANGUAGES = {"bash", "sh", "python", "c", "json", "xml", "text", ""}
+RUN_ELSEWHERE = ("client.md", "terminal.md")
+"""Their tests in tests/app run them from the first block to the last, in one session."""
 RUNNABLE = [block for block in BLOCKS if block.language in RUN]
 LEFT_OUT = [block for block in RUNNABLE if block.reason]
 TYPED = sorted(
-    dict.fromkeys(block.page for block in RUNNABLE if not block.reason),
+    dict.fromkeys(
+        block.page for block in RUNNABLE if not block.reason and block.page.name not in RUN_ELSEWHERE
+    ),
     key=lambda page: page.name == "diagnosis.md",
 )
 """The page that leaves a long job behind comes last: the service ends it."""
