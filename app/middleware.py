@@ -82,7 +82,8 @@ class SafeHeaders:
 
         async def marked(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = _completed(message.get("headers", ()))
+                unchanged = message["status"] == 304  # what is kept already keeps what it said of itself
+                message["headers"] = _completed(message.get("headers", ()), () if unchanged else UNLESS_SAID)
             await send(message)
 
         await self._app(scope, receive, marked)
@@ -116,10 +117,12 @@ class HeadAsGet:
             await self._app(scope, receive, send)
 
 
-def _completed(headers: Iterable[tuple[bytes, bytes]]) -> list[tuple[bytes, bytes]]:
+def _completed(
+    headers: Iterable[tuple[bytes, bytes]], unless_said: Iterable[tuple[bytes, bytes]]
+) -> list[tuple[bytes, bytes]]:
     given = list(headers)
     said = {name for name, _ in given}
-    return [*given, *HEADERS, *(header for header in UNLESS_SAID if header[0] not in said)]
+    return [*given, *HEADERS, *(header for header in unless_said if header[0] not in said)]
 
 
 def _declared_length(scope: Scope) -> int:

@@ -37,6 +37,8 @@ def job_document(job: JobRecord) -> Document:
             "report": f"{path}/report",
             "parameters_csv": f"{path}/results/parameters.csv",
         }
+        if job.traces_sha256 is not None:
+            links["traces"] = f"{path}/traces"
     return {
         "id": job.id,
         "kind": job.request.kind,

@@ -21,7 +21,7 @@ class Watched:
     def _hear(self, message):
         failed = FAILED_LOAD.match(message.text)
         if message.type in {"error", "warning"} and not (failed and int(failed[1]) in self.statuses):
-            self.complaints.append(message.text)
+            self.complaints.append(f"{message.text} {message.location.get('url', '')}")
 
     @property
     def elsewhere(self):

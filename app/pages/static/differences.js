@@ -155,6 +155,7 @@ function sharedLogs(studies) {
 function overlay(studies) {
   const [shared] = sharedLogs(studies);
   if (!shared) return element("p", { class: "soft" }, "The studies used different logs, so that there is no torque to lay over each other.");
+  if (!studies.every((one) => one.job.links.traces)) return element("p", { class: "soft" }, "Of one of the studies only the result was kept, so that there is no torque to lay over each other.");
   const grid = element("div", { class: "tiles" });
   const near = new IntersectionObserver((entries) => {
     if (!entries.some((entry) => entry.isIntersecting)) return;

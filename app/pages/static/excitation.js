@@ -43,6 +43,7 @@ function reasons(poor) {
 }
 
 async function reached(study) {
+  if (!study.job.links.traces) return null;
   const rows = await Promise.all(joints(study).map((joint) => study.traces.of(joint)));
   const span = (values) => { const known = values.filter((value) => value !== null); return [Math.min(...known), Math.max(...known)]; };
   const held = study.document.fit;

@@ -1,15 +1,17 @@
 // Say in words what came out, with the few numbers that everybody asks for.
+import { follow } from "./api.js";
 import { element, fill } from "./dom.js";
 import { number, plural } from "./words.js";
 
 /** Show the verdict and the key figures. */
-export function showHeadline(container, { document, report }) {
+export function showHeadline(container, { job, document, report }) {
   const verdict = report.querySelector(".verdict")?.textContent.replaceAll(" %", "\u00a0%") ?? "";
   const glance = [...report.querySelectorAll("main > header > ol, main > header > p:not(.verdict)")].map(copied);
   fill(container, element("section", { class: "card headline", "aria-label": "What came out" },
     element("p", { class: "verdict" }, verdict),
     glance,
     element("div", { class: "figures" }, figures(document)),
+    element("p", {}, follow(element("a", { class: "button", href: job.links.report, download: null }, "Open the report"))),
     doubts(document)));
 }
 

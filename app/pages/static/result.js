@@ -21,7 +21,8 @@ export async function show(container, job) {
   fill(container, element("p", { class: "waiting", role: "status" }, "Reading the result …"));
   const [document, report] = await Promise.all([get(job.links.results, { headers: { Accept: "application/json" } }), reportOf(job)]);
   const study = { job, document, report, traces: tracesOf(job, document) };
-  const sections = document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
+  const all = document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
+  const sections = job.links.traces ? all : all.filter(([id]) => !TRACED.has(id));
   const headline = element("div", {});
   const parts = sections.map(([id, title]) => element("section", { class: "card part", id, "aria-labelledby": `${id}-title` },
     element("h2", { id: `${id}-title` }, title), element("div", { class: "content" })));
@@ -43,6 +44,9 @@ const COMMON = [
   ["motion", "Motion", showMotion],
   ["take-home", "Take it home", showTakeaway],
 ];
+
+// Of these there is nothing to draw where a job kept its result alone.
+const TRACED = new Set(["torque", "residuals", "motion"]);
 
 async function reportOf(job) {
   const text = await (await request(job.links.report)).text();
