@@ -71,7 +71,7 @@ def robot_parcel(robot: Path | Mapping[str, object]) -> Parcel:
         return Parcel(json.dumps(robot).encode(), "application/json", str(robot.get("name", "")))
     require_file(robot, RobotError)
     content = robot.read_bytes()
-    is_json = content.lstrip()[:1] == b"{"
+    is_json = robot.suffix == ".json" or content.lstrip()[:1] in (b"{", b"[")
     return Parcel(content, "application/json" if is_json else "application/xml", robot.stem)
 
 

@@ -14,7 +14,7 @@ class Exit(IntEnum):
     FOUND = 1
     """It found what it was asked to fail on: findings, defects, or harm seen by doctor."""
     INPUT = 2
-    """The command line, the robot, the log or an option cannot be used."""
+    """The command line, the robot, the log or an option cannot be used, or a file cannot be written."""
     NO_RESULT = 3
     """The computation gave no result: the motion cannot tell, no optimum, too little time or memory."""
     NO_SERVICE = 4

@@ -15,7 +15,7 @@ from core.export.formats import FORMATS
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = "\b\nExamples:\n  veritorque export result.json robot.urdf\n" + (
     "  veritorque export result.json robot.xml --out yumi.xml\n"
-    "  veritorque export --list\n\n\bFormats:\n"
+    "  veritorque export --list\n\n\b\nFormats:\n"
     + "\n".join(f"  {name:<24}{form.title}" for name, form in FORMATS.items())
 )
 

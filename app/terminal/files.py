@@ -1,5 +1,6 @@
 """Write the files that a command was asked for, and say so."""
 
+import os
 from pathlib import Path
 
 from app.terminal.speech import note
@@ -29,13 +30,17 @@ def require_folder(path: Path) -> None:
     OptionError
         If its folder is not there, or the file is a folder.
     """
-    if path.is_dir() or not path.parent.is_dir():
-        raise _unwritable(path, "it is a folder" if path.is_dir() else "its folder is not there")
+    if path.is_dir():
+        raise _unwritable(path, "it is a folder")
+    if not path.parent.is_dir():
+        raise _unwritable(path, "its folder is not there")
+    if not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise _unwritable(path, "permission denied")
 
 
 def _unwritable(path: Path, reason: str) -> OptionError:
     return OptionError(
         f"{path} cannot be written",
         evidence={"reason": reason},
-        remedy="name a file in a folder that is there",
+        remedy="name a file in a folder that is there, may be written, and has room",
     )

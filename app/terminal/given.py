@@ -90,7 +90,7 @@ def json_object(given: str, what: str, error: type[VeritorqueError]) -> Document
     """
     text = given
     try:
-        if not given.lstrip().startswith("{"):
+        if not given.lstrip().startswith(("{", "[")):
             text = Path(given).read_text(encoding="utf-8")
         document = json.loads(text)
     except (OSError, ValueError) as reason:
@@ -101,7 +101,7 @@ def json_object(given: str, what: str, error: type[VeritorqueError]) -> Document
         ) from reason
     if not isinstance(document, dict):
         raise error(
-            f"{what} is not a JSON object",
+            f"{what} must be a JSON object",
             evidence={"found": type(document).__name__},
             remedy='give named fields: {"...": ...}',
         )
@@ -120,6 +120,10 @@ def _put(options: Document, path: list[str], value: object) -> None:
     for step in path[:-1]:
         inner = options.setdefault(step, {})
         if not isinstance(inner, dict):
-            raise OptionError(f"{step} has a value and cannot have parts", evidence={"given": ".".join(path)})
+            raise OptionError(
+                f"{step} has a value and cannot have parts",
+                evidence={"given": ".".join(path)},
+                remedy="give the value or its parts, not both",
+            )
         options = inner
     options[path[-1]] = value

@@ -3,6 +3,7 @@
 A command that needs no solver does not wait for it, and nobody but us reads a traceback.
 """
 
+import errno
 import tempfile
 import traceback
 from collections.abc import Iterator
@@ -18,6 +19,8 @@ from typer.main import get_command
 from app.terminal.exits import Exit, exit_of, exit_of_error
 from app.terminal.speech import complain, note
 from core.errors import VeritorqueError
+
+NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 
 class Commands(TyperGroup):
@@ -76,6 +79,16 @@ def _other(error: Exception) -> Exit:
     if isinstance(error, Problem):
         complain(str(error.detail), error.evidence, error.remedy)
         return exit_of(error.kind)
+    if isinstance(error, OSError) and error.errno in NO_ROOM:
+        complain(
+            "there is no room for what is to be written",
+            {
+                "reason": error.strerror,
+                "where": error.filename or "standard output, or a temporary file",
+            },
+            "make room, or write elsewhere; TMPDIR names the folder of temporary files",
+        )
+        return Exit.INPUT
     with tempfile.NamedTemporaryFile(
         "w", prefix="veritorque-", suffix=".txt", delete=False, encoding="utf-8"
     ) as file:

@@ -43,12 +43,14 @@ class LocalBench:
 
         known = science.built_in_descriptions()
         if given in known:
+            _require_urdf(given, part)
             model, description = science.read_description(known[given])
         else:
             content = _robot_file(given, known)
-            if content.lstrip()[:1] == b"{":
+            if content.lstrip()[:1] in (b"{", b"[") or given.endswith(".json"):
                 from app.reading import parse_json
 
+                _require_urdf(given, part)
                 model, description = science.read_description(parse_json(content, what=given))
             else:
                 model, description = science.read_urdf(content, **vars(part))
@@ -96,6 +98,17 @@ class LocalBench:
             if report is not None:
                 save(report, report_page(document, traces).encode())
             return json_bytes(document)
+
+
+def _require_urdf(given: str, part: FromUrdf) -> None:
+    """Refuse what only a URDF can be asked for."""
+    asked = {name: value for name, value in vars(part).items() if value is not None}
+    if asked:
+        raise OptionError(
+            f"{given} is no URDF, and says itself which links it has and where gravity points",
+            evidence={"given": asked},
+            remedy="leave these options out, or change the description",
+        )
 
 
 def _robot_file(given: str, known: Document) -> bytes:

@@ -2,13 +2,17 @@
 
 import json as encoder
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from app.terminal.exits import Exit
 from app.terminal.given import JsonOption, MappingOption, ProfileOption, mapping_of
 from app.terminal.speech import complain, note, say
+from core.errors import LogError
+
+if TYPE_CHECKING:
+    from core.log.check import LogCheck
 
 COMMANDS = typer.Typer(
     help="Look at logs before anything is identified from them.",
@@ -43,11 +47,10 @@ def check(
     """Say what is in a log and what is wrong with it: columns, units, rate, gaps, outliers, saturation ..."""
     from app.terminal.logcheck import document_of, lines_of
     from app.terminal.threads import limit_threads
-    from core.log.check import check_log
 
     limit_threads(1)
     chosen = mapping_of(mapping, profile)
-    checks = [(path, check_log(path, mapping=chosen)) for path in logs]
+    checks = [(path, _look(path, chosen)) for path in logs]
     documents = [document_of(path, seen) for path, seen in checks]
     if json:
         say(encoder.dumps(documents if len(documents) > 1 else documents[0]))
@@ -56,12 +59,26 @@ def check(
             for line in lines_of(path, seen):
                 say(line)
         if seen.refusal is not None:
-            complain(seen.refusal.cause, seen.refusal.evidence, seen.refusal.remedy)
+            complain(seen.refusal.cause, _of(path, seen.refusal), seen.refusal.remedy)
             _tell_suggestion(seen.suggestion)
     if any(seen.refusal is not None for _, seen in checks):
         raise typer.Exit(Exit.INPUT)
     if fail_on_defects and any(document["defects"] for document in documents):
         raise typer.Exit(Exit.FOUND)
+
+
+def _look(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
+    from core.log.check import check_log
+
+    try:
+        return check_log(path, mapping=mapping)
+    except LogError as error:
+        raise LogError(error.cause, evidence=_of(path, error), remedy=error.remedy) from error
+
+
+def _of(path: Path, error: LogError) -> dict[str, Any]:
+    """Give what was seen, with the log in which it was: there may be several."""
+    return {"log": path.name, **error.evidence}
 
 
 def _tell_suggestion(suggestion: Any) -> None:  # noqa: ANN401  # a mapping, or None

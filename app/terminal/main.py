@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from app.terminal.guard import Commands
-from app.terminal.speech import say
+from app.terminal.speech import say, speak_any_alphabet
 from app.version import VERSION
 
 HOMES = {
@@ -58,4 +58,5 @@ def _veritorque(
 
 def main() -> None:
     """Run the command line."""
+    speak_any_alphabet()
     COMMANDS()

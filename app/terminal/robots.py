@@ -112,7 +112,7 @@ def _joint_table(description: dict[str, Any]) -> Any:  # noqa: ANN401  # rich is
         table.add_row(
             str(place),
             str(row.get("name", "")),
-            str(row.get("type", "")),
+            str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else ""),
             str(row.get("antecedent", "")),
             *(f"{row.get(name) or 0.0:.4g}" for name in shown),
             "" if limits is None else f"{limits[0]:.4g} .. {limits[1]:.4g}",

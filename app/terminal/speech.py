@@ -2,13 +2,20 @@
 
 import sys
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from io import TextIOWrapper
+from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 PIPED_WIDTH = 200
 """Columns where nobody watches: lines are not folded, so that a table keeps one row a line."""
+
+
+def speak_any_alphabet() -> None:
+    """Write what the terminal's alphabet lacks as escapes, so that no name of a file stops a command."""
+    if isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
 
 
 def out() -> "Console":
@@ -53,7 +60,13 @@ def complain(cause: str, evidence: Mapping[str, object], remedy: str) -> None:
 def _console(*, error: bool) -> "Console":
     from rich.console import Console
 
-    console = Console(stderr=error, highlight=False)
+    class Frank(Console):
+        """Tell of a reader who has read enough, where rich would end the program with 1."""
+
+        def on_broken_pipe(self) -> NoReturn:
+            raise BrokenPipeError
+
+    console = Frank(stderr=error, highlight=False)
     if not console.is_terminal:
         console.width = PIPED_WIDTH
     return console

@@ -85,7 +85,13 @@ def recognise(path: Path, media_type: str | None = None) -> Form:
     LogError
         If the file is absent or empty, is of no format that holds a log, or contradicts what was declared.
     """
-    if not path.is_file() or path.stat().st_size == 0:
+    if not path.is_file():
+        raise LogError(
+            f"{path.name} cannot be read",
+            evidence={"reason": "it is no file" if path.exists() else "it is not there"},
+            remedy="name the file of a log",
+        )
+    if path.stat().st_size == 0:
         raise LogError(
             "the log is empty", evidence={"bytes": 0}, remedy="upload a file with at least 1 s of motion"
         )

@@ -28,6 +28,7 @@ QUICK = ("--set", "bootstrap.draws=0")
 def planar(desk):
     """A folder with a robot of two joints and its log."""
     (desk / "arm.json").write_text(json.dumps(description()))
+    (desk / "list.json").write_text("[]")
     (desk / "swing.csv").write_bytes(csv_log())
     return desk
 
@@ -90,13 +91,22 @@ def test_every_kind_of_problem_has_one_exit_code():
         (("identify", "arm.json", "swing.csv", "--set", "estimator=guess"), "sdp"),
         (("identify", "arm.json", "swing.csv", "--set", "estimator"), "is not an option"),
         (("identify", "arm.json", "swing.csv", "--options", "{"), "the options cannot be read"),
-        (("identify", "arm.json", "swing.csv", "--mapping", "[1]"), "the mapping cannot be read"),
+        (("identify", "arm.json", "swing.csv", "--mapping", "[1]"), "the mapping must be a JSON object"),
         (("identify", "arm.json", "swing.csv", "--out", "nowhere/result.json"), "cannot be written"),
         (("diagnose", "arm.json", "swing.csv", "--reference", "gone.json"), "no result gone.json"),
         (("report", "swing.csv"), "is not a result"),
         (("report", "arm.json"), "is not a result document"),
         (("export", "result.json", "robot.step"), "robot.urdf"),
         (("robots", "show", "arm.json", "--gravity", "down"), "not three numbers"),
+        (("identify", "arm.json", "swing.csv", "--out", "examples"), "it is a folder"),
+        (("identify", "arm.json", "swing.csv", "--set", "a=1", "--set", "a.b=1"), "not both"),
+        (("identify", "arm.json", "swing.csv", "--options", "[1]"), "the options must be a JSON object"),
+        (("robots", "show", "arm.json", "--gravity", "0,0,1"), "is no URDF"),
+        (("robots", "show", "yumi", "--base-link", "base"), "is no URDF"),
+        (("robots", "check", "list.json"), "the description is not an object"),
+        (("logs", "check", "absent.csv"), "it is not there"),
+        (("logs", "check", "examples"), "it is no file"),
+        (("logs", "check", "swing.csv", "arm.json"), "log: arm.json"),
         (("identify",), "Missing argument"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
@@ -268,3 +278,44 @@ def test_the_script_that_is_installed_is_the_command_line():
     (name, target), *_ = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["scripts"].items()
     module, _, function = target.partition(":")
     assert (name, callable(getattr(import_module(module), function))) == ("veritorque", True)
+
+
+def as_a_shell_does(*arguments, stdout, **environment):
+    """Run a command in a process of its own; give how it ended and what stands on standard error."""
+    ended = subprocess.run(
+        [sys.executable, "-m", "app", *arguments],
+        cwd=ROOT,
+        env=os.environ | environment,
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    return ended.returncode, ended.stderr
+
+
+@pytest.mark.parametrize("command", ["list", "show yumi", "show yumi --json"])
+def test_a_reader_who_has_read_enough_is_no_failure(command):
+    reading, writing = os.pipe()
+    os.close(reading)
+    try:
+        assert as_a_shell_does("robots", *command.split(), stdout=writing) == (Exit.DONE, "")
+    finally:
+        os.close(writing)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no disk that is always full")
+def test_a_full_disk_is_told_as_what_it_is():
+    with Path("/dev/full").open("wb") as full:
+        code, said = as_a_shell_does("robots", "show", "yumi", stdout=full)
+    assert code == Exit.INPUT
+    assert "there is no room" in said
+    assert "make room" in said
+
+
+def test_a_name_that_the_alphabet_of_the_terminal_lacks_stops_nothing(tmp_path):
+    log = tmp_path / "Übung.csv"
+    log.write_bytes(csv_log())
+    with (tmp_path / "said").open("wb") as said:
+        assert as_a_shell_does("logs", "check", str(log), stdout=said, PYTHONIOENCODING="ascii")[0] == 0
+    assert (tmp_path / "said").read_bytes().startswith(rb"\xdcbung.csv: CSV")
