@@ -156,3 +156,23 @@ def test_the_whole_path_goes_by_keys(look, staged, key, tmp_path):
     page.wait_for_url("**/studies/*")
     page.locator(".state.successful").wait_for()
     keyboard.reach("a[href$='/report']")
+
+
+def test_an_address_that_is_no_text_leads_to_an_answer(look, service):
+    seen = look(service)
+    seen.statuses |= {400, 404, 422}
+    seen.open("/studies/%E0%A4%A").get_by_role("alert").wait_for()
+
+
+def test_a_study_that_was_deleted_meanwhile_leaves_the_list(held):
+    seen, _ = held
+    seen.statuses.add(404)
+    page = seen.page
+    job = page.url.split("/")[-1]
+    page.goto(seen.address)
+    link = page.locator(f"th a[href='/studies/{job}']")
+    link.wait_for()
+    page.route(
+        f"**/v1/jobs/{job}", lambda route: route.fulfill(status=404, json={"title": "gone", "status": 404})
+    )
+    link.wait_for(state="detached")
