@@ -104,6 +104,8 @@ def test_every_kind_of_problem_has_one_exit_code():
         (("robots", "show", "arm.json", "--gravity", "0,0,1"), "is no URDF"),
         (("robots", "show", "yumi", "--base-link", "base"), "is no URDF"),
         (("robots", "check", "list.json"), "the description is not an object"),
+        (("robots", "check", "./gone.json", "--url", "http://127.0.0.1:1"), "gone.json cannot be read"),
+        (("report", "./gone.json", "--url", "http://127.0.0.1:1"), "is not a result that can be read"),
         (("logs", "check", "absent.csv"), "it is not there"),
         (("logs", "check", "examples"), "it is no file"),
         (("logs", "check", "swing.csv", "arm.json"), "log: arm.json"),
