@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -321,3 +322,16 @@ def test_a_name_that_the_alphabet_of_the_terminal_lacks_stops_nothing(tmp_path):
     with (tmp_path / "said").open("wb") as said:
         assert as_a_shell_does("logs", "check", str(log), stdout=said, PYTHONIOENCODING="ascii")[0] == 0
     assert (tmp_path / "said").read_bytes().startswith(rb"\xdcbung.csv: CSV")
+
+
+def test_a_setting_that_cannot_be_is_named(desk):
+    ended = run("doctor", VERITORQUE_PORT="abc")
+    assert ended.exit_code == Exit.INPUT
+    assert "port: " in ended.stderr
+
+
+def test_a_service_does_not_start_where_another_one_listens(desk):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        ended = run("serve", "--port", str(taken.getsockname()[1]))
+    assert ended.exit_code == Exit.INPUT
+    assert "choose another --host or --port" in ended.stderr
