@@ -11,7 +11,7 @@ from app.client.follow import Follower
 from app.client.parcel import log_parcel, robot_parcel
 from app.client.records import Job, Log, Robot
 from app.client.result import Result
-from app.client.transport import Transport
+from app.client.transport import Transport, segment
 
 Tell = Callable[[str, float], None]
 RobotLike = Robot | str | Path | Mapping[str, object]
@@ -67,7 +67,7 @@ class Client:
 
     def robot(self, identity: str) -> Robot:
         """Read a robot with its description."""
-        return Robot.from_document(self._transport.document("GET", f"/v1/robots/{identity}"))
+        return Robot.from_document(self._transport.document("GET", f"/v1/robots/{segment(identity)}"))
 
     def add_robot(
         self,
@@ -99,7 +99,7 @@ class Client:
 
     def base_parameters(self, robot: RobotLike) -> dict[str, Any]:
         """Say which combinations of parameters any motion of a robot can tell apart."""
-        return self._transport.document("GET", f"/v1/robots/{self._robot(robot)}/base-parameters")
+        return self._transport.document("GET", f"/v1/robots/{segment(self._robot(robot))}/base-parameters")
 
     def upload(self, log: object, *, name: str = "", mapping: Mapping[str, object] | None = None) -> Log:
         """Upload a log.
@@ -170,7 +170,7 @@ class Client:
 
     def job(self, identity: str) -> Job:
         """Read how far a job is."""
-        return Job.from_document(self._transport.document("GET", f"/v1/jobs/{identity}"))
+        return Job.from_document(self._transport.document("GET", f"/v1/jobs/{segment(identity)}"))
 
     def wait(self, job: Job | str, tell: Tell | None = None) -> Result:
         """Follow a job to its end and give its result.
@@ -195,7 +195,7 @@ class Client:
     def cancel(self, job: Job | str) -> None:
         """Dismiss a job, which ends its computation; one that has finished keeps its result."""
         if not self.job(_identity(job)).finished:
-            self._transport.document("DELETE", f"/v1/jobs/{_identity(job)}")
+            self._transport.document("DELETE", f"/v1/jobs/{segment(_identity(job))}")
 
     def result(self, job: Job | str) -> Result:
         """Read the result of a finished job."""
@@ -203,15 +203,15 @@ class Client:
 
     def result_bytes(self, job: Job | str) -> bytes:
         """Read the result document as the service stores it."""
-        return self._transport.content(f"/v1/jobs/{_identity(job)}/results")
+        return self._transport.content(f"/v1/jobs/{segment(_identity(job))}/results")
 
     def report(self, job: Job | str) -> bytes:
         """Read the report: one HTML file that opens offline."""
-        return self._transport.content(f"/v1/jobs/{_identity(job)}/report")
+        return self._transport.content(f"/v1/jobs/{segment(_identity(job))}/report")
 
     def export(self, job: Job | str, name: str) -> bytes:
         """Read the identified robot as a file: ``robot.urdf``, ``robot.xml`` ...; see docs/export.md."""
-        return self._transport.content(f"/v1/jobs/{_identity(job)}/results/{name}")
+        return self._transport.content(f"/v1/jobs/{segment(_identity(job))}/results/{segment(name)}")
 
     def _robot(self, robot: RobotLike) -> str:
         if isinstance(robot, Robot):

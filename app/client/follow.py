@@ -10,7 +10,7 @@ from typing import Final
 
 from app.client.errors import NoAnswerError, RefusedError, ServiceError
 from app.client.records import Job
-from app.client.transport import Transport
+from app.client.transport import Transport, segment
 
 PATIENCE_S: Final = 30.0
 """How long a service may be away, s."""
@@ -31,7 +31,7 @@ class Follower:
     """
 
     def __init__(self, transport: Transport, identity: str, *, pause_s: float = PAUSE_S) -> None:
-        self._transport, self._path, self._pause_s = transport, f"/v1/jobs/{identity}", pause_s
+        self._transport, self._path, self._pause_s = transport, f"/v1/jobs/{segment(identity)}", pause_s
         self._last, self._barren = "", 0
         self._seen = time.monotonic()
 

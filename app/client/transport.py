@@ -6,7 +6,7 @@ Source: RFC 9457, Problem Details for HTTP APIs; RFC 6750, The OAuth 2.0 Bearer 
 import json
 from collections.abc import Iterable, Iterator
 from typing import Any, Final
-from urllib.parse import urlsplit
+from urllib.parse import quote, urlsplit
 
 import httpx2
 
@@ -15,6 +15,17 @@ from app.client.errors import NoAnswerError, RefusedError, from_problem
 Document = dict[str, Any]
 SILENCE_S: Final = 45.0
 """Longest silence between two events; the service breaks it three times as often."""
+
+
+def segment(name: str) -> str:
+    """Write an id or a name as one step of a path.
+
+    Examples
+    --------
+    >>> segment("my arm?")
+    'my%20arm%3F'
+    """
+    return quote(name, safe="")
 
 
 class Transport:
@@ -32,14 +43,19 @@ class Transport:
     Raises
     ------
     NoAnswerError
-        If this is not the address of a service.
+        If this is not the address of a service, or what is given as a key cannot be one.
     """
 
     def __init__(self, url: str, key: str | None, *, timeout_s: float) -> None:
-        parts = urlsplit(url)
-        if parts.scheme not in {"http", "https"} or not parts.hostname:
+        if not _is_address(url):
             raise NoAnswerError(
                 f"{url!r} is not the address of a service", remedy="give http://host:port or https://host"
+            )
+        if key and not (key.isascii() and key.isprintable()):
+            raise NoAnswerError(
+                "the key holds characters that no key has",
+                evidence={"characters": len(key)},
+                remedy="copy it again, as `veritorque keys create` printed it",
             )
         self.url = url.rstrip("/")
         headers = {"Accept": "application/json"} | ({"Authorization": f"Bearer {key}"} if key else {})
@@ -121,6 +137,14 @@ class Transport:
             evidence={"reason": str(error) or type(error).__name__},
             remedy="start it with: veritorque serve, or correct the address",
         )
+
+
+def _is_address(url: str) -> bool:
+    try:
+        parts = urlsplit(url)
+        return parts.scheme in {"http", "https"} and bool(parts.hostname) and parts.port != 0
+    except ValueError:  # brackets that do not close, a port that is no number
+        return False
 
 
 def _refusal(answer: httpx2.Response) -> RefusedError | NoAnswerError:

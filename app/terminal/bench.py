@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+from core.errors import OptionError
+
 Document = dict[str, Any]
 Tell = Callable[[str, float], None]
 
@@ -44,6 +46,23 @@ class FromUrdf:
 
 
 WHOLE = FromUrdf()
+
+
+def require_whole(given: str, part: FromUrdf) -> None:
+    """Return where nothing was asked of a robot that only a URDF can be asked for.
+
+    Raises
+    ------
+    OptionError
+        If something was.
+    """
+    asked = {name: value for name, value in vars(part).items() if value is not None}
+    if asked:
+        raise OptionError(
+            f"{given} is no URDF, and says itself which links it has and where gravity points",
+            evidence={"given": asked},
+            remedy="leave these options out, or change the description",
+        )
 
 
 class Bench(Protocol):

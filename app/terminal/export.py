@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from app.terminal.files import require_folder, save
+from app.terminal.files import means_a_file, require_folder, save
 from app.terminal.given import KeyOption, UrlOption
 from app.terminal.results import RESULT_HELP, read_result
 from app.terminal.speech import say, write
@@ -60,7 +60,7 @@ def export(
 
 
 def _content(result: str, name: str, url: str, key: str) -> bytes:
-    if url and not Path(result).is_file():
+    if url and not means_a_file(result):
         from app.client.client import Client
 
         with Client(url, key or None) as client:

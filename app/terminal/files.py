@@ -7,6 +7,11 @@ from app.terminal.speech import note
 from core.errors import OptionError
 
 
+def means_a_file(given: str) -> bool:
+    """Tell a file, there or not, from the id of something that a service keeps."""
+    return "/" in given or not given.strip(".") or Path(given).is_file()
+
+
 def save(path: Path, content: bytes) -> None:
     """Write a file and say so.
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from app.documents import json_bytes
-from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell
+from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell, require_whole
 from app.terminal.compiled import COMPILING, share_compiled_kernels
 from app.terminal.files import save
 from app.terminal.speech import note
@@ -43,14 +43,14 @@ class LocalBench:
 
         known = science.built_in_descriptions()
         if given in known:
-            _require_urdf(given, part)
+            require_whole(given, part)
             model, description = science.read_description(known[given])
         else:
             content = _robot_file(given, known)
             if content.lstrip()[:1] in (b"{", b"[") or given.endswith(".json"):
                 from app.reading import parse_json
 
-                _require_urdf(given, part)
+                require_whole(given, part)
                 model, description = science.read_description(parse_json(content, what=given))
             else:
                 model, description = science.read_urdf(content, **vars(part))
@@ -98,17 +98,6 @@ class LocalBench:
             if report is not None:
                 save(report, report_page(document, traces).encode())
             return json_bytes(document)
-
-
-def _require_urdf(given: str, part: FromUrdf) -> None:
-    """Refuse what only a URDF can be asked for."""
-    asked = {name: value for name, value in vars(part).items() if value is not None}
-    if asked:
-        raise OptionError(
-            f"{given} is no URDF, and says itself which links it has and where gravity points",
-            evidence={"given": asked},
-            remedy="leave these options out, or change the description",
-        )
 
 
 def _robot_file(given: str, known: Document) -> bytes:

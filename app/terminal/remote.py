@@ -8,8 +8,8 @@ from app.client.client import Client
 from app.client.errors import ServiceError
 from app.client.parcel import require_file
 from app.client.records import Robot
-from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell
-from app.terminal.files import save
+from app.terminal.bench import WHOLE, Document, FromUrdf, Study, Tell, require_whole
+from app.terminal.files import means_a_file, save
 from app.terminal.speech import note
 from core.errors import LogError
 
@@ -58,8 +58,9 @@ class RemoteBench:
         return self._client.result_bytes(job)
 
     def _robot(self, given: str, part: FromUrdf = WHOLE) -> Robot:
-        if Path(given).is_file():
+        if means_a_file(given):
             return self._client.add_robot(Path(given), **vars(part))
+        require_whole(given, part)
         return self._client.robot(given)
 
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from app.terminal.files import require_folder, save
+from app.terminal.files import means_a_file, require_folder, save
 from app.terminal.given import KeyOption, UrlOption
 from app.terminal.results import RESULT_HELP, read_result
 
@@ -27,7 +27,7 @@ def report(
 ) -> None:
     """Write the report of a result: figures, tables and sentences in one HTML file that opens offline."""
     require_folder(out)
-    if url and not Path(result).is_file():
+    if url and not means_a_file(result):
         from app.client.client import Client
 
         with Client(url, key or None) as client:

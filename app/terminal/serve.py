@@ -3,6 +3,7 @@
 Source of the names: `app.settings`.
 """
 
+import socket
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -101,6 +102,16 @@ def _require_to_be_alone(data_dir: Path) -> None:
         stop(f"another service uses {data_dir}; stop it, or choose another --data-dir")
 
 
+def _require_free(host: str, port: int) -> None:
+    try:
+        family, kind, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        with socket.socket(family, kind) as door:
+            door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            door.bind(address)
+    except OSError as error:
+        stop(f"nothing can listen on {host}, port {port}: {error.strerror}; choose another --host or --port")
+
+
 def _listen(settings: Settings) -> None:
     from app.jobs.supervisor import Supervisor
     from app.journal import open_journal
@@ -108,6 +119,7 @@ def _listen(settings: Settings) -> None:
     from app.metrics import Metrics
     from app.server import Server
 
+    _require_free(settings.host, settings.port)
     open_journal(settings)
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
     say(f"http://{shown}:{settings.port}/docs")

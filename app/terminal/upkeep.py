@@ -16,7 +16,7 @@ from app.settings import Settings
 from app.store.errors import Damaged, Unavailable
 from app.store.store import Store
 from app.store.sweep import Sweep
-from app.terminal.environment import stop
+from app.terminal.environment import chosen_settings, stop
 from app.terminal.exits import Exit
 from app.terminal.speech import say
 
@@ -36,7 +36,7 @@ def gc(
 
     The service may run meanwhile; it does the same by itself every minute.
     """
-    settings = Settings()
+    settings = chosen_settings()
     with _opened(settings) as store:
         for kind, count in expire(store.database, settings.retention_days).items():
             say(f"{count} {kind} expired")
@@ -49,14 +49,14 @@ def gc(
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")
 def backup(directory: Annotated[Path, typer.Argument(help="A new directory for the backup.")]) -> None:
     """Copy everything into a new directory while the service runs."""
-    with _opened(Settings()) as store:
+    with _opened(chosen_settings()) as store:
         _say(back_up(store, directory))
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday")
 def restore(directory: Annotated[Path, typer.Argument(help="The directory of a backup.")]) -> None:
     """Copy a backup into VERITORQUE_DATA_DIR (and VERITORQUE_DATABASE_URL), which has to be empty."""
-    with _opened(Settings()) as store:
+    with _opened(chosen_settings()) as store:
         _say(restore_backup(directory, store))
 
 
@@ -64,7 +64,7 @@ def restore(directory: Annotated[Path, typer.Argument(help="The directory of a b
 def doctor() -> None:
     """Examine database, files, permissions and disk, and say what to do; ends with 1 where harm is done."""
     harm = False
-    for finding in examine(Settings()):
+    for finding in examine(chosen_settings()):
         harm |= finding.harm
         word = "WRONG" if finding.harm else "note" if finding.remedy else "ok"
         say(f"{word:6}{finding.subject}: {finding.seen}")

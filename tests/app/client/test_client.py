@@ -187,7 +187,20 @@ def test_what_is_not_the_service_is_told_from_one_that_is_silent(lab):
     assert lab.is_alive()
 
 
-@pytest.mark.parametrize("url", ["nowhere", "file:///etc", "http://"])
+@pytest.mark.parametrize("url", ["nowhere", "file:///etc", "http://", "http://host:port", "http://[::1"])
 def test_what_is_no_address_is_refused(url):
     with pytest.raises(NoAnswerError, match="not the address of a service"):
         Client(url)
+
+
+@pytest.mark.parametrize("key", ["schlüssel", "two\nlines"])
+def test_what_no_key_can_be_is_refused_before_it_is_sent(key):
+    with pytest.raises(NoAnswerError, match="the key holds characters"):
+        Client("http://127.0.0.1:1", key)
+
+
+@pytest.mark.parametrize("name", ["a b", "a?b", "ä#1"])
+def test_an_id_is_one_step_of_the_path_whatever_it_holds(lab, name):
+    with pytest.raises(RefusedError) as refused:
+        lab.robot(name)
+    assert refused.value.evidence["robot"] == name

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -104,6 +105,8 @@ def test_every_kind_of_problem_has_one_exit_code():
         (("robots", "show", "arm.json", "--gravity", "0,0,1"), "is no URDF"),
         (("robots", "show", "yumi", "--base-link", "base"), "is no URDF"),
         (("robots", "check", "list.json"), "the description is not an object"),
+        (("robots", "check", "./gone.json", "--url", "http://127.0.0.1:1"), "gone.json cannot be read"),
+        (("report", "./gone.json", "--url", "http://127.0.0.1:1"), "is not a result that can be read"),
         (("logs", "check", "absent.csv"), "it is not there"),
         (("logs", "check", "examples"), "it is no file"),
         (("logs", "check", "swing.csv", "arm.json"), "log: arm.json"),
@@ -319,3 +322,16 @@ def test_a_name_that_the_alphabet_of_the_terminal_lacks_stops_nothing(tmp_path):
     with (tmp_path / "said").open("wb") as said:
         assert as_a_shell_does("logs", "check", str(log), stdout=said, PYTHONIOENCODING="ascii")[0] == 0
     assert (tmp_path / "said").read_bytes().startswith(rb"\xdcbung.csv: CSV")
+
+
+def test_a_setting_that_cannot_be_is_named(desk):
+    ended = run("doctor", VERITORQUE_PORT="abc")
+    assert ended.exit_code == Exit.INPUT
+    assert "port: " in ended.stderr
+
+
+def test_a_service_does_not_start_where_another_one_listens(desk):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        ended = run("serve", "--port", str(taken.getsockname()[1]))
+    assert ended.exit_code == Exit.INPUT
+    assert "choose another --host or --port" in ended.stderr
