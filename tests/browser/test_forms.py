@@ -165,6 +165,54 @@ def test_a_log_of_another_number_of_joints_cannot_be_started_with(look, service,
     page.get_by_text("Still to do: add a log.").wait_for()
 
 
+def test_a_log_that_is_mapped_otherwise_takes_the_place_of_what_it_was(look, service, tmp_path):
+    path = tmp_path / "plain.csv"
+    path.write_bytes(csv_log(seconds=4.0))
+    page = look(service).open("/new")
+    page.set_input_files("#log input[type=file]", path)
+    logs = page.get_by_role("article", name="Log plain.csv")
+    logs.get_by_role("button", name="Map the columns otherwise").click()
+    for channel, unit in {"time": "s", "position": "deg", "torque": "N m"}.items():
+        page.get_by_label(f"Unit of {channel}").select_option(unit)
+    page.get_by_label("Joint of tau_2").fill("1")
+    page.get_by_label("Joint of tau_2").press("Tab")
+    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_text("Number the joints of torque from 1 to 2, each once.").wait_for()
+    page.get_by_label("Joint of tau_2").fill("2")
+    page.get_by_label("Joint of tau_2").press("Tab")
+    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("heading", name="Say which column is what").wait_for(state="detached")
+    assert logs.count() == 1
+
+
+def test_a_mapping_that_is_refused_stays_to_be_corrected(look, service, odd_log):
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", odd_log)
+    page.get_by_label("What clock_ms is").select_option("")
+    for channel, unit in {"position": "deg", "torque": "mN m"}.items():
+        page.get_by_label(f"Unit of {channel}").select_option(unit)
+    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_text("Choose the column that is time, or give the rate.").wait_for()
+    page.get_by_label("Rate, Hz").fill("-1")
+    with page.expect_response("**/v1/logs?*") as refused:
+        page.get_by_role("button", name="Read the log so").click()
+    assert refused.value.status == 422
+    page.get_by_role("alert").wait_for()
+    assert page.get_by_label("Rate, Hz").input_value() == "-1"
+    assert page.get_by_label("Unit of torque").input_value() == "mN m"
+
+
+def test_a_log_with_the_longest_name_of_a_file_is_taken(look, service, tmp_path):
+    path = tmp_path / f"{'l' * 251}.csv"
+    path.write_bytes(csv_log(seconds=4.0))
+    page = look(service, width=390, height=800).open("/new")
+    page.set_input_files("#log input[type=file]", path)
+    page.get_by_role("article", name="Log lll").wait_for()
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
 def test_a_plot_zooms_by_keys_with_its_neighbours_and_comes_back(look, service, holed_log):
     page = look(service).open("/new")
     page.set_input_files("#log input[type=file]", holed_log)

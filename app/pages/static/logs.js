@@ -9,6 +9,7 @@ import { bytes, count, duration, number, percent, plain, plural } from "./words.
 
 const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.bag";
 const LISTED = 50;
+const LONGEST_NAME = 200; // that the service keeps
 
 /**
  * Offer the ways to logs.
@@ -70,7 +71,8 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     }
   }
 
-  async function take(file, mapping) {
+  // `form` is where the mapping was said, and stands again if the log is refused; `replaced` is the log as it was read before.
+  async function take(file, mapping, form = null, replaced = null) {
     const bar = element("progress", { max: 1, value: 0, "aria-label": `Upload of ${file.name}` });
     const words = element("p", { class: "hint", role: "status" }, `Uploading ${file.name}, ${bytes(file.size)} …`);
     fill(said, element("div", { class: "upload" }, words, bar));
@@ -79,32 +81,43 @@ export function chooseLogs(container, { wanted = [], chosen }) {
       words.textContent =
         fraction < 1 ? `Uploading ${file.name}: ${percent(fraction)} of ${bytes(file.size)}` : `Reading ${file.name} …`;
     };
-    const query = new URLSearchParams({ name: file.name });
+    const query = new URLSearchParams({ name: [...file.name].slice(-LONGEST_NAME).join("") });
     if (mapping !== null) query.set("mapping", JSON.stringify(mapping));
     try {
       const log = await upload(`/v1/logs?${query}`, file, { told });
       fill(said);
+      forget(replaced);
       keep(log, file);
     } catch (error) {
       showError(said, error);
-      if (error?.problem?.type === "urn:veritorque:problem:log") await offerMapping(file, said, error.problem);
+      if (form !== null) {
+        if (!form.isConnected) said.append(form);
+      } else if (error?.problem?.type === "urn:veritorque:problem:log") await offerMapping(file, said, error.problem);
     }
   }
 
-  async function offerMapping(file, place, problem) {
+  async function offerMapping(file, place, problem, replaced = null) {
     const columns = (await columnsOf(file)) ?? problem?.evidence?.columns ?? [];
+    if (!columns.length) return;
     const form = element("div", {});
+    if (problem === null) fill(place);
     place.append(form);
     mappingForm(form, {
       columns,
       readings: problem?.evidence?.plausible_readings ?? {},
-      finished: (mapping) => take(file, mapping),
+      finished: (mapping) => take(file, mapping, form, replaced),
     });
   }
 
+  function forget(id) {
+    const known = logs.get(id);
+    known?.shown.destroy();
+    known?.card.remove();
+    logs.delete(id);
+  }
+
   function keep(log, file) {
-    const known = logs.get(log.id);
-    if (known) known.card.remove();
+    forget(log.id);
     const plots = element("div", { class: "stack" });
     const again = element("div", {});
     const card = element(
@@ -121,7 +134,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
             ? null
             : element(
                 "button",
-                { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null) } },
+                { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null, log.id) } },
                 "Map the columns otherwise",
               ),
           element(
@@ -138,14 +151,12 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     );
     cards.append(card);
     const shown = showChannels(plots, log);
-    logs.set(log.id, { card, log, redraw: () => shown.use(robot) });
+    logs.set(log.id, { card, log, shown, redraw: () => shown.use(robot) });
     shown.use(robot);
     chosen([...logs.values()].map((one) => one.log));
 
     function remove() {
-      shown.destroy();
-      card.remove();
-      logs.delete(log.id);
+      forget(log.id);
       chosen([...logs.values()].map((one) => one.log));
     }
   }

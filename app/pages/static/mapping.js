@@ -225,17 +225,35 @@ export function mappingForm(container, { columns, readings, finished }) {
         wrong.textContent = `Choose the unit of ${channel}: a wrong guess would be a wrong robot.`;
         return;
       }
+      if (channel === "time" && own.length > 1) {
+        wrong.textContent = "Choose one column as time.";
+        return;
+      }
       if (channel === "time") {
         mapping.time = { column: own[0].name, unit: units.time };
         continue;
       }
       own.sort((a, b) => a.joint - b.joint);
+      if (own.some((one, index) => one.joint !== index + 1)) {
+        wrong.textContent = `Number the joints of ${channel} from 1 to ${own.length}, each once.`;
+        return;
+      }
       mapping[channel] = { columns: own.map((one) => one.name), unit: units[channel] };
-      if (units[channel] === "counts") mapping[channel].scale = readNumber(scales[channel] ?? "");
+      if (units[channel] === "counts") {
+        mapping[channel].scale = readNumber(scales[channel] ?? "");
+        if (!Number.isFinite(mapping[channel].scale)) {
+          wrong.textContent = `Say what one count of ${channel} is.`;
+          return;
+        }
+      }
     }
     if (!mapping.time) {
       mapping.time = null;
       mapping.rate_hz = readNumber(rate);
+      if (!Number.isFinite(mapping.rate_hz)) {
+        wrong.textContent = "Choose the column that is time, or give the rate.";
+        return;
+      }
     }
     wrong.textContent = "";
     finished(mapping);
