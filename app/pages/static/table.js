@@ -185,13 +185,13 @@ export function robotTable(container, { known, changed, finished }) {
       "data-pointer": pointerOf(index, column),
       value:
         value === undefined ? "" : typeof value === "string" ? value : String(Number((value / factor).toPrecision(10))),
-      "aria-label": `Joint ${index + 1}: ${column.label ?? column.name}, ${unitOf(column, [row], units)}`,
+      "aria-label": [`Joint ${index + 1}: ${column.label ?? column.name}`, unitOf(column, [row], units)].filter(Boolean).join(", "),
       on: {
         input: () => {
           const read = readNumber(input.value);
           const empty = column.optional && input.value.trim() === "";
           row[column.name] = empty ? undefined : Number.isFinite(read) ? read * factor : input.value;
-          input.toggleAttribute("aria-invalid", !empty && !Number.isFinite(read));
+          input.ariaInvalid = !empty && !Number.isFinite(read) ? "true" : null;
           tell();
         },
       },
