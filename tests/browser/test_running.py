@@ -45,9 +45,10 @@ def test_a_running_study_tells_how_far_it_is_and_shows_its_end_by_itself(held):
     assert page.get_by_role("progressbar").get_attribute("value") == "0.5"
     seen.photograph("study_running_light")
     assert seen.barriers() == []
+    seen.statuses.add(404)  # what is computed here has no traces
     executor.release.set()
     page.locator(".state.successful").wait_for()
-    page.locator("a[href$='/report']").first.wait_for()
+    page.locator(".headline").wait_for()
 
 
 def test_a_study_that_fails_says_why_and_what_to_do(held):
@@ -140,7 +141,9 @@ def test_the_whole_path_goes_by_keys(look, staged, key, tmp_path):
     executor.release.set()
     path = tmp_path / "keys.csv"
     path.write_bytes(csv_log(seconds=4.0))
-    page = look(address, key=key).open("/")
+    seen = look(address, key=key)
+    seen.statuses.add(404)  # what is computed here has no traces
+    page = seen.open("/")
     keyboard = Keyboard(page)
     keyboard.press("nav a[href='/new']")
     page.wait_for_url("**/new")
@@ -156,3 +159,23 @@ def test_the_whole_path_goes_by_keys(look, staged, key, tmp_path):
     page.wait_for_url("**/studies/*")
     page.locator(".state.successful").wait_for()
     keyboard.reach("a[href$='/report']")
+
+
+def test_an_address_that_is_no_text_leads_to_an_answer(look, service):
+    seen = look(service)
+    seen.statuses |= {400, 404, 422}
+    seen.open("/studies/%E0%A4%A").get_by_role("alert").wait_for()
+
+
+def test_a_study_that_was_deleted_meanwhile_leaves_the_list(held):
+    seen, _ = held
+    seen.statuses.add(404)
+    page = seen.page
+    job = page.url.split("/")[-1]
+    page.goto(seen.address)
+    link = page.locator(f"th a[href='/studies/{job}']")
+    link.wait_for()
+    page.route(
+        f"**/v1/jobs/{job}", lambda route: route.fulfill(status=404, json={"title": "gone", "status": 404})
+    )
+    link.wait_for(state="detached")

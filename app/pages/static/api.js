@@ -20,10 +20,11 @@ export async function request(path, { method = "GET", json, body, headers = {}, 
   const sent = json === undefined ? { body } : { body: JSON.stringify(json) };
   const typed = json === undefined ? headers : { "Content-Type": "application/json", ...headers };
   for (;;) {
-    const response = await answered(fetch(path, { method, signal, ...sent, headers: { ...typed, ...keyHeaders() } }));
+    const key = keyHeaders();
+    const response = await answered(fetch(path, { method, signal, ...sent, headers: { ...typed, ...key } }));
     if (response.ok) return response;
     const problem = await problemOf(response);
-    if (response.status !== 401 || !(await askForKey(problem))) throw new ProblemError(problem);
+    if (response.status !== 401 || !(await askForKey(problem, key))) throw new ProblemError(problem);
   }
 }
 
@@ -45,9 +46,10 @@ export async function post(path, json) {
  */
 export async function upload(path, file, { mediaType = "application/octet-stream", told = () => {}, signal } = {}) {
   for (;;) {
+    const key = keyHeaders();
     const { status, document } = await sent(path, file, mediaType, told, signal);
     if (status >= 200 && status < 300) return document;
-    if (status !== 401 || !(await askForKey(document))) throw new ProblemError(document);
+    if (status !== 401 || !(await askForKey(document, key))) throw new ProblemError(document);
   }
 }
 

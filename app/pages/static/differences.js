@@ -125,7 +125,7 @@ function findings(studies) {
 }
 
 function table(studies, rows) {
-  const only = studies.map((one, place) => one.document.base_parameters.filter((row) => !studies[1 - place].document.base_parameters.some((other) => other.name === row.name)).map((row) => row.name));
+  const only = studies.map((one, place) => one.document.base_parameters.filter((row) => !studies[1 - place].document.base_parameters.some((other) => other.name === row.name && other.unit === row.unit)).map((row) => row.name));
   return [element("p", { class: "hint" }, `z is the difference, right minus left, in standard deviations of the difference. More than ${REAL} is hardly chance.`),
     wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z drawn")]),
       element("tbody", {}, rows.map((row) => element("tr", {},

@@ -7,11 +7,11 @@ const COME_BACK_MS = 2000;
  * Tell every change of a job until it has ended.
  * @param {string} id
  * @param {function(Object): void} told hears the job, the first time at once
- * @param {AbortSignal} [signal]
+ * @param {Object} [options] `silent()` hears whenever the service does not answer, before it is asked again; signal
  * @returns {Promise<Object>} the job at its end
  * @throws {ProblemError} if there is no such job
  */
-export async function followJob(id, told, signal) {
+export async function followJob(id, told, { silent = () => {}, signal } = {}) {
   let last = null;
   let job = null;
   for (;;) {
@@ -31,6 +31,7 @@ export async function followJob(id, told, signal) {
         (error instanceof ProblemError && error.problem.status && error.problem.status < 500)
       )
         throw error;
+      silent();
     }
     await new Promise((resolve) => setTimeout(resolve, COME_BACK_MS)); // the service was restarted, or the line broke
   }

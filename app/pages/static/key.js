@@ -18,9 +18,11 @@ export function hasKey() {
 /**
  * Ask for the key in a dialog; many callers share one.
  * @param {Object} problem what the service said, shown above the field
- * @returns {Promise<boolean>} whether one was given
+ * @param {Object} refused the headers that were refused
+ * @returns {Promise<boolean>} whether one was given, or had been since they were sent
  */
-export function askForKey(problem) {
+export async function askForKey(problem, refused) {
+  if (asking === null && keyHeaders().Authorization !== refused.Authorization) return true;
   asking ??= dialog(problem).finally(() => {
     asking = null;
   });

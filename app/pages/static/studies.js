@@ -85,8 +85,8 @@ async function refresh(body, names) {
     for (const old of open) {
       try {
         old.replaceWith(row(await get(`/v1/jobs/${old.dataset.open}`), names));
-      } catch {
-        return; // deleted meanwhile, or the service is away: the list stays as it was
+      } catch (error) {
+        if (error?.problem?.status === 404) old.remove(); // deleted meanwhile; if the service is away, it is asked again
       }
     }
   }

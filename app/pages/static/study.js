@@ -9,10 +9,10 @@ import { ago, duration, percent, plain, short } from "./words.js";
 
 const KINDS = { identify: "Identification", diagnose: "Diagnosis" };
 const container = document.getElementById("study");
-const id = decodeURIComponent(location.pathname.split("/")[2]);
+const id = location.pathname.split("/")[2]; // stays as it is written in the address
 
 try {
-  await showStudy(await get(`/v1/jobs/${encodeURIComponent(id)}`));
+  await showStudy(await get(`/v1/jobs/${id}`));
 } catch (error) {
   showError(container, error);
 }
@@ -84,10 +84,13 @@ async function watch(job, content, badge) {
     fill(badge, state(now));
     tick();
   };
+  const silent = () => {
+    stage.textContent = "The service does not answer; it is asked again";
+  };
   told(job);
   const timer = setInterval(tick, 1000);
   try {
-    return await followJob(id, told);
+    return await followJob(job.id, told, { silent });
   } finally {
     clearInterval(timer);
   }
@@ -95,7 +98,7 @@ async function watch(job, content, badge) {
   async function dismiss() {
     cancel.disabled = true;
     try {
-      await request(`/v1/jobs/${encodeURIComponent(id)}`, { method: "DELETE" });
+      await request(job.links.self, { method: "DELETE" });
     } catch (error) {
       cancel.disabled = false;
       showError(said, error);
