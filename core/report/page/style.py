@@ -10,7 +10,8 @@ STYLE = """
   --two: #c4a5ff; --faint: #66748a; --j1: #7ab8f5; --j2: #ffa56b; --j3: #6fd39a; --j4: #c4a5ff;
   --j5: #ff8a80; --j6: #67d3e4; --j7: #e3c15b; --j8: #b6c0cd; } }
 * { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.5 system-ui, sans-serif; }
+body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.5 system-ui, sans-serif;
+  overflow-wrap: break-word; }
 main { max-width: 62rem; margin: 0 auto; padding: 1.75rem 1.25rem 4rem; }
 .kind { margin: 0 0 .25rem; font-weight: 600; color: var(--soft); }
 .verdict { margin: 0 0 1rem; font-size: 1.5rem; line-height: 1.3; font-weight: 650; }
