@@ -56,7 +56,7 @@ class ResultDocument(Open):
     """The identified robot: its parameters, how well each is known, and how well it predicts."""
 
     schema_version: str
-    kind: str
+    kind: Literal["identify", "diagnose"]
     robot: dict[str, JsonValue]
     logs: list[dict[str, JsonValue]]
     provenance: dict[str, JsonValue]

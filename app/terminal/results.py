@@ -4,10 +4,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
 from core.errors import OptionError
 
 RESULT_HELP = "A result document (a file, as --out or --json wrote it); with --url the id of a job."
-NEEDED = frozenset({"schema_version", "kind", "robot", "base_parameters", "standard_parameters"})
 
 
 def read_result(given: str) -> dict[str, Any]:
@@ -18,19 +19,24 @@ def read_result(given: str) -> dict[str, Any]:
     OptionError
         If the file is not there, or holds something else.
     """
+    from app.schemas.results import ResultDocument
+
     try:
-        document = json.loads(Path(given).read_text(encoding="utf-8"))
+        content = Path(given).read_bytes()
+        document: dict[str, Any] = json.loads(content)
     except (OSError, ValueError) as error:
         raise OptionError(
             f"{given} is not a result that can be read",
             evidence={"reason": getattr(error, "strerror", None) or str(error)},
             remedy="name a file that `veritorque identify --out` wrote, or give --url with the id of a job",
         ) from error
-    missing = NEEDED - document.keys() if isinstance(document, dict) else NEEDED
-    if missing:
+    try:
+        ResultDocument.model_validate_json(content)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
         raise OptionError(
             f"{given} is not a result document",
-            evidence={"missing": sorted(missing)},
-            remedy="name a file that `veritorque identify --out` wrote",
-        )
-    return dict(document)
+            evidence={"at": "/".join(map(str, first["loc"])), "reason": first["msg"]},
+            remedy="name a file that `veritorque identify --out` wrote, and leave it as it is",
+        ) from error
+    return document

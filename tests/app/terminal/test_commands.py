@@ -204,6 +204,15 @@ def test_a_job_that_was_taken_before_the_interruption_came_is_dismissed_all_the_
     assert (ended.exit_code, job.state) == (Exit.INTERRUPTED, "dismissed")
 
 
+@pytest.mark.parametrize("spoilt", [{"robot": None}, {"logs": None}, {"kind": "guess"}])
+def test_a_result_that_was_changed_is_refused_by_name(planar, spoilt):
+    (planar / "spoilt.json").write_text(json.dumps(nothing_found() | spoilt))
+    ended = run("report", "spoilt.json")
+    assert ended.exit_code == Exit.INPUT
+    assert "spoilt.json is not a result document" in ended.stderr
+    assert next(iter(spoilt)) in ended.stderr
+
+
 @pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_the_command_dismisses_the_job(planar, tmp_path_factory, told):
     executor = StubExecutor()
