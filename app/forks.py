@@ -10,6 +10,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from multiprocessing.context import ForkServerContext
 from queue import Empty, SimpleQueue
+from threading import Lock
 
 READERS = (
     "h5py",
@@ -90,12 +91,14 @@ class Standby:
         self._make = make
         self._coming: SimpleQueue[Future[Child]] = SimpleQueue()
         self._keeper = ThreadPoolExecutor(1, thread_name_prefix="standby")
+        self._closed, self._parting = False, Lock()
 
     def prepare(self, count: int) -> list["Future[Child]"]:
-        """Have so many children made; as many tasks at the same time wait for none."""
-        coming = [self._keeper.submit(self._make) for _ in range(count)]
-        for child in coming:
-            self._coming.put(child)
+        """Have so many children made, none after `close`; as many tasks at the same time wait for none."""
+        with self._parting:
+            coming = [self._keeper.submit(self._make) for _ in range(0 if self._closed else count)]
+            for child in coming:
+                self._coming.put(child)
         return coming
 
     @contextmanager
@@ -128,7 +131,12 @@ class Standby:
             self._coming.put(self._keeper.submit(self._successor, used))
 
     def close(self) -> None:
-        """End all that wait; nobody may be in use any more."""
+        """End all that wait; nobody may be in use any more.
+
+        A child that stayed would keep this process from ending: it heeds no request to end.
+        """
+        with self._parting:
+            self._closed = True
         with suppress(Empty):
             while True:
                 coming = self._coming.get_nowait()

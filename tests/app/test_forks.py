@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import sys
 import threading
 import time
 
@@ -76,6 +77,35 @@ def test_what_waits_ends_with_those_who_made_it():
     while alive(process) and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not alive(process)
+
+
+class Counted:
+    """Stand in for a child: count those that were made, and those that ended."""
+
+    made = ended = 0
+
+    def __init__(self):
+        Counted.made += 1
+
+    def end(self):
+        Counted.ended += 1
+
+
+def test_nobody_is_left_waiting_where_they_part_while_others_prepare():
+    often = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        for _ in range(300):
+            kept = Standby(Counted)
+            preparing = threading.Thread(target=kept.prepare, args=(3,))
+            preparing.start()
+            kept.close()
+            preparing.join()
+            assert Counted.made == Counted.ended
+    finally:
+        sys.setswitchinterval(often)
+    assert Counted.made > 0
+    assert kept.prepare(1) == []
 
 
 def test_a_rehearsal_makes_way_for_a_computation():

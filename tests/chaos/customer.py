@@ -5,6 +5,7 @@ import threading
 import time
 import urllib.error
 import urllib.request
+from http.client import HTTPException
 
 from tests.app.planar_arm import csv_log, description
 
@@ -86,7 +87,7 @@ class Customer:
             except urllib.error.HTTPError as error:
                 if error.code != 503 or time.monotonic() > deadline:
                     raise AssertionError(f"{method} {path}: {error.code} {error.read()!r}") from None
-            except OSError:  # the service was killed meanwhile
+            except (OSError, HTTPException):  # the service was killed meanwhile, perhaps in mid-answer
                 if time.monotonic() > deadline:
                     raise
             time.sleep(0.1)

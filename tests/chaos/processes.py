@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 from examples.yumi.service import free_port
@@ -13,6 +14,8 @@ from examples.yumi.service import free_port
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 120.0
 """How long a process may take to end in order."""
+PARTING_S = 30.0
+"""How long what a killed process had started may take to notice."""
 
 
 def children(process_id):
@@ -84,6 +87,22 @@ class Fleet:
                 one.kill()
                 one.wait()
             self._journal.close()
+
+    def left(self):
+        """List the processes that outlive all that was started, those of killed services among them."""
+        deadline = time.monotonic() + PARTING_S
+        while (left := self._processes()) and time.monotonic() < deadline:
+            time.sleep(0.2)
+        return left
+
+    def _processes(self):
+        mark = f"VERITORQUE_DATA_DIR={self.directory}\0".encode()
+        found = []
+        for place in Path("/proc").glob("[0-9]*/environ"):
+            with contextlib.suppress(OSError):
+                if mark in place.read_bytes():
+                    found.append(int(place.parent.name))
+        return found
 
     def command(self, *arguments):
         """Run a command of the service to its end, and give its code and what it said."""

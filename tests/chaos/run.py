@@ -48,6 +48,7 @@ def _judged(fleet, customer, url, tell):
     store = Store(fleet.directory, url)
     figures = compare(customer, store)
     codes = fleet.close()
+    figures.left = len(fleet.left())
     fleet.command("gc", "--pause-s", "1")
     figures.orphans = len(store.blobs.marks().keys() - store.needed())
     store.close()
