@@ -1,8 +1,8 @@
 """Say how sure a finding is: a number set on simulated logs with known causes, and checked on others.
 
 Three things decide: how far its rise lies above what luck gives, how far its criterion leads over the best
-rival, and whether it helps on rows that no fit has seen. Source: Platt, Advances in Large Margin Classifiers
-(1999), for the logistic form.
+rival and over patterns without a name, and whether it helps on rows that no fit has seen. Source: Platt,
+Advances in Large Margin Classifiers (1999), for the logistic form.
 """
 
 import numpy as np

@@ -17,7 +17,9 @@ from core.diagnosis.rivals import Standing
 from core.diagnosis.selection import log_p_of
 
 
-def finding(bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: JointSeries) -> Finding:
+def finding(
+    bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: JointSeries, unnamed: float
+) -> Finding:
     """Tell of one member of a hypothesis.
 
     Parameters
@@ -28,6 +30,9 @@ def finding(bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: 
         How it stands among its rivals.
     after
         What the whole hypothesis leaves of the torque, N m or N.
+    unnamed
+        Rise of twice the log-likelihood by a pattern without a name in what is left: where it brings more
+        than the finding does, this may be no more than its trace.
     """
     look, left = bench.look, (_without(bench, chosen, place, own), after)
     member, solved = chosen.members[place], chosen.solved(place)
@@ -37,6 +42,7 @@ def finding(bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: 
     mask = look.usable & look.held_out[:, None]
     measured = gain(left[0], left[1], mask, look.block_of_all, joints)
     log_p = log_p_of(bench, chosen, place, own.statistic)
+    margin = min(own.margin, own.over_nameless, own.statistic - unnamed)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -44,7 +50,7 @@ def finding(bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: 
         cure=cause.cure,
         statement=cause.statement(solved),
         quantities=cause.quantities(solved),
-        confidence=confidence(own.statistic, own.margin, measured),
+        confidence=confidence(own.statistic, margin, measured),
         p_value=float(np.exp(log_p)),
         explained_fraction=_explained(left, look.usable & ~look.held_out[:, None], joints),
         evidence=_evidence(own, log_p, member.trials),
@@ -74,7 +80,16 @@ def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...
             "criterion difference",
             own.margin,
         ),
+        *_over_nameless(own),
     )
+
+
+def _over_nameless(own: Standing) -> tuple[Evidence, ...]:
+    """Say how it stands to patterns without a name, where one explains a part of it."""
+    if not np.isfinite(own.over_nameless):
+        return ()
+    statement = "Lead of its criterion over that of the best pattern without a name; below 0 it is doubtful"
+    return (Evidence(statement, "lead over the nameless", own.over_nameless),)
 
 
 def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:

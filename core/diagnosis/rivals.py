@@ -47,6 +47,8 @@ class Standing:
         The same less what its parameters would gain by themselves.
     margin
         By how much its criterion beats that of the best rival that is another cause or acts elsewhere.
+    over_nameless
+        The same over the best pattern without a name on its joints; infinite where none explains anything.
     """
 
     member: Candidate
@@ -56,6 +58,7 @@ class Standing:
     ambiguous: tuple[Rival, ...]
     refuted: tuple[Rival, ...]
     without: Hypothesis
+    over_nameless: float = np.inf
 
 
 def weighed(
@@ -71,13 +74,13 @@ def weighed(
     suspects, lost = strangers(bench), set(given_up)
     while True:
         everyone = range(len(selection.chosen.members))
-        found = [standing(bench, selection.chosen, index, lost) for index in everyone]
+        alone = [standing(bench, selection.chosen, index, lost) for index in everyone]
+        found = [replace(one, over_nameless=_over_nameless(bench, one, suspects)) for one in alone]
         most = max((one.statistic for one in found), default=0.0)
         weak = [
             index
             for index, one in enumerate(found)
-            if _stopgap(bench, selection.chosen, one, alone=one.statistic >= most)
-            or _beaten(bench, one, suspects)
+            if _stopgap(bench, selection.chosen, one, alone=one.statistic >= most) or _beaten(one)
         ]
         if not weak:
             return selection, found
@@ -108,15 +111,19 @@ def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) ->
     return bool(seen) and all(one.interval_95[0] <= 0.0 and one.total_percent < LEAST_GAIN for one in seen)
 
 
-def _beaten(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> bool:
-    """Tell whether a pattern without a name explains much more than a member in its place."""
+def _over_nameless(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> float:
+    """Give by how much a member beats the best pattern without a name in its place, on its joints."""
     joints = own.member.site or range(1, bench.look.joints + 1)
     here = tuple(one for one in suspects if one.site[0] in joints)
     stranger = best_stranger(bench, own.without, here)
-    lead = max(INDIFFERENCE, STRANGER_SHARE * own.statistic)
+    return np.inf if stranger is None else own.merit - merit(own.without, stranger)
+
+
+def _beaten(own: Standing) -> bool:
+    """Tell whether a pattern without a name explains much more than a member in its place."""
     if own.member.cause.event:
-        lead = -EVENT_SHARE * own.statistic
-    return stranger is not None and merit(own.without, stranger) > own.merit + lead
+        return own.over_nameless < EVENT_SHARE * own.statistic
+    return own.over_nameless < -max(INDIFFERENCE, STRANGER_SHARE * own.statistic)
 
 
 def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[Key] = ()) -> Standing:

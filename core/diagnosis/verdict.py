@@ -79,8 +79,9 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
     after = bench.residual(chosen)
     before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
-    found = [finding(bench, chosen, place, one, after) for place, one in enumerate(standings)] + raw
     stranger = _stranger(bench, selection, after)
+    unnamed = 0.0 if stranger is None else stranger.statistic
+    found = [finding(bench, chosen, place, one, after, unnamed) for place, one in enumerate(standings)] + raw
     most = max((one.statistic for one in standings), default=0.0)
     tell("learn what is left", 0.8)
     noise = tuple(one.noise for one in chosen.fit.joints)

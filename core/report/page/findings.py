@@ -30,6 +30,7 @@ _READ = {
     "likelihood ratio": "With it in the model the log is more likely: twice the log-likelihood rises by {}",
     "log10 p": "Luck leaves so clear a trace with a chance of ten to the power of {}, all trials counted in",
     "criterion difference": "The best rival in its place falls behind by {}; less than 6 would tell nothing",
+    "lead over the nameless": "The best pattern without a name falls behind by {}; less than 0 leaves doubt",
     _RAW: "The raw samples show it before any model is fitted; the check's statistic is {}",
 }
 _READ_WITHOUT_VALUE = {
