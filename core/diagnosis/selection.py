@@ -23,7 +23,9 @@ NOTHING: GivenUp = {}
 LEVEL = 1e-4
 """Chance of naming anything in a log that hides nothing."""
 FURTHER_LEVEL = 1e-7
-"""The same beside another cause: no columns are exact, and what they leave is not luck."""
+"""The same beside another cause: no columns are exact, and what they leave is not luck,"""
+UNDIMINISHED = 0.9
+"""unless so much of its rise was there before any other cause was known: that is nobody's leaving."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
 RIVALS = 6
@@ -128,7 +130,11 @@ def best_addition(
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
     likely = sorted(
-        (trial for trial in trials if clear_enough(bench, now, trial, count)),
+        (
+            trial
+            for trial in trials
+            if clear_enough(bench, now, trial, count) or _apart(bench, now, trial, count)
+        ),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
@@ -157,10 +163,22 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> b
     return False
 
 
-def clear_enough(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
+def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
+    """Tell whether a last member is as clear as a first one has to be, and owes nothing to the others."""
+    member = trial.members[-1]
+    if not now.members or member.cause.event or not clear_enough(bench, now, trial, kinds, LEVEL):
+        return False
+    none = bench.tried(())
+    return rise(now, trial) > UNDIMINISHED * rise(none, bench.added(none, member))
+
+
+def clear_enough(
+    bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, level: float | None = None
+) -> bool:
     """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
-    event = trial.members[-1].cause.event
-    level = FURTHER_LEVEL if now.members else EVENT_LEVEL if event else LEVEL
+    if level is None:
+        event = trial.members[-1].cause.event
+        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if event else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_rise(now, trial))
     return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
