@@ -30,7 +30,7 @@ def finding(bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: 
         What the whole hypothesis leaves of the torque, N m or N.
     """
     look, left = bench.look, (_without(bench, chosen, place, own), after)
-    member, solved = chosen.members[place], chosen.solved(place)
+    member, solved = chosen.members[place], chosen.told(place, bench.look.robot)
     cause = member.cause
     columns = bench.columns([member])[0]
     joints = tuple(sorted(columns))

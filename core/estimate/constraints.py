@@ -84,8 +84,8 @@ class Bounds:
                     "total_mass_kg": list(self.total_mass or ()),
                     "margin": self.margin,
                 },
-                remedy="give lower bounds from 0 to the upper ones, a total mass with room for the links' least "
-                "masses, positive semi-axes, a margin from 0 to 0.1",
+                remedy="give lower bounds from 0 to the upper ones, a total mass with room for the least "
+                "masses of the links, positive semi-axes, a margin from 0 to 0.1",
             )
 
 

@@ -54,7 +54,7 @@ class FilterOptions:
 
     def __post_init__(self) -> None:
         """Refuse what no log could be filtered with."""
-        wrong = {
+        wrong: dict[str, float] = {
             name: value
             for name, value in (("median_order", self.median_order), ("decimation", self.decimation))
             if value is not None and (value < 1 or value > 1000)
@@ -63,11 +63,11 @@ class FilterOptions:
             wrong["median_order"] = self.median_order
         if not 1 <= self.order <= HIGHEST_ORDER:
             wrong["order"] = self.order
-        below = {name: value for name, value in self.cutoffs_hz.items() if value <= 0.0}
-        if wrong or below:
+        wrong |= {name: value for name, value in self.cutoffs_hz.items() if value <= 0.0}
+        if wrong:
             raise OptionError(
                 "the filter options make no sense",
-                evidence=wrong | below,
+                evidence=wrong,
                 remedy="give cut-offs above 0 Hz, an odd median_order from 1 to 31, an order from 1 to "
                 f"{HIGHEST_ORDER} and a decimation from 1 to 1000",
             )

@@ -66,7 +66,7 @@ def test_a_table_in_degrees_and_millimetres_is_sent_in_si(look, service):
     assert seen.barriers() == []
 
 
-def test_numbers_are_read_as_people_write_them(look, service):
+def test_numbers_are_read_as_people_write_them_and_written_as_they_read_them(look, service):
     page = look(service).open("/new")
     read = """async (texts) => {
       const { readNumber } = await import("/static/controls.js");
@@ -75,6 +75,13 @@ def test_numbers_are_read_as_people_write_them(look, service):
     texts = ["1.5", "1,5", "-pi/2", "3*pi/4", "π", "2e-3", f"{MINUS}90", "", "abc", "1.2.3", "pi/x"]
     expected = [1.5, 1.5, -math.pi / 2, 0.75 * math.pi, math.pi, 2e-3, -90, None, None, None, None]
     assert page.evaluate(read, texts) == pytest.approx(expected)
+    write = """async (values) => {
+      const { relative } = await import("/static/words.js");
+      return values.map((value) => relative(value).replaceAll("\\u00a0", " "));
+    }"""
+    values = [0, 4e-16, 0.25, 3.14159, 2.07e9, -0.001, -5e4, None]
+    shown = ["0 %", "< 0.1 %", "0.25 %", "3.14 %", "> 1000 %", f"> {MINUS}0.1 %", f"< {MINUS}1000 %", "–"]  # noqa: RUF001  (as it is shown)
+    assert page.evaluate(write, values) == shown
 
 
 def test_a_cell_that_is_no_number_is_named_and_one_that_is_refused_is_marked(look, service):

@@ -1,11 +1,10 @@
 // The differences of two results, the largest first.
 import { element, fill, svg } from "./dom.js";
-import { relative } from "./headline.js";
 import { draw } from "./plot.js";
 import { showError } from "./problem.js";
 import { tracesOf } from "./traces.js";
 import { wide } from "./wide.js";
-import { number, plain, plural } from "./words.js";
+import { number, plain, plural, relative } from "./words.js";
 
 const REAL = 3;
 const WIDEST = 10;

@@ -1,7 +1,7 @@
 // Measured, filtered and estimated torque of every joint, and the motion they belong to, drawn again finer when zoomed.
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
-import { number } from "./words.js";
+import { relative } from "./words.js";
 
 const WAIT_MS = 250;
 
@@ -80,7 +80,7 @@ async function torquePlot(place, study, joint, log) {
     title: `Joint ${joint}`, unit: seen.units.torque_filtered, height: 190, together: `torque ${log}`, extent: seen.extent,
     x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks, zoomed: finer,
     traces: tracesOf(seen),
-    note: `The error ${study.document.validation.length ? "on the shaded, held-out stretches" : "on the fitted motion"} is ${number(score.nrmse_of_rms_percent, 3)} % of the torque's RMS.`,
+    note: `The error ${study.document.validation.length ? "on the shaded, held-out stretches" : "on the fitted motion"} is ${relative(score.nrmse_of_rms_percent)} of the torque's RMS.`,
   });
   study.traces.raw(joint, log).then((found) => {
     if (found === null || !place.isConnected) return;
