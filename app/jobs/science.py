@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from app.documents import plain
-from app.jobs.computation import Computation, LogFile, Progress
+from app.jobs.computation import Computation, Glance, LogFile, Progress
 from app.store.blobs import check_file
 from app.store.records import Document
 from core.errors import OptionError
@@ -105,26 +105,23 @@ def summarise_log(log: LogFile, *, media_type: str | None) -> Document:
     return {name: plain(value) for name, value in summary.items()}
 
 
-def trace_log(log: LogFile, *, channels: tuple[str, ...], points: int) -> Document:
+def trace_log(log: LogFile, glance: Glance) -> Document:
     """Draw channels of a log with few points each, in single precision, as a screen needs them.
 
-    Parameters
-    ----------
-    channels
-        Names of channels that the log has.
-    points
-        The most points per trace; fewer where there are very many traces.
+    Where there are very many traces, they have fewer points than are asked for.
 
     Raises
     ------
+    OptionError
+        If nothing was measured in the stretch of time that is asked for.
     Damaged
         If the log is not what it was.
     """
     check_file(log.path, log.sha256)
     seen = read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256)
-    named = [(channel, joint) for channel in channels for joint in range(1, seen.joints + 1)]
-    few = max(FEWEST_POINTS, min(points, MOST_NUMBERS // (len(named) + 1)))
-    drawn = preview(seen, channels, points=few)
+    named = [(channel, joint) for channel in glance.channels for joint in range(1, seen.joints + 1)]
+    few = max(FEWEST_POINTS, min(glance.points, MOST_NUMBERS // (len(named) + 1)))
+    drawn = preview(seen, glance.channels, points=few, begin=glance.begin, end=glance.end)
     return {
         "name": seen.name,
         "samples": seen.samples,
