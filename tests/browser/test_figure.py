@@ -33,6 +33,7 @@ MIMIC = """<robot name="hand"><link name="palm"/><link name="near"/><link name="
     <mimic joint="a" multiplier="-0.5" offset="0.2"/></joint>
   <joint name="c" type="prismatic"><parent link="far"/><child link="slide"/><axis xyz="1 0 0"/>
     <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
+MINUS = "\N{MINUS SIGN}"
 ROBOTS = {
     "yumi": builtin_description("yumi"),
     "gantry": to_description(robot_from_description(GANTRY)),
@@ -122,3 +123,18 @@ def test_the_figure_turns_by_drag_and_by_keys_and_follows_the_sliders(look, serv
     page.get_by_role("button", name="Zero pose").click()
     assert moved()
     assert shapes[-1] == shapes[-3]
+    slide = """async (description) => {
+      const { drawChain } = await import("/static/chain.js");
+      const place = document.body.appendChild(document.createElement("div"));
+      drawChain(place, description);
+      const slider = place.querySelector("input[type=range]");
+      [slider.min, slider.max, slider.step] = [4e-16, 1, 0.1];
+      slider.value = 0;
+      slider.dispatchEvent(new Event("input"));
+      const figure = place.querySelector("svg").ariaLabel;
+      return [slider.valueAsNumber, place.querySelector("output").textContent, figure];
+    }"""
+    value, told, figure = page.evaluate(slide, ROBOTS["gantry"])
+    assert 0.0 < value < 1e-15
+    assert told == "0 m"
+    assert "e" + MINUS not in figure

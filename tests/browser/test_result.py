@@ -164,13 +164,16 @@ def test_who_looks_closer_is_shown_finer_traces_of_that_stretch(look, service, s
         answer = route.fetch()
         route.fulfill(response=answer, body=json.dumps(answer.json() | {"rows_per_stretch": 8}))
 
-    page.route("**/v1/jobs/*/traces?*", thinned)
+    page.route("**/v1/*/*/traces?*", thinned)
     page.goto(studied)
     drawn(page, ["torque"])
-    whole = len(asked)
+    page.wait_for_load_state("networkidle")
+    whole = len([url for url in asked if "/v1/jobs/" in url])
     assert not any("from=" in url for url in asked)
-    with page.expect_request(lambda request: "from=" in request.url):
+    with page.expect_request(lambda request: "from=" in request.url and "/v1/logs/" in request.url):
         page.locator("#torque .canvas").nth(2).press("+")
+    page.wait_for_load_state("networkidle")
+    assert len([url for url in asked if "from=" in url and "/v1/logs/" in url]) == 1  # of all joints together
     page.get_by_role("button", name="Whole range").first.wait_for()
     page.unroute_all(behavior="ignoreErrors")
     assert whole == 7
@@ -187,6 +190,8 @@ def test_the_residual_of_another_joint_is_a_click_away(look, service, studied):
 
 def test_every_body_is_drawn_and_can_be_turned_by_keys(look, service, studied):
     page = drawn(look(service).open(studied.removeprefix(service)), ["bodies"])
+    assert page.get_by_text("configurations of the workspace, in kg m²").count() == 1
+    assert page.get_by_text("its sign is what counts").count() == 1
     ellipses = page.locator("#bodies ellipse.body")
     assert ellipses.count() == len(document_of(page)["bodies"]) == 7
     before = ellipses.nth(2).get_attribute("transform")
