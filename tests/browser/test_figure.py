@@ -1,7 +1,6 @@
 import json
 
 import numpy as np
-import pytest
 
 from core.robot.builtin import builtin_description
 from core.robot.description import robot_from_description
@@ -58,19 +57,19 @@ def poses(robot, coordinates):
     return placed
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_the_figure_stands_where_the_service_says(look, service, name):
+def test_the_figure_stands_where_the_service_says(look, service):
     page = look(service).open("/compare")
-    robot = robot_from_description(ROBOTS[name])
-    coordinates = np.random.default_rng(1).uniform(-1.0, 1.0, len(robot.joints)).tolist()
-    drawn = page.evaluate(
-        """async (given) => (await import("/static/kinematics.js")).place(...given)""",
-        [json.loads(json.dumps(ROBOTS[name])), coordinates],
-    )
-    for seen, (rotation, origin) in zip(drawn, poses(robot, coordinates), strict=True):
-        assert np.allclose(seen["rotation"], rotation, atol=1e-12)
-        assert np.allclose(seen["origin"], origin, atol=1e-12)
-        assert np.allclose(seen["path"][-1], origin, atol=1e-12)
+    for name, description in ROBOTS.items():
+        robot = robot_from_description(description)
+        coordinates = np.random.default_rng(1).uniform(-1.0, 1.0, len(robot.joints)).tolist()
+        drawn = page.evaluate(
+            """async (given) => (await import("/static/kinematics.js")).place(...given)""",
+            [json.loads(json.dumps(description)), coordinates],
+        )
+        for seen, (rotation, origin) in zip(drawn, poses(robot, coordinates), strict=True):
+            assert np.allclose(seen["rotation"], rotation, atol=1e-12), name
+            assert np.allclose(seen["origin"], origin, atol=1e-12), name
+            assert np.allclose(seen["path"][-1], origin, atol=1e-12), name
 
 
 def test_an_ellipsoid_keeps_its_outline_whichever_way_it_is_seen(look, service):
