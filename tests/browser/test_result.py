@@ -96,6 +96,7 @@ def test_the_first_screen_says_what_came_out(look, service, studied):
     assert f"{document['validation_total_percent']:.3g}" in told
     assert "held-out motion, RMS of residual over RMS of torque" in told
     assert "Can exist" in told
+    assert "yumi-left: identification" not in told  # the page's own heading says so
 
 
 def test_findings_are_told_with_their_figures_as_the_report_tells_them(look, service, diagnosed):

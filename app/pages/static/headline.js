@@ -6,7 +6,7 @@ import { plural, relative } from "./words.js";
 /** Show the verdict and the key figures. */
 export function showHeadline(container, { job, document, report }) {
   const verdict = report.querySelector(".verdict")?.textContent.replaceAll(" %", "\u00a0%") ?? "";
-  const glance = [...report.querySelectorAll("main > header > ol, main > header > p:not(.verdict)")].map(copied);
+  const glance = [...report.querySelectorAll("main > header > ol, main > header > p:not(.verdict):not(.kind)")].map(copied);
   fill(container, element("section", { class: "card headline", "aria-label": "What came out" },
     element("p", { class: "verdict" }, verdict),
     glance,
