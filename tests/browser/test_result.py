@@ -97,6 +97,19 @@ def test_the_first_screen_says_what_came_out(look, service, studied):
     assert "held-out motion, RMS of residual over RMS of torque" in told
     assert "Can exist" in told
     assert "yumi-left: identification" not in told  # the page's own heading says so
+    assert " (joint " in told
+    of_one_joint = page.evaluate(
+        """async (result) => {
+          const { showHeadline } = await import("/static/headline.js");
+          const place = document.createElement("div");
+          const report = new DOMParser().parseFromString("<p></p>", "text/html");
+          showHeadline(place, { job: { links: { report: "/" } }, document: result, report });
+          return place.textContent;
+        }""",
+        document | {"validation": document["validation"][:1]},
+    )
+    assert "RMS of residual over RMS of torque" in of_one_joint
+    assert "(joint 1)" not in of_one_joint
 
 
 def test_findings_are_told_with_their_figures_as_the_report_tells_them(look, service, diagnosed):
