@@ -7,7 +7,7 @@ from pathlib import PurePath
 
 from app.inspection.inspector import Inspector
 from app.jobs import science
-from app.jobs.computation import LogFile
+from app.jobs.computation import Glance, LogFile
 from app.problems import Problem
 from app.store.blobs import Incoming
 from app.store.records import Document, LogRecord, RobotRecord
@@ -137,7 +137,7 @@ class Catalogue:
         summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
         return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})
 
-    def trace_log(self, log: LogRecord, *, channels: tuple[str, ...], points: int) -> bytes:
+    def trace_log(self, log: LogRecord, glance: Glance) -> bytes:
         """Draw channels of a log, as the document that is sent.
 
         Raises
@@ -153,7 +153,7 @@ class Catalogue:
             log.sha256,
         )
         size = int(str(log.summary["bytes"]))
-        return self._inspector.trace(file, size=size, channels=channels, points=points)
+        return self._inspector.trace(file, glance, size=size)
 
     def log(self, identity: str, *, named_in_body: bool = False) -> LogRecord:
         """Find a log.

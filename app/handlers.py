@@ -8,15 +8,18 @@ from fastapi import FastAPI
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import HTMLResponse, Response
 from starlette.routing import Match
 
 from app.documents import json_bytes
+from app.negotiation import preferred
+from app.pages.files import STRICT, shell
 from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of, problem_of_damage
 from app.reading import invalid
 from app.store.errors import Damaged, KeyReused, OverQuota, Unavailable
 from core.errors import VeritorqueError
 
+HTML = "text/html"
 LOGGER = logging.getLogger(__name__)
 HEADERS = (
     (b"x-content-type-options", b"nosniff"),
@@ -55,6 +58,8 @@ def install(app: FastAPI) -> None:
 
 
 async def _on_http(request: Request, error: Exception) -> Response:
+    if isinstance(error, HTTPException) and error.status_code == KINDS["not-found"][0] and _reads(request):
+        return HTMLResponse(shell("lost"), error.status_code, headers=STRICT | {"Vary": "Accept"})
     if isinstance(error, Problem):
         return problem_response(error)
     status = error.status_code if isinstance(error, HTTPException) else 500
@@ -67,6 +72,12 @@ async def _on_http(request: Request, error: Exception) -> Response:
         cause = f"there is nothing at {path}"
     remedy = "/docs lists all resources" if kind == "not-found" else "send the request as /docs shows it"
     return problem_response(Problem(kind, cause, evidence={"path": path}, remedy=remedy))
+
+
+def _reads(request: Request) -> bool:
+    """Tell whether a person reads the answer: browsers like a page best, programs a problem document."""
+    offers = (MEDIA_TYPE, "application/json", HTML)
+    return request.method in ("GET", "HEAD") and preferred(request.headers.get("accept"), offers) == HTML
 
 
 async def _on_validation(_request: Request, error: Exception) -> Response:

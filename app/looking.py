@@ -8,6 +8,7 @@ import numpy as np
 from fastapi import Depends, Query, Response
 
 from app.documents import json_bytes
+from app.jobs.computation import Glance
 from app.problems import Problem
 from app.results import Result
 from core.log.preview import FEWEST_POINTS, MOST_POINTS
@@ -17,6 +18,9 @@ from core.report.traces.views import read_views
 
 Number = Annotated[int, Query(ge=1, description="counted from 1")]
 Stamp = Annotated[float | None, Query(allow_inf_nan=False, description="s on the log's own clock")]
+Channels = Annotated[
+    str | None, Query(max_length=100, description="their names, with commas; all by default")
+]
 Names = Annotated[str, Query(max_length=200, description="their names, with commas between them")]
 Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="the most points per trace")]
 
@@ -42,6 +46,20 @@ def _view(
 
 ViewOf = Annotated[View, Depends(_view)]
 """What is asked for in a query."""
+
+
+def _glance(
+    points: Points = 2000,
+    channels: Channels = None,
+    begin: Annotated[Stamp, Query(alias="from")] = None,
+    end: Annotated[Stamp, Query(alias="to")] = None,
+) -> Glance:
+    names = () if channels is None else tuple(name.strip() for name in channels.split(","))
+    return Glance(names, points, begin, end)
+
+
+GlanceOf = Annotated[Glance, Depends(_glance)]
+"""What of a log is asked for in a query."""
 
 
 def traces_response(kept: Result, view: View, if_none_match: str | None) -> Response:

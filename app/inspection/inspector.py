@@ -17,7 +17,7 @@ from app.forks import READERS, Child, Standby, fork_server
 from app.inspection import child
 from app.inspection.budget import Budget, budget_for
 from app.jobs import science
-from app.jobs.computation import LogFile
+from app.jobs.computation import Glance, LogFile
 from app.problems import Problem, problem_of
 from app.store.records import Document
 from core.errors import LogError
@@ -58,7 +58,7 @@ class Inspector:
         document: Document = json.loads(self._read(work, log.path, size))
         return document
 
-    def trace(self, log: LogFile, *, size: int, channels: tuple[str, ...], points: int) -> bytes:
+    def trace(self, log: LogFile, glance: Glance, *, size: int) -> bytes:
         """Draw the channels of a log, as the document that is sent.
 
         Raises
@@ -66,7 +66,7 @@ class Inspector:
         Problem
             If reading the log costs more than it may, or its bytes are not what they were.
         """
-        return self._read(partial(science.trace_log, log, channels=channels, points=points), log.path, size)
+        return self._read(partial(science.trace_log, log, glance), log.path, size)
 
     def _read(self, work: child.Work, path: Path, size: int) -> bytes:
         """Let a process of its own do the work, and give the document that it made."""

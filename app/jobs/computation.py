@@ -32,6 +32,26 @@ class LogFile:
 
 
 @dataclass(frozen=True)
+class Glance:
+    """Say what of a log is looked at.
+
+    Attributes
+    ----------
+    channels
+        Their names.
+    points
+        The most points per trace.
+    begin, end
+        Stretch of the log's clock, s; None for its own ends.
+    """
+
+    channels: tuple[str, ...]
+    points: int
+    begin: float | None = None
+    end: float | None = None
+
+
+@dataclass(frozen=True)
 class Computation:
     """Describe a computation completely: equal computations give equal results.
 

@@ -66,6 +66,7 @@ class Queue:
             science.check_options(wanted.kind, wanted.options)
             for log in logs:
                 _check_joints(robot, log)
+            science.admit(wanted.kind, wanted.options, robot.description, [log.summary for log in logs])
             check_reference(self._store, wanted.kind, robot, wanted.options)
         except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
             return error

@@ -5,14 +5,15 @@ service answers before they are loaded, and a command that prints the contract n
 """
 
 import json
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from app.documents import plain
-from app.jobs.computation import Computation, LogFile, Progress
+from app.jobs.computation import Computation, Glance, LogFile, Progress
 from app.store.blobs import check_file
 from app.store.records import Document
 from core.errors import OptionError
@@ -24,6 +25,9 @@ from core.robot.model import RobotModel
 from core.robot.suspicions import suspicions
 from core.robot.urdf import robot_from_urdf
 from core.robot.writing import to_description
+
+if TYPE_CHECKING:
+    from core.options import IdentifyOptions
 
 KINDS = ("identify", "diagnose")
 MOST_NUMBERS = 600_000
@@ -101,26 +105,23 @@ def summarise_log(log: LogFile, *, media_type: str | None) -> Document:
     return {name: plain(value) for name, value in summary.items()}
 
 
-def trace_log(log: LogFile, *, channels: tuple[str, ...], points: int) -> Document:
+def trace_log(log: LogFile, glance: Glance) -> Document:
     """Draw channels of a log with few points each, in single precision, as a screen needs them.
 
-    Parameters
-    ----------
-    channels
-        Names of channels that the log has.
-    points
-        The most points per trace; fewer where there are very many traces.
+    Where there are very many traces, they have fewer points than are asked for.
 
     Raises
     ------
+    OptionError
+        If nothing was measured in the stretch of time that is asked for.
     Damaged
         If the log is not what it was.
     """
     check_file(log.path, log.sha256)
     seen = read_log(log.path, mapping=log.mapping, name=log.name, sha256=log.sha256)
-    named = [(channel, joint) for channel in channels for joint in range(1, seen.joints + 1)]
-    few = max(FEWEST_POINTS, min(points, MOST_NUMBERS // (len(named) + 1)))
-    drawn = preview(seen, channels, points=few)
+    named = [(channel, joint) for channel in glance.channels for joint in range(1, seen.joints + 1)]
+    few = max(FEWEST_POINTS, min(glance.points, MOST_NUMBERS // (len(named) + 1)))
+    drawn = preview(seen, glance.channels, points=few, begin=glance.begin, end=glance.end)
     return {
         "name": seen.name,
         "samples": seen.samples,
@@ -147,12 +148,31 @@ def check_options(kind: str, options: Document) -> None:
             evidence={"given": kind, "known": list(KINDS)},
             remedy="ask for one of the known kinds",
         )
-    from core.options import parse_diagnose_options, parse_options
+    _parsed(kind, options)
 
-    if kind == "diagnose":
-        parse_diagnose_options(options)
-    else:
-        parse_options(options)
+
+def admit(kind: str, options: Document, description: Document, logs: Sequence[Document]) -> None:
+    """Refuse options that a robot or logs do not allow, from what the logs' summaries say.
+
+    Raises
+    ------
+    OptionError
+        If an option does not fit them.
+    LogError
+        If a log holds currents, and the robot does not say what torque a current gives.
+    """
+    from core.admission import KnownLog, admit
+
+    known = [
+        KnownLog(
+            str(log["name"]),
+            tuple(cast("list[str]", log["channels"])),
+            cast("float", log["rate_hz"]),
+            cast("float", log["duration_s"]),
+        )
+        for log in logs
+    ]
+    admit(_parsed(kind, options), robot_from_description(description), known)
 
 
 def reference_job(kind: str, options: Document) -> str | None:
@@ -235,10 +255,14 @@ def _short(values: np.ndarray) -> list[float | None]:
     return [None if np.isnan(value) else float(str(value)) for value in values.astype(np.float32)]
 
 
-def _reference_name(options: Document) -> str | None:
-    from core.options import parse_diagnose_options
+def _parsed(kind: str, options: Document) -> "IdentifyOptions":
+    from core.options import parse_diagnose_options, parse_options
 
-    return parse_diagnose_options(options).reference
+    return (parse_diagnose_options if kind == "diagnose" else parse_options)(options)
+
+
+def _reference_name(options: Document) -> str | None:
+    return _parsed("diagnose", options).reference
 
 
 def _result(reference: Path | None) -> Document | None:

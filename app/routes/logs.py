@@ -1,5 +1,6 @@
 """Serve logs: uploaded as recorded, read once to say what is in them, kept as the bytes they came in."""
 
+from dataclasses import replace
 from typing import Annotated, cast
 
 import anyio
@@ -7,6 +8,7 @@ from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
 from app.listing import CursorOf, Limit, before, following
+from app.looking import GlanceOf
 from app.negotiation import matches
 from app.openapi import body, file_part, problems, text_part
 from app.problems import Problem
@@ -107,21 +109,19 @@ def read_log(desk: DeskOf, log_id: str) -> Response:
 async def read_traces(
     desk: DeskOf,
     log_id: str,
-    points: Annotated[int, Query(ge=10, le=4000, description="the most points per trace")] = 2000,
-    channels: Annotated[
-        str | None, Query(max_length=100, description="their names, with commas; all by default")
-    ] = None,
+    glance: GlanceOf,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
-    """Read every channel with few points, of which none of the log's extremes is missing."""
+    """Read every channel with few points, of which no extreme is missing; from and to zoom in."""
     log = await anyio.to_thread.run_sync(desk.catalogue.log, log_id)
-    chosen = _chosen(log, channels)
-    etag = f'"{log.id}-{points}-{"-".join(chosen)}-{VERSION}"'
+    glance = replace(glance, channels=_chosen(log, glance.channels))
+    asked = (glance.points, "-".join(glance.channels), glance.begin, glance.end)
+    etag = f'"{log.id}-{"-".join(map(str, asked))}-{VERSION}"'
     headers = {"ETag": etag, "Cache-Control": "private, no-cache"}
     if matches(if_none_match, etag):
         return Response(status_code=304, headers=headers)
     document = await anyio.to_thread.run_sync(
-        lambda: desk.catalogue.trace_log(log, channels=chosen, points=points), limiter=desk.readers
+        lambda: desk.catalogue.trace_log(log, glance), limiter=desk.readers
     )
     return Response(document, media_type="application/json", headers=headers)
 
@@ -134,10 +134,10 @@ def delete_log(desk: DeskOf, log_id: str) -> None:
     desk.store.logs.remove(log.id)
 
 
-def _chosen(log: LogRecord, names: str | None) -> tuple[str, ...]:
-    """Give the channels that are asked for, in the order of the log."""
+def _chosen(log: LogRecord, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Give the channels that are asked for, in the order of the log; all where none is named."""
     known = [str(channel) for channel in cast("list[object]", log.summary["channels"])]
-    asked = known if names is None else [name.strip() for name in names.split(",")]
+    asked = names or known
     unknown = [name for name in asked if name not in known]
     if unknown:
         raise Problem(

@@ -5,9 +5,11 @@ here, never anything that a client sent.
 """
 
 import errno
+import fcntl
 import hashlib
 import os
 import secrets
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -37,6 +39,7 @@ class Incoming:
         self.size = 0
         self._hash = hashlib.sha256()
         self._file = path.open("xb")
+        fcntl.flock(self._file, fcntl.LOCK_EX)  # says, as long as this process lives, that it is in use
 
     @property
     def sha256(self) -> str:
@@ -140,11 +143,15 @@ class BlobStore:
     @contextmanager
     def aside(self) -> Iterator[Path]:
         """Name a file for others to write, which is not there yet and is removed at the end."""
-        path = self._aside / secrets.token_hex(16)
+        folder = self._aside / secrets.token_hex(16)
+        folder.mkdir()
+        held = os.open(folder, os.O_RDONLY)
+        fcntl.flock(held, fcntl.LOCK_EX)
         try:
-            yield path
+            yield folder / "written"
         finally:
-            path.unlink(missing_ok=True)
+            shutil.rmtree(folder, ignore_errors=True)
+            os.close(held)
 
     def path(self, sha256: str) -> Path:
         """Say where the bytes of a hash are kept."""
@@ -186,9 +193,29 @@ class BlobStore:
                 aside.replace(self.path(sha256))
 
     def remove_leftovers(self) -> None:
-        """Remove what was left half received; only while nobody receives anything."""
+        """Remove what was left half received; what another process is about to keep is locked, and stays."""
         for leftover in self._aside.iterdir():
-            leftover.unlink(missing_ok=True)
+            if _in_use(leftover):
+                continue
+            if leftover.is_dir():
+                shutil.rmtree(leftover, ignore_errors=True)
+            else:
+                leftover.unlink(missing_ok=True)
+
+
+def _in_use(path: Path) -> bool:
+    """Tell whether a process that lives holds a file or folder that was set aside."""
+    try:
+        opened = os.open(path, os.O_RDONLY)
+    except FileNotFoundError:  # it was kept or removed meanwhile
+        return True
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(opened)
+    return False
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from core.arrays import SquareMatrix, Vector
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
+from core.robot.joint_units import along_slide
 from core.robot.model import RobotModel
 
 Cure = Literal["term", "signal", "robot"]
@@ -60,6 +61,11 @@ class Solved:
     """Carry what a fit found for one candidate.
 
     Linear parameters come with their covariance, scanned scalars with their deviations.
+
+    Attributes
+    ----------
+    slides
+        Whether the joint that it is about slides.
     """
 
     site: Site
@@ -67,6 +73,11 @@ class Solved:
     covariance: SquareMatrix
     scalars: Scalars
     deviations: Scalars
+    slides: bool = False
+
+    def unit(self, turning: str) -> str:
+        """Give the unit of a number of the joint, from what it is where joints turn."""
+        return along_slide(turning) if self.slides else turning
 
 
 @runtime_checkable

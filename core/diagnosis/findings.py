@@ -35,7 +35,7 @@ def finding(
         than the finding does, this may be no more than its trace.
     """
     look, left = bench.look, (_without(bench, chosen, place, own), after)
-    member, solved = chosen.members[place], chosen.solved(place)
+    member, solved = chosen.members[place], chosen.told(place, bench.look.robot)
     cause = member.cause
     columns = bench.columns([member])[0]
     joints = tuple(sorted(columns))

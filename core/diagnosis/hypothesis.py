@@ -1,7 +1,7 @@
 """Carry what a diagnosis weighs: candidates, and hypotheses made of them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from core.diagnosis.cause import Cause, Scalars, Site, Solved
 from core.diagnosis.chance import log_chance
 from core.diagnosis.equations import OPEN_SHARE, Fit
 from core.diagnosis.score import Score
+from core.robot.joint_units import slides
+from core.robot.model import RobotModel
 
 Place = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: what columns are kept under."""
@@ -102,6 +104,11 @@ class Hypothesis:
             if np.isfinite(member.deviations[name]):
                 covariance += np.outer(slope, slope) * member.deviations[name] ** 2
         return Solved(member.site, values, covariance, member.scalars, dict(member.deviations))
+
+    def told(self, index: int, robot: RobotModel) -> Solved:
+        """Give what was found for a member as a reader is told it: in the units of its joint."""
+        found = self.solved(index)
+        return replace(found, slides=bool(found.site) and slides(robot, found.site[0]))
 
     @property
     def possible(self) -> bool:

@@ -192,7 +192,7 @@ def _pattern(bench: Bench, selection: Selection) -> Stranger | None:
     chance = log_p(selection.chosen, found) + float(np.log(bench.look.joints))
     return Stranger(
         joint=last.site[0],
-        statement=last.cause.statement(found.solved(len(found.members) - 1)),
+        statement=last.cause.statement(found.told(len(found.members) - 1, bench.look.robot)),
         statistic=rise(selection.chosen, found),
         log10_p=chance / float(np.log(10.0)),
     )

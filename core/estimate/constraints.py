@@ -62,7 +62,7 @@ class Bounds:
 
     def __post_init__(self) -> None:
         """Refuse empty ranges."""
-        pairs = [(low, high) for _, low, high in self.mass] + ([self.total_mass] if self.total_mass else [])
+        masses = [*_masses_by_link(self.mass).values(), *([self.total_mass] if self.total_mass else [])]
         corners = [
             pair
             for box in self.centres
@@ -71,10 +71,11 @@ class Bounds:
         ]
         axes = [one for ball in self.centres if isinstance(ball, CentreEllipsoid) for one in ball.semi_axes]
         if (
-            any(low > high for low, high in [*pairs, *corners])
-            or any(low < 0.0 for low, _ in pairs)
+            any(low > high for low, high in [*masses, *corners])
+            or any(low < 0.0 or high <= 0.0 for low, high in masses)
             or any(a <= 0 for a in axes)
             or not 0.0 <= self.margin <= LARGEST_MARGIN
+            or (self.total_mass and self.total_mass[1] < sum(low for low, _ in masses[:-1]))
         ):
             raise OptionError(
                 "the bounds leave no robot",
@@ -83,8 +84,18 @@ class Bounds:
                     "total_mass_kg": list(self.total_mass or ()),
                     "margin": self.margin,
                 },
-                remedy="give lower bounds from 0 to the upper ones, positive semi-axes, a margin up to 0.1",
+                remedy="give lower bounds from 0 to the upper ones, a total mass with room for the least "
+                "masses of the links, positive semi-axes, a margin from 0 to 0.1",
             )
+
+
+def _masses_by_link(rows: tuple[tuple[int, float, float], ...]) -> dict[int, tuple[float, float]]:
+    """Give what all rows leave of each link's mass."""
+    left = dict[int, tuple[float, float]]()
+    for link, low, high in rows:
+        least, most = left.get(link, (low, high))
+        left[link] = max(low, least), min(high, most)
+    return left
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 
 from core.arrays import JointVector, SampleMask, Series
 from core.errors import LogError
-from core.log.defects.stretch import Stretch
+from core.log.defects.stretch import Stretch, counted
 from core.log.layout import Layout
 
 FEWEST_ROWS = 100
@@ -159,8 +159,10 @@ class Contract:
 
     def _check_finite(self) -> None:
         if self._bad:
+            first, (count, rows) = next(iter(self._bad.items()))
             raise LogError(
-                f"the column {next(iter(self._bad))!r} holds values missing, not finite or beyond any size",
+                f"the column {first!r} holds {counted(count, 'value')} missing, not finite or beyond any "
+                f"size, the first in row {rows[0]}",
                 evidence={
                     "columns": {
                         column: {"rows": count, "first_rows": rows}

@@ -5,6 +5,7 @@ fold vibration into slow waves; the extremes of each stretch draw the same pictu
 All traces share one time axis, so that plots of them can share a cursor.
 """
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -13,6 +14,7 @@ from math import ceil
 import numpy as np
 
 from core.arrays import Instants, InstantSeries, JointSeries, Samples
+from core.errors import OptionError
 from core.log.model import JointLog
 
 MOST_POINTS = 4000
@@ -46,7 +48,14 @@ class Preview:
     rows_per_stretch: int
 
 
-def preview(log: JointLog, channels: Sequence[str], *, points: int = MOST_POINTS) -> Preview:
+def preview(
+    log: JointLog,
+    channels: Sequence[str],
+    *,
+    points: int = MOST_POINTS,
+    begin: float | None = None,
+    end: float | None = None,
+) -> Preview:
     """Thin channels of a log, read piece by piece; one column per channel and joint, channel by channel.
 
     Parameters
@@ -55,13 +64,61 @@ def preview(log: JointLog, channels: Sequence[str], *, points: int = MOST_POINTS
         Names of channels that the log has.
     points
         The most points per trace, `FEWEST_POINTS` at least.
+    begin, end
+        Stretch of the log's clock, s; None for its own ends.
+
+    Raises
+    ------
+    OptionError
+        If nothing was measured in that stretch of time.
     """
+    first, last = rows_between(
+        lambda row: float(log.source.rows(row, row + 1).time[0]), log.samples, begin, end
+    )
+    inside = [(max(start, first), min(stop, last)) for start, stop in log.segments]
 
     def read(start: int, stop: int) -> tuple[Samples, JointSeries]:
         rows = log.source.rows(start, stop)
         return rows.time, np.hstack([getattr(rows, channel) for channel in channels])
 
-    return thin(read, log.segments, points=points)
+    return thin(read, [one for one in inside if one[0] < one[1]], points=points)
+
+
+def rows_between(
+    stamp: Callable[[int], float], samples: int, begin: float | None, end: float | None
+) -> tuple[int, int]:
+    """Give the (start, stop) rows of a stretch of time, and one more on either side.
+
+    So that lines leave the picture.
+
+    Parameters
+    ----------
+    stamp
+        Gives the instant of a row, s; ascending.
+    begin, end
+        None for the first and the last instant.
+
+    Raises
+    ------
+    OptionError
+        If nothing was measured in that stretch of time.
+
+    Examples
+    --------
+    >>> rows_between(float, 100, 9.5, 20.0)
+    (9, 22)
+    """
+    ends = stamp(0), stamp(samples - 1)
+    low, high = ends[0] if begin is None else begin, ends[1] if end is None else end
+    first = bisect_left(range(samples), low, key=stamp)
+    last = bisect_right(range(samples), high, key=stamp)
+    if not low < high or last <= 0 or first >= samples:
+        raise OptionError(
+            "nothing was measured in that stretch of time",
+            evidence={"from": low, "to": high, "first_s": ends[0], "last_s": ends[1]},
+            remedy="ask for a stretch between the first and the last instant, from before to",
+        )
+    return max(first - 1, 0), min(last + 1, samples)
 
 
 def thin_arrays(time: Samples, values: JointSeries, segments: Stretches = (), *, points: int) -> Preview:

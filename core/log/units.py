@@ -46,3 +46,6 @@ PREFIXES = {
 """Default column names are the prefix, an underscore and the joint's number from 1."""
 
 TIME = "time"
+
+ANGLE_OR_WAY, TORQUE_OR_FORCE = "rad (slide: m)", "N m (slide: N)"
+"""SI units of position and torque in words: a log does not know which of its joints slide."""

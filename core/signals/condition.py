@@ -98,20 +98,31 @@ def effort_scale(log: JointLog, robot: RobotModel) -> JointVector:
     LogError
         If the log holds currents, and the robot does not say what torque a current gives.
     """
+    check_currents(robot, log.channels, log.name)
     if "torque" in log.channels:
         return np.ones(len(robot.joints))
-    undeclared = [
-        joint.name for joint in robot.joints if joint.torque_constant is None or joint.gear_ratio is None
-    ]
-    if undeclared:
-        raise LogError(
-            "the log holds currents, and the robot does not say what torque a current gives",
-            evidence={"joints": undeclared, "log": log.name},
-            remedy="declare torque_constant (N m/A) and gear_ratio of these joints, or log joint torque",
-        )
     return np.array(
         [float(joint.torque_constant or 0.0) * float(joint.gear_ratio or 0.0) for joint in robot.joints]
     )
+
+
+def check_currents(robot: RobotModel, channels: tuple[str, ...], name: str) -> None:
+    """Refuse a log of these channels that holds currents instead of torques, if they cannot become torques.
+
+    Raises
+    ------
+    LogError
+        If the robot does not say what torque a current gives.
+    """
+    undeclared = [
+        joint.name for joint in robot.joints if joint.torque_constant is None or joint.gear_ratio is None
+    ]
+    if undeclared and "torque" not in channels:
+        raise LogError(
+            "the log holds currents, and the robot does not say what torque a current gives",
+            evidence={"joints": undeclared, "log": name},
+            remedy="declare torque_constant (N m/A) and gear_ratio of these joints, or log joint torque",
+        )
 
 
 def without_standstill_mask(motion: Motion) -> Motion:

@@ -14,6 +14,7 @@ from core.errors import OptionError
 from core.log.model import JointLog, LogRows
 from core.signals.derivative import median
 from core.signals.resample import uniform
+from core.signals.zero_phase import HIGHEST_ORDER
 
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
@@ -53,19 +54,46 @@ class FilterOptions:
 
     def __post_init__(self) -> None:
         """Refuse what no log could be filtered with."""
-        wrong = {
+        wrong: dict[str, float] = {
             name: value
             for name, value in (("median_order", self.median_order), ("decimation", self.decimation))
             if value is not None and (value < 1 or value > 1000)
         }
         if self.median_order % 2 == 0 or self.median_order > 31:
             wrong["median_order"] = self.median_order
+        if not 1 <= self.order <= HIGHEST_ORDER:
+            wrong["order"] = self.order
+        wrong |= {name: value for name, value in self.cutoffs_hz.items() if value <= 0.0}
         if wrong:
             raise OptionError(
                 "the filter options make no sense",
                 evidence=wrong,
-                remedy="give an odd median_order from 1 to 31 and a decimation from 1 to 1000",
+                remedy="give cut-offs above 0 Hz, an odd median_order from 1 to 31, an order from 1 to "
+                f"{HIGHEST_ORDER} and a decimation from 1 to 1000",
             )
+
+    @property
+    def cutoffs_hz(self) -> dict[str, float]:
+        """Give the cut-offs that were asked for, by name."""
+        both = {"cutoff_hz": self.cutoff_hz, "position_cutoff_hz": self.position_cutoff_hz}
+        return {name: value for name, value in both.items() if value is not None}
+
+    def check_log(self, rate_hz: float, duration: float) -> None:
+        """Refuse cut-offs that no log of this rate and duration (s) can be filtered with, whatever moves.
+
+        Raises
+        ------
+        OptionError
+            If a cut-off is not below half the rate, or its period is longer than the log.
+        """
+        nyquist, slowest = 0.5 * rate_hz, 1.0 / max(duration, 1.0 / rate_hz)
+        for name, value in self.cutoffs_hz.items():
+            if not slowest < value < nyquist:
+                raise OptionError(
+                    f"{name} does not fit the log's rate or its duration",
+                    evidence={name: value, "rate_hz": rate_hz, "duration_s": duration},
+                    remedy=f"give a cut-off above {slowest:.3g} Hz and below {nyquist:.6g} Hz",
+                )
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ import numpy as np
 from core.arrays import Samples, Vector
 from core.errors import OptionError
 
+HIGHEST_ORDER = 12
 _FLOOR = 1e-14
 
 
@@ -41,11 +42,12 @@ def kernel(cutoff_hz: float, rate_hz: float, order: int) -> Samples:
     OptionError
         If the cut-off is not between zero and half the rate, or the order is not from 1 to 12.
     """
-    if not 0.0 < cutoff_hz < 0.5 * rate_hz or not 1 <= order <= 12:
+    if not 0.0 < cutoff_hz < 0.5 * rate_hz or not 1 <= order <= HIGHEST_ORDER:
         raise OptionError(
             "the low-pass filter cannot be built",
             evidence={"cutoff_hz": cutoff_hz, "nyquist_hz": 0.5 * rate_hz, "order": order},
-            remedy="ask for a cut-off above 0 and below half the sampling rate, and an order from 1 to 12",
+            remedy="ask for a cut-off above 0 and below half the sampling rate, and an order from 1 to "
+            f"{HIGHEST_ORDER}",
         )
     size = 1 << int(np.ceil(np.log2(max(64.0, 80.0 * order * rate_hz / cutoff_hz))))
     response = np.fft.irfft(

@@ -55,6 +55,29 @@ def test_a_page_needs_nothing_from_elsewhere_and_every_address_on_it_answers(cli
             assert client.get(address.split("#")[0]).status_code in {200, 503}, address
 
 
+BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"
+
+
+@pytest.mark.parametrize("path", ["/studies", "/studies/a/b", "/nothing", "/v1/jobs/job-none/report"])
+def test_a_browser_at_an_address_that_is_not_there_is_shown_a_page_that_leads_on(client, path):
+    page = client.get(path, headers={"Accept": BROWSER})
+    assert page.status_code == 404
+    assert page.headers["content-type"].startswith("text/html")
+    assert "default-src 'none'" in page.headers["content-security-policy"]
+    assert "There is nothing at this address" in page.text
+    addresses = Addresses(page.text)
+    assert addresses.inline == []
+    assert "/" in addresses.found
+    assert all(client.get(one).status_code in {200, 503} for one in addresses.found if one.startswith("/"))
+
+
+@pytest.mark.parametrize("accept", ["*/*", "application/json", "application/problem+json, text/html;q=0.5"])
+def test_a_program_at_an_address_that_is_not_there_is_told_a_problem(client, accept):
+    for path in ("/studies", "/v1/jobs/job-none"):
+        assert_problem(client.get(path, headers={"Accept": accept}), 404, "not-found")
+    assert_problem(client.delete("/v1/jobs/job-none", headers={"Accept": BROWSER}), 404, "not-found")
+
+
 @pytest.mark.parametrize("name", STATIC)
 def test_a_file_of_the_pages_has_its_own_media_type(client, name):
     answer = client.get(f"/static/{name}")

@@ -43,6 +43,23 @@ def test_channels_are_chosen_by_name(client, log_id):
     assert problem["evidence"]["known"] == ["position", "torque"]
 
 
+def test_a_stretch_of_a_log_is_looked_at_row_by_row_where_the_whole_is_thinned(client, long_log):
+    query = {"points": 100, "from": 3.0, "to": 3.2, "channels": "torque"}
+    seen = client.get(f"/v1/logs/{long_log}/traces", params=query).json()
+    time, _, torque = columns()
+    inside = slice(599, 642)  # 3.0 to 3.2 s at 200 Hz, and one row more on either side
+    assert seen["rows_per_stretch"] == 1
+    np.testing.assert_allclose(seen["time"]["values"], time[inside], atol=1e-6)
+    for trace, measured in zip(seen["traces"], torque.T, strict=True):
+        np.testing.assert_allclose(trace["values"], measured[inside], atol=1e-5)
+
+
+@pytest.mark.parametrize("stretch", [{"from": 12.5}, {"to": -1}, {"from": 3, "to": 3}, {"from": 4, "to": 3}])
+def test_a_stretch_in_which_nothing_was_measured_is_refused(client, long_log, stretch):
+    problem = assert_problem(client.get(f"/v1/logs/{long_log}/traces", params=stretch), 422, "option")
+    assert (problem["evidence"]["first_s"], problem["evidence"]["last_s"]) == (0.0, 11.995)
+
+
 @pytest.mark.parametrize("points", [9, 4001, "many"])
 def test_the_number_of_points_is_bounded(client, log_id, points):
     assert_problem(client.get(f"/v1/logs/{log_id}/traces", params={"points": points}), 422, "request")
@@ -58,9 +75,9 @@ def test_who_has_the_traces_is_told_so_without_the_log_being_read(client, log_id
 def test_other_traces_have_another_tag(client, log_id):
     tags = {
         client.get(f"/v1/logs/{log_id}/traces?{query}").headers["etag"]
-        for query in ("points=100", "points=200", "points=100&channels=torque")
+        for query in ("points=100", "points=200", "points=100&channels=torque", "from=1", "to=1")
     }
-    assert len(tags) == 3
+    assert len(tags) == 5
 
 
 def test_traces_of_a_log_that_is_not_there_are_not_found(client):

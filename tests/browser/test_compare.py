@@ -77,6 +77,20 @@ def test_what_was_asked_differently_is_marked(look, service, pair):
     assert all("not looked for" in row and "right only" in row for row in only_right)
 
 
+def test_studies_without_a_common_parameter_are_said_to_have_none_and_why(look, service, pair):
+    page = look(service).page
+
+    def renamed(route):
+        document = route.fetch().json()
+        rows = [row | {"name": f"other {row['name']}"} for row in document["base_parameters"]]
+        route.fulfill(json=document | {"base_parameters": rows})
+
+    page.route(f"**/v1/jobs/{pair[1]}/results", renamed)
+    page.goto(f"{service}/compare?left={pair[0]}&right={pair[1]}")
+    page.get_by_text("There is nothing to compare: both studies are of the same robot").wait_for()
+    assert page.locator("section[aria-labelledby=parameters] table").count() == 0
+
+
 def test_the_torque_of_one_log_is_laid_over_itself_by_both_models(look, service, studied, again):
     page = look(service).open(f"/compare?left={job_of(studied)}&right={again}")
     page.locator("section[aria-labelledby=estimated-torque]").scroll_into_view_if_needed()

@@ -1,7 +1,6 @@
 import json
 
 import numpy as np
-import pytest
 
 from core.robot.builtin import builtin_description
 from core.robot.description import robot_from_description
@@ -33,6 +32,7 @@ MIMIC = """<robot name="hand"><link name="palm"/><link name="near"/><link name="
     <mimic joint="a" multiplier="-0.5" offset="0.2"/></joint>
   <joint name="c" type="prismatic"><parent link="far"/><child link="slide"/><axis xyz="1 0 0"/>
     <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
+MINUS = "\N{MINUS SIGN}"
 ROBOTS = {
     "yumi": builtin_description("yumi"),
     "gantry": to_description(robot_from_description(GANTRY)),
@@ -57,19 +57,19 @@ def poses(robot, coordinates):
     return placed
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_the_figure_stands_where_the_service_says(look, service, name):
+def test_the_figure_stands_where_the_service_says(look, service):
     page = look(service).open("/compare")
-    robot = robot_from_description(ROBOTS[name])
-    coordinates = np.random.default_rng(1).uniform(-1.0, 1.0, len(robot.joints)).tolist()
-    drawn = page.evaluate(
-        """async (given) => (await import("/static/kinematics.js")).place(...given)""",
-        [json.loads(json.dumps(ROBOTS[name])), coordinates],
-    )
-    for seen, (rotation, origin) in zip(drawn, poses(robot, coordinates), strict=True):
-        assert np.allclose(seen["rotation"], rotation, atol=1e-12)
-        assert np.allclose(seen["origin"], origin, atol=1e-12)
-        assert np.allclose(seen["path"][-1], origin, atol=1e-12)
+    for name, description in ROBOTS.items():
+        robot = robot_from_description(description)
+        coordinates = np.random.default_rng(1).uniform(-1.0, 1.0, len(robot.joints)).tolist()
+        drawn = page.evaluate(
+            """async (given) => (await import("/static/kinematics.js")).place(...given)""",
+            [json.loads(json.dumps(description)), coordinates],
+        )
+        for seen, (rotation, origin) in zip(drawn, poses(robot, coordinates), strict=True):
+            assert np.allclose(seen["rotation"], rotation, atol=1e-12), name
+            assert np.allclose(seen["origin"], origin, atol=1e-12), name
+            assert np.allclose(seen["path"][-1], origin, atol=1e-12), name
 
 
 def test_an_ellipsoid_keeps_its_outline_whichever_way_it_is_seen(look, service):
@@ -122,3 +122,18 @@ def test_the_figure_turns_by_drag_and_by_keys_and_follows_the_sliders(look, serv
     page.get_by_role("button", name="Zero pose").click()
     assert moved()
     assert shapes[-1] == shapes[-3]
+    slide = """async (description) => {
+      const { drawChain } = await import("/static/chain.js");
+      const place = document.body.appendChild(document.createElement("div"));
+      drawChain(place, description);
+      const slider = place.querySelector("input[type=range]");
+      [slider.min, slider.max, slider.step] = [4e-16, 1, 0.1];
+      slider.value = 0;
+      slider.dispatchEvent(new Event("input"));
+      const figure = place.querySelector("svg").ariaLabel;
+      return [slider.valueAsNumber, place.querySelector("output").textContent, figure];
+    }"""
+    value, told, figure = page.evaluate(slide, ROBOTS["gantry"])
+    assert 0.0 < value < 1e-15
+    assert told == "0 m"
+    assert "e" + MINUS not in figure

@@ -66,7 +66,7 @@ def test_a_table_in_degrees_and_millimetres_is_sent_in_si(look, service):
     assert seen.barriers() == []
 
 
-def test_numbers_are_read_as_people_write_them(look, service):
+def test_numbers_are_read_as_people_write_them_and_written_as_they_read_them(look, service):
     page = look(service).open("/new")
     read = """async (texts) => {
       const { readNumber } = await import("/static/controls.js");
@@ -75,6 +75,13 @@ def test_numbers_are_read_as_people_write_them(look, service):
     texts = ["1.5", "1,5", "-pi/2", "3*pi/4", "π", "2e-3", f"{MINUS}90", "", "abc", "1.2.3", "pi/x"]
     expected = [1.5, 1.5, -math.pi / 2, 0.75 * math.pi, math.pi, 2e-3, -90, None, None, None, None]
     assert page.evaluate(read, texts) == pytest.approx(expected)
+    write = """async (values) => {
+      const { relative } = await import("/static/words.js");
+      return values.map((value) => relative(value).replaceAll("\\u00a0", " "));
+    }"""
+    values = [0, 4e-16, 0.25, 3.14159, 2.07e9, -0.001, -5e4, None]
+    shown = ["0 %", "< 0.1 %", "0.25 %", "3.14 %", "> 1000 %", f"> {MINUS}0.1 %", f"< {MINUS}1000 %", "–"]  # noqa: RUF001  (as it is shown)
+    assert page.evaluate(write, values) == shown
 
 
 def test_a_cell_that_is_no_number_is_named_and_one_that_is_refused_is_marked(look, service):
@@ -131,6 +138,45 @@ def test_columns_that_say_nothing_are_mapped_in_a_form(look, service, odd_log):
     _, _, torque = columns(seconds=4.0)
     low, high = torque[:, 0].min(), torque[:, 0].max()
     assert f"from {low:.4g} to {high:.4g}".replace("-", MINUS) in summary
+
+
+def test_currents_are_offered_as_such_with_what_makes_torques_of_them(look, service, tmp_path):
+    path = tmp_path / "amperes.csv"
+    path.write_bytes(csv_log(seconds=4.0).replace(b"time,q_1,q_2,tau_1,tau_2", b"time,q_1,q_2,i_1,i_2"))
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new?robot=yumi-left")
+    page.set_input_files("#log input[type=file]", path)
+    page.get_by_text("torque constant (N m/A) times gear ratio").wait_for()
+    assert [page.get_by_label(f"What i_{joint} is").input_value() for joint in (1, 2)] == ["current"] * 2
+    for channel, unit in {"time": "s", "position": "rad", "current": "A"}.items():
+        page.get_by_label(f"Unit of {channel}").select_option(unit)
+    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("article", name="Log amperes.csv").wait_for()
+    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("button", name="Remove joint 3").click()
+    page.get_by_role("button", name="Use this robot").click()
+    page.get_by_text("does not say what torque they give").wait_for()
+    assert page.get_by_role("button", name="Start").is_disabled()
+
+
+def test_a_value_that_is_missing_is_named_with_column_and_row_before_any_mapping(look, service, tmp_path):
+    rows = csv_log(seconds=4.0).split(b"\n")
+    cells = rows[8].split(b",")
+    rows[8] = b",".join([cells[0], b"nan", *cells[2:]])
+    path = tmp_path / "missing.csv"
+    path.write_bytes(b"\n".join(rows))
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", path)
+    alert = page.get_by_role("alert")
+    alert.get_by_text("The column 'q_1' holds 1 value missing").wait_for()
+    alert.get_by_text("the first in row 8").wait_for()
+    form = page.get_by_role("heading", name="Say which column is what")
+    assert not form.is_visible()
+    page.get_by_text("Map them otherwise").click()
+    form.wait_for()
 
 
 def test_a_gap_is_listed_and_marked_where_it_is(look, service, holed_log):

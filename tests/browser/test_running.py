@@ -9,26 +9,29 @@ from tests.app.planar_arm import csv_log, description
 SEEDS = itertools.count()  # what was asked before is answered at once
 
 
+@pytest.fixture(scope="session")
+def arm(browser, staged, key):
+    """A robot and a log that the guarded service knows, and what asks it for jobs of them."""
+    context = browser.new_context(base_url=staged[1], extra_http_headers={"Authorization": f"Bearer {key}"})
+    asking = context.request
+    robot = asking.post("/v1/robots", data=description()).json()["id"]
+    csv = {"Content-Type": "text/csv"}
+    log = asking.post("/v1/logs?name=swing.csv", data=csv_log(seconds=4.0), headers=csv).json()["id"]
+    yield asking, {"kind": "identify", "robot": robot, "logs": [log]}
+    context.close()
+
+
 @pytest.fixture
-def held(staged, key, look):
+def held(staged, arm, key, look):
     """Open the page of a job that runs until it is let go; the executor decides how it ends."""
     _, address, executor = staged
     executor.release.clear()
     executor.started.clear()
     executor.stopped.clear()
     outcome = executor.outcome
+    asking, body = arm
+    job = asking.post("/v1/jobs", data=body | {"options": {"bootstrap": {"seed": next(SEEDS)}}}).json()
     seen = look(address, key=key)
-    seen.open("/")
-    job = seen.page.evaluate(
-        """async ([robot, log, seed]) => {
-          const { post, upload } = await import("/static/api.js");
-          const made = await post("/v1/robots", robot);
-          const kept = await upload("/v1/logs?name=swing.csv", new Blob([log]), { mediaType: "text/csv" });
-          const options = { bootstrap: { seed } };
-          return post("/v1/jobs", { kind: "identify", robot: made.id, logs: [kept.id], options });
-        }""",
-        [description(), csv_log(seconds=4.0).decode(), next(SEEDS)],
-    )
     assert executor.started.wait(60.0)
     seen.open(f"/studies/{job['id']}")
     seen.page.get_by_role("progressbar").wait_for()
@@ -97,6 +100,31 @@ def test_whoever_has_no_key_is_asked_for_one_and_goes_on(look, staged, key):
     assert page.get_by_role("dialog").count() == 0
     page.reload()
     page.locator("#studies table, #studies p.soft").first.wait_for()
+
+
+def test_result_report_and_comparison_are_there_for_whoever_has_a_key(held):
+    seen, executor = held
+    page = seen.page
+    seen.statuses.add(404)  # what is computed here has no traces
+    executor.release.set()
+    page.locator(".state.successful").wait_for()
+    page.locator("#parameters").scroll_into_view_if_needed()
+    page.locator("#parameters tbody tr").first.wait_for()
+    with page.expect_download() as saving:
+        page.get_by_role("link", name="Open the report").click()
+    assert saving.value.suggested_filename == "report.html"
+    assert "is identified as a robot that can exist" in saving.value.path().read_text(encoding="utf-8")
+    again = """async (id) => {
+      const { get, post } = await import("/static/api.js");
+      const { kind, robot, logs } = await get(`/v1/jobs/${id}`);
+      return post("/v1/jobs", { kind, robot, logs, options: { estimator: "ols" } });
+    }"""
+    first = page.url.split("/")[-1]
+    second = page.evaluate(again, first)["id"]
+    seen.open(f"/studies/{second}")
+    page.locator(".state.successful").wait_for()
+    seen.open(f"/compare?left={first}&right={second}")
+    page.get_by_text("No parameter of 1 differs").wait_for()
 
 
 def test_a_wrong_key_is_asked_for_again_and_none_is_a_problem(look, staged):

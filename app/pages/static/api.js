@@ -60,10 +60,10 @@ export function follow(link) {
   link.addEventListener("click", async (event) => {
     if (!hasKey()) return;
     event.preventDefault();
-    const response = await request(link.getAttribute("href"));
+    const file = await (await request(link.getAttribute("href"))).blob();
     const saved = document.createElement("a");
-    saved.href = URL.createObjectURL(await response.blob());
-    saved.download = link.download || link.pathname.split("/").pop();
+    saved.href = URL.createObjectURL(file);
+    saved.download = link.download || `${link.pathname.split("/").pop()}${file.type.startsWith("text/html") ? ".html" : ""}`;
     saved.click();
     setTimeout(() => URL.revokeObjectURL(saved.href), 1000);
   });

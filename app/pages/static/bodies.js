@@ -2,7 +2,7 @@
 import { drawChain } from "./chain.js";
 import { element, fill } from "./dom.js";
 import { wide } from "./wide.js";
-import { number, plural } from "./words.js";
+import { number, plural, relative } from "./words.js";
 
 /** Show the bodies. */
 export function showBodies(container, { document }) {
@@ -16,23 +16,30 @@ export function showBodies(container, { document }) {
   const figure = element("div", {});
   fill(container, element("div", { class: "split" },
     element("div", {}, figure, element("p", { class: "hint" }, "Each ellipsoid is the solid body of even density with the link's identified mass, mass centre and inertia: one feasible representative, nearest to the belief. It is no picture of the link's shape.")),
-    element("div", {}, element("ul", { class: "facts" }, facts(feasibility, solver)), eigenvalues(feasibility, bodies))));
+    element("div", {}, element("ul", { class: "facts" }, facts(feasibility, solver, robot)), eigenvalues(feasibility, bodies))));
   if (bodies.length) drawChain(figure, robot, { bodies: drawn });
   else fill(figure, element("p", { class: "soft" }, "The model has no bodies to draw."));
 }
 
-function facts(feasibility, solver) {
+function facts(feasibility, solver, robot) {
   const mass = feasibility.mass_matrix_min_eigenvalue ?? {};
   const active = feasibility.active_constraints ?? [];
   const price = solver.objective_ols > 0 ? solver.objective / solver.objective_ols - 1 : null;
   return [
     element("li", {}, element("strong", {}, feasibility.feasible ? "The identified robot can exist. " : "The identified robot cannot exist. "),
       `Plain least squares gives one that ${feasibility.ols_feasible ? "can as well" : "cannot"}.`),
-    price === null ? null : element("li", {}, `The price of existence: a squared error ${number(100 * price, 3)} % above the least-squares optimum.`),
-    mass.workspace === undefined ? null : element("li", {}, `Mass matrix: smallest eigenvalue ${number(mass.trajectory, 3)} along the motion, ${number(mass.workspace, 3)} in ${plural("configuration", mass.configurations)} of the workspace.`),
+    price === null ? null : element("li", {}, `The price of existence: a squared error ${relative(100 * price)} above the least-squares optimum.`),
+    mass.workspace === undefined ? null : element("li", {}, `Mass matrix: smallest eigenvalue ${number(mass.trajectory, 3)} along the motion, ${number(mass.workspace, 3)} in ${plural("configuration", mass.configurations)} of the workspace, ${unitOfMassMatrix(robot)}.`),
     active.length ? touched(active) : element("li", {}, "No constraint is touched: every body lies well within what can exist."),
     element("li", {}, `Solver: ${solver.status}, ${plural("iteration", solver.iterations)}.`),
   ];
+}
+
+// An eigenvalue of the mass matrix has a unit of its own where all joints are of one kind.
+function unitOfMassMatrix({ joints }) {
+  const sliding = joints.filter((joint) => joint.type === "prismatic").length;
+  if (!sliding) return "in kg m²";
+  return sliding === joints.length ? "in kg" : "in SI units, of entries in kg m², kg m and kg";
 }
 
 // Which bodies lie at the edge of what can exist, and which parameters at their lower bound, by the names of the result.
@@ -53,8 +60,8 @@ function eigenvalues(feasibility, bodies) {
   const smallest = feasibility.pseudo_inertia_min_eigenvalue ?? [];
   if (!smallest.length) return null;
   return wide(element("table", {},
-    element("caption", {}, "A body can exist where no eigenvalue of its pseudo-inertia is negative."),
-    element("thead", {}, element("tr", {}, ["Link", "Mass, kg", "Half axes, mm", "Smallest eigenvalue"].map((name) => element("th", { scope: "col" }, name)))),
+    element("caption", {}, "A body can exist where no eigenvalue of its pseudo-inertia is negative. Its entries are in kg m², kg m and kg, so that an eigenvalue has no unit of its own: its sign is what counts."),
+    element("thead", {}, element("tr", {}, ["Link", "Mass, kg", "Half axes, mm", "Smallest eigenvalue, SI"].map((name) => element("th", { scope: "col" }, name)))),
     element("tbody", {}, smallest.map((value, index) => {
       const body = bodies[index];
       return element("tr", {}, element("th", { scope: "row" }, index + 1),

@@ -89,7 +89,7 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
     const turning = joint.type === "revolute";
     const shown = element("output", { class: "soft" });
     const told = () => {
-      shown.textContent = turning ? `${Math.round((pose[index] * 180) / Math.PI)}°` : `${number(pose[index], 3)} m`;
+      shown.textContent = turning ? `${Math.round((pose[index] * 180) / Math.PI)}°` : `${length(pose[index])} m`;
     };
     const id = `joint-${index + 1}-slider`;
     const input = element("input", {
@@ -201,6 +201,11 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
   }
 }
 
+/** A length in m, to a tenth of a millimetre: what rounding leaves of zero is zero. */
+function length(value) {
+  return number(Math.round(value * 1e4) / 1e4, 3);
+}
+
 function resting(joint) {
   const [low, high] = rangeOf(joint);
   return Math.min(Math.max(0, low), high);
@@ -243,7 +248,7 @@ function ends(robot, places) {
 }
 
 function described(robot, places) {
-  const tip = places.at(-1).origin.map((value) => number(value, 3));
+  const tip = places.at(-1).origin.map(length);
   const sliding = robot.joints.filter((joint) => joint.type === "prismatic").length;
   return `${robot.name || "Robot"} with ${plural("joint", robot.joints.length)}${sliding ? `, ${sliding} of them sliding` : ""}; in this pose the last frame lies at ${tip.join(", ")} m from the base.`;
 }

@@ -3,6 +3,7 @@ import { get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
 import { showError } from "./problem.js";
+import { refining } from "./refine.js";
 import { unitOf } from "./words.js";
 
 const POINTS = 1000;
@@ -20,6 +21,7 @@ export function showChannels(container, log) {
   let traces = null;
   let robot = null;
   let plots = [];
+  let finer = () => {};
   fill(container, element("p", { class: "waiting", role: "status" }, "Drawing every channel …"));
   load();
   return {
@@ -32,22 +34,36 @@ export function showChannels(container, log) {
 
   async function load() {
     try {
-      traces = await get(`/v1/logs/${encodeURIComponent(log.id)}/traces?points=${POINTS}`);
+      traces = await read({});
       show();
     } catch (error) {
       showError(container, error);
     }
   }
 
+  function read(stretch) {
+    const query = new URLSearchParams({ points: POINTS, ...stretch });
+    return get(`/v1/logs/${encodeURIComponent(log.id)}/traces?${query}`);
+  }
+
   function clear() {
-    for (const plot of plots) plot.destroy();
+    for (const { plot } of plots) plot.destroy();
     plots = [];
   }
 
   function show() {
     clear();
     const start = traces.time.values[0];
+    const extent = [0, traces.time.values.at(-1) - start];
     const x = { label: "time", unit: "s", values: traces.time.values.map((stamp) => stamp - start) };
+    finer = refining(
+      { ...traces, whole: traces.rows_per_stretch === 1, extent },
+      ([from, to]) => read({ from: start + from, to: start + to }),
+      (found) => {
+        const time = found.time.values.map((stamp) => stamp - start);
+        for (const { plot, place } of plots) plot.replace(time, [{ values: found.traces[place].values }]);
+      },
+    );
     const thinned =
       traces.rows_per_stretch > 1 ? `Each point pair holds the extremes of ${traces.rows_per_stretch} samples.` : "";
     fill(
@@ -57,11 +73,11 @@ export function showChannels(container, log) {
         { class: "hint" },
         `Does every plot look like the motion you know? Drag over a plot to zoom, press Escape on it to see all. ${thinned}`,
       ),
-      log.channels.map((channel) => group(channel, x, start)),
+      log.channels.map((channel) => group(channel, { x, extent, start })),
     );
   }
 
-  function group(channel, x, start) {
+  function group(channel, { x, extent, start }) {
     const grid = element("div", { class: "plots" });
     const own = traces.traces.filter((trace) => trace.channel === channel);
     const open = AT_ONCE.includes(channel);
@@ -70,17 +86,18 @@ export function showChannels(container, log) {
       own.forEach((trace) => {
         const place = element("div", {});
         grid.append(place);
-        plots.push(
-          draw(place, {
-            title: `${capital(channel)} of joint ${trace.joint}`,
-            unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type),
-            x,
-            traces: [{ label: channel, values: trace.values, colour: channel === "position" ? 1 : 2 }],
-            height: HEIGHT,
-            together: log.id,
-            marks: marksOf(channel, trace.joint, start),
-          }),
-        );
+        const plot = draw(place, {
+          title: `${capital(channel)} of joint ${trace.joint}`,
+          unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type),
+          x,
+          extent,
+          traces: [{ label: channel, values: trace.values, colour: channel === "position" ? 1 : 2 }],
+          height: HEIGHT,
+          together: log.id,
+          marks: marksOf(channel, trace.joint, start),
+          zoomed: (from, to) => finer(from, to),
+        });
+        plots.push({ plot, place: traces.traces.indexOf(trace) });
       });
     if (open)
       requestAnimationFrame(drawAll); // once the grid has its width

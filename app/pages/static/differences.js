@@ -1,11 +1,10 @@
 // The differences of two results, the largest first.
 import { element, fill, svg } from "./dom.js";
-import { relative } from "./headline.js";
 import { draw } from "./plot.js";
 import { showError } from "./problem.js";
 import { tracesOf } from "./traces.js";
 import { wide } from "./wide.js";
-import { number, plain, plural } from "./words.js";
+import { number, plain, plural, relative } from "./words.js";
 
 const REAL = 3;
 const WIDEST = 10;
@@ -126,6 +125,7 @@ function findings(studies) {
 
 function table(studies, rows) {
   const only = studies.map((one, place) => one.document.base_parameters.filter((row) => !studies[1 - place].document.base_parameters.some((other) => other.name === row.name && other.unit === row.unit)).map((row) => row.name));
+  if (!rows.length) return element("p", { class: "soft" }, `There is nothing to compare: ${apart(studies)}.`);
   return [element("p", { class: "hint" }, `z is the difference, right minus left, in standard deviations of the difference. More than ${REAL} is hardly chance.`),
     wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z drawn")]),
       element("tbody", {}, rows.map((row) => element("tr", {},
@@ -135,6 +135,15 @@ function table(studies, rows) {
         element("td", { class: Math.abs(row.z) > REAL ? "poor" : null }, `${row.z > 0 ? "+" : ""}${number(row.z, 2)}`),
         element("td", {}, lollipop(row.z)))))), "Parameters"),
     only.map((names, place) => (names.length ? element("p", { class: "hint" }, `Only ${place ? "right" : "left"}: ${names.join(", ")}.`) : null))];
+}
+
+// Why two models have no parameter of one name and unit in common.
+function apart(studies) {
+  const [left, right] = studies.map((one) => one.document.robot);
+  const same = JSON.stringify(left.joints ?? left.links) === JSON.stringify(right.joints ?? right.links);
+  return same
+    ? "both studies are of the same robot, but model it with other terms, so that no parameter of one has the name and unit of one of the other"
+    : `the studies are of different robots, ${left.name} and ${right.name}, whose parameters are grouped otherwise or have other units`;
 }
 
 function lollipop(z) {

@@ -1,9 +1,8 @@
 // What the motion excited, and what it left poorly known: as far as the result says, and no further.
 import { element, fill } from "./dom.js";
-import { relative } from "./headline.js";
 import { joints } from "./torque.js";
 import { wide } from "./wide.js";
-import { number } from "./words.js";
+import { number, relative } from "./words.js";
 
 const POOR_PERCENT = 30;
 const ALIKE = 0.1;

@@ -92,8 +92,17 @@ export function chooseLogs(container, { wanted = [], chosen }) {
       showError(said, error);
       if (form !== null) {
         if (!form.isConnected) said.append(form);
-      } else if (error?.problem?.type === "urn:veritorque:problem:log") await offerMapping(file, said, error.problem);
+      } else if (error?.problem?.type === "urn:veritorque:problem:log") await offerMapping(file, mappingPlace(error.problem), error.problem);
     }
+  }
+
+  // Where the columns are what is wrong, the form comes at once; where their values are, what is wrong stands alone at first.
+  function mappingPlace({ evidence }) {
+    const ofColumns = evidence?.columns && Object.values(evidence.columns).every((one) => typeof one !== "object");
+    if (ofColumns) return said;
+    const aside = element("details", {}, element("summary", {}, "Are these the wrong columns? Map them otherwise."));
+    said.append(aside);
+    return aside;
   }
 
   async function offerMapping(file, place, problem, replaced = null) {

@@ -22,11 +22,13 @@ const LIKELY = [
   ["time", /^t$|time|stamp|^sec/i],
   ["temperature", /temp/i],
   ["velocity", /vel|speed|^qd|^dq|qdot/i],
-  ["current", /cur|amp|^i_?\d+$/i],
+  ["current", /cur|amp|^i_?[dqm]?_?\d+$/i],
   ["torque", /tau|torq|effort|moment|force/i],
   ["", /acc|^qdd|^ddq/i],
   ["position", /pos|angle|^q_?\d*$|theta|joint/i],
 ];
+const DRIVE_GAIN =
+  "A motor's current becomes torque at its joint by the drive gain: torque constant (N m/A) times gear ratio. Both belong to each joint of the robot: in its table, under “more columns”. Where torque is logged as well, torque is used.";
 const HEAD_BYTES = 1 << 16;
 
 /** Read the columns of a text file from its first line; null for other files. */
@@ -180,6 +182,7 @@ export function mappingForm(container, { columns, readings, finished }) {
     });
     const made = [
       field(`Unit of ${channel}`, list, hints.length ? `plausible: ${hints.slice(0, 2).join("; ")}` : null),
+      channel === "current" ? element("p", { class: "hint" }, DRIVE_GAIN) : null,
     ];
     if (units[channel] === "counts") {
       made.push(

@@ -1,9 +1,8 @@
 // The base parameters as a table: each with its error bar, %P and grouping; sorted, filtered, copied and saved.
 import { follow } from "./api.js";
 import { element, fill, svg } from "./dom.js";
-import { relative } from "./headline.js";
 import { wide } from "./wide.js";
-import { number } from "./words.js";
+import { number, relative } from "./words.js";
 
 const POOR_PERCENT = 30;
 const COLUMNS = [

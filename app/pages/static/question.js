@@ -114,13 +114,17 @@ export function askQuestion(container) {
     const wants = [known.robot ? null : "choose a robot", known.logs.length ? null : "add a log"].filter(Boolean);
     const joints = known.robot?.description.joints.filter((one) => !one.mimics).length;
     const odd = known.logs.find((log) => known.robot && log.joints !== joints);
-    start.disabled = wants.length > 0 || odd !== undefined;
+    const amperes = known.logs.find((log) => known.robot && !log.channels.includes("torque"));
+    const gainless = amperes && known.robot.description.joints.some((one) => !one.mimics && !(one.torque_constant && one.gear_ratio));
+    start.disabled = wants.length > 0 || odd !== undefined || Boolean(gainless);
     missing.textContent = wants.length
       ? `Still to do: ${wants.join(", ")}.`
       : odd
         ? `${odd.name} has ${plural("joint", odd.joints)}, ${known.robot.name} has ${joints}.`
-        : "";
-    missing.classList.toggle("wrong", odd !== undefined);
+        : gainless
+          ? `${amperes.name} holds currents, and ${known.robot.name} does not say what torque they give: declare torque constant and gear ratio of every joint in its table.`
+          : "";
+    missing.classList.toggle("wrong", odd !== undefined || Boolean(gainless));
     reference.hidden = kind !== "diagnose";
   }
 

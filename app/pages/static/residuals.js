@@ -2,8 +2,9 @@
 import { get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
+import { refining } from "./refine.js";
 import { plain } from "./words.js";
-import { forEveryLog, joints, refining } from "./torque.js";
+import { forEveryLog, joints } from "./torque.js";
 
 /** Show the residual of one joint at a time, four ways. */
 export async function showResiduals(container, study) {
@@ -32,7 +33,7 @@ function overTime(views, study, joint, log, seen) {
   const place = element("div", { class: "tile broad" });
   views.append(place);
   const shown = [["residual", study.traces.extended ? "before" : "residual", { colour: 2 }], ...(study.traces.extended ? [["residual_after", "after", { colour: 3 }]] : [])];
-  const finer = refining(study, joint, log, seen, (found) => plot.replace(found.time, shown.map(([signal]) => ({ values: found.values[signal] }))));
+  const finer = refining(seen, (range) => study.traces.of(joint, log, range), (found) => plot.replace(found.time, shown.map(([signal]) => ({ values: found.values[signal] }))));
   const plot = draw(place, {
     title: `Residual of joint ${joint}`, unit: seen.units.residual, height: 200, extent: seen.extent, zoomed: finer,
     x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks,

@@ -1,9 +1,8 @@
 // Measured, filtered and estimated torque of every joint, and the motion they belong to, drawn again finer when zoomed.
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
-import { number } from "./words.js";
-
-const WAIT_MS = 250;
+import { refining } from "./refine.js";
+import { relative } from "./words.js";
 
 /** Show torque, joint by joint. */
 export async function showTorque(container, study) {
@@ -75,30 +74,22 @@ async function torquePlot(place, study, joint, log) {
     now = found;
     plot.replace(found.time, tracesOf(found));
   };
-  const finer = refining(study, joint, log, seen, show);
+  const finer = refining(seen, (range) => study.traces.of(joint, log, range), show);
+  let finerRaw = () => {};
   const plot = draw(place, {
     title: `Joint ${joint}`, unit: seen.units.torque_filtered, height: 190, together: `torque ${log}`, extent: seen.extent,
-    x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks, zoomed: finer,
+    x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks, zoomed: (from, to) => { finer(from, to); finerRaw(from, to); },
     traces: tracesOf(seen),
-    note: `The error ${study.document.validation.length ? "on the shaded, held-out stretches" : "on the fitted motion"} is ${number(score.nrmse_of_rms_percent, 3)} % of the torque's RMS.`,
+    note: `The error ${study.document.validation.length ? "on the shaded, held-out stretches" : "on the fitted motion"} is ${relative(score.nrmse_of_rms_percent)} of the torque's RMS.`,
   });
   study.traces.raw(joint, log).then((found) => {
     if (found === null || !place.isConnected) return;
-    raw.found = found;
-    show(now);
+    const showRaw = (own) => {
+      raw.found = own;
+      show(now);
+    };
+    finerRaw = refining({ ...found, extent: seen.extent }, (range) => study.traces.raw(joint, log, range), showRaw);
+    showRaw(found);
   });
   return plot;
-}
-
-/** Give what asks for finer traces once a zoom has come to rest; where every instant is there already, nothing is asked. */
-export function refining(study, joint, log, whole, show) {
-  let waiting = null;
-  return (from, to) => {
-    if (whole.whole) return;
-    clearTimeout(waiting);
-    waiting = setTimeout(async () => {
-      const all = from <= whole.extent[0] && to >= whole.extent[1];
-      show(all ? whole : await study.traces.of(joint, log, [from, to]));
-    }, WAIT_MS);
-  };
 }

@@ -19,7 +19,7 @@ const EXTENDED = ["torque_estimated_after", "residual_after"];
 /**
  * Give what asks for the traces of a job.
  * @returns {{joints: number, logs: number, extended: boolean, of: function(number, number, [number, number]=): Promise<JointTraces>,
- *   raw: function(number, number): Promise<{at: number[], values: number[]}|null>}}
+ *   raw: function(number, number, [number, number]=): Promise<{at: number[], values: number[], whole: boolean}|null>}}
  */
 export function tracesOf(job, document) {
   const extended = Boolean(document.diagnosis?.after?.base_parameters?.length);
@@ -41,23 +41,26 @@ export function tracesOf(job, document) {
   }
 
   /** The torque as it was logged, before any filter; null where the log was deleted since, or holds currents. */
-  async function raw(joint, log) {
-    if (!logs.has(log)) {
-      const path = `/v1/logs/${encodeURIComponent(job.logs[log - 1])}/traces?channels=torque&points=${RAW_POINTS}`;
-      logs.set(log, get(path).catch(() => null));
+  async function raw(joint, log, range = null) {
+    const key = `${log} ${range ?? ""}`;
+    if (!logs.has(key)) {
+      const query = new URLSearchParams({ channels: "torque", points: RAW_POINTS, ...stretch(log, range) });
+      const asked = get(`/v1/logs/${encodeURIComponent(job.logs[log - 1])}/traces?${query}`);
+      logs.set(key, asked.catch(() => null)); // of all joints at once, because their plots zoom together
     }
-    const seen = await logs.get(log);
+    const seen = await logs.get(key);
     const own = seen?.traces.find((trace) => trace.joint === joint);
     if (!own) return null;
-    return { at: seen.time.values.map((stamp) => stamp - starts.get(log)), values: own.values };
+    return { at: seen.time.values.map((stamp) => stamp - starts.get(log)), values: own.values, whole: seen.rows_per_stretch === 1 };
+  }
+
+  // A range in s since the log's first instant, on the log's own clock as a query wants it.
+  function stretch(log, range) {
+    return range === null ? {} : { from: starts.get(log) + range[0], to: starts.get(log) + range[1] };
   }
 
   async function read(joint, log, range) {
-    const query = new URLSearchParams({ joint, log, signals: signals.join(","), points: POINTS });
-    if (range !== null) {
-      query.set("from", starts.get(log) + range[0]);
-      query.set("to", starts.get(log) + range[1]);
-    }
+    const query = new URLSearchParams({ joint, log, signals: signals.join(","), points: POINTS, ...stretch(log, range) });
     const seen = await get(`${job.links.self}/traces?${query}`);
     const start = seen.extent[0];
     starts.set(log, start);

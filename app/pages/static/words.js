@@ -27,6 +27,16 @@ export function plural(noun, many) {
   return `${count(many)} ${noun}${many === 1 ? "" : "s"}`;
 }
 
+/** A percentage as people read it: what is tiny or huge by the bound that it lies beyond. */
+export function relative(value, digits = 3) {
+  if (value === null || value === undefined) return "–";
+  const size = Math.abs(value);
+  const sign = value < 0 ? "−" : "";
+  if (size > 0 && size < 0.05) return `${sign ? ">" : "<"}\u00a0${sign}0.1\u00a0%`;
+  if (size > 1000) return `${sign ? "<" : ">"}\u00a0${sign}1000\u00a0%`;
+  return `${number(value, digits)}\u00a0%`;
+}
+
 /** A share as percent. */
 export function percent(fraction) {
   return `${Math.round(100 * fraction)} %`;

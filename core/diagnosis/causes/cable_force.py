@@ -53,16 +53,16 @@ class CableForce(OwnJointCause):
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Give stiffness and angle of engagement."""
-        deviation = solved.deviations.get("engage_angle", 0.0)
+        angle, deviation = solved.scalars["engage_angle"], solved.deviations.get("engage_angle", 0.0)
         return (
             Quantity(
                 "stiffness",
                 solved.site[0],
-                "N m/rad",
+                solved.unit("N m/rad"),
                 float(solved.values[0]),
                 float(solved.covariance[0, 0] ** 0.5),
             ),
-            Quantity("engage_angle", solved.site[0], "rad", solved.scalars["engage_angle"], deviation),
+            Quantity("engage_angle", solved.site[0], solved.unit("rad"), angle, deviation),
         )
 
     def statement(self, solved: Solved) -> str:

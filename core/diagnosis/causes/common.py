@@ -64,7 +64,7 @@ class OwnJointCause:
         }
         scanned = {name: (value, solved.deviations.get(name, 0.0)) for name, value in solved.scalars.items()}
         both = linear | scanned
-        return tuple(Quantity(name, joint, unit, *both[name]) for name, unit in self.units)
+        return tuple(Quantity(name, joint, solved.unit(unit), *both[name]) for name, unit in self.units)
 
     def numbers(self, look: Look, solved: Solved) -> Numbers:
         """Give the reported numbers."""

@@ -13,6 +13,7 @@ from core.dynamics.prediction import Prediction
 from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from core.log.defects.stretch import stretches
 from core.log.model import JointLog
+from core.robot.joint_units import joint_unit
 
 LEAST_SHARE = 0.6
 """Share of a joint's residual that rounding must account for to be named; good encoders make a half."""
@@ -50,11 +51,12 @@ class EncoderQuantization:
         found = []
         for joint in np.flatnonzero(steps > 0.0):
             gained = disturbance(look, believed, _rounded(int(joint), float(steps[joint])))
+            unit = joint_unit(look.robot, int(joint) + 1, "rad")
             share, of_torque = share_of_residual(look, believed, gained), _of_torque(look, gained)
             if _matters(
                 float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, int(joint))
             ):
-                found.append(_finding(int(joint), float(steps[joint]), share, of_torque))
+                found.append(_finding(int(joint), (float(steps[joint]), unit), share, of_torque))
         return tuple(found)
 
 
@@ -78,14 +80,15 @@ def _of_torque(look: Look, gained: JointSeries) -> JointVector:
     return np.asarray(sizes[0] / np.maximum(sizes[1], 1e-300))
 
 
-def _finding(joint: int, step: float, share: JointVector, of_torque: JointVector) -> RawFinding:
+def _finding(joint: int, size: tuple[float, str], share: JointVector, of_torque: JointVector) -> RawFinding:
+    step, unit = size
     return RawFinding(
         site=(joint + 1,),
-        quantities=(Quantity("lsb", joint + 1, "rad", step, 0.0),),
+        quantities=(Quantity("lsb", joint + 1, unit, step, 0.0),),
         statement=(
-            f"Joint {joint + 1}'s encoder has steps of {step:.3g} rad; differentiated, their rounding makes "
-            f"{100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s residual, "
-            f"and an error of {100.0 * float(of_torque.max()):.2g} % of joint "
+            f"Joint {joint + 1}'s encoder has steps of {step:.3g} {unit}; differentiated, their rounding "
+            f"makes {100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s "
+            f"residual, and an error of {100.0 * float(of_torque.max()):.2g} % of joint "
             f"{int(of_torque.argmax()) + 1}'s torque"
         ),
         statistic=float(share.max()),

@@ -38,8 +38,8 @@ class FrictionLoadDependent(OwnJointCause):
 
     def statement(self, solved: Solved) -> str:
         """Say which share of the load comes back as friction."""
-        found = named(self.quantities(solved))
+        found, unit = named(self.quantities(solved)), solved.unit("N m")
         return (
-            f"Joint {solved.site[0]}'s friction grows by {shown(found['load_coefficient'])} N m per N m of "
-            "transmitted torque"
+            f"Joint {solved.site[0]}'s friction grows by {shown(found['load_coefficient'])} {unit} per "
+            f"{unit} of transmitted {'force' if solved.slides else 'torque'}"
         )

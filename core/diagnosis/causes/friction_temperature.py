@@ -63,7 +63,7 @@ class FrictionTemperature(OwnJointCause):
         per = "" if "time_constant" in solved.scalars else "/K"
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         slopes = tuple(
-            Quantity(name, solved.site[0], unit + per, float(value), float(deviation))
+            Quantity(name, solved.site[0], solved.unit(unit) + per, float(value), float(deviation))
             for (name, unit), value, deviation in zip(SLOPES, solved.values, deviations, strict=True)
         )
         return slopes + tuple(

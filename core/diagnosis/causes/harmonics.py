@@ -48,7 +48,7 @@ def wave_quantities(solved: Solved, unit: str) -> tuple[Quantity, ...]:
     scatter = solved.deviations.get("harmonic", 0.0)
     phase = (turned[0] - harmonic * centre + np.pi) % (2.0 * np.pi) - np.pi
     return (
-        Quantity("amplitude", joint, unit, *amplitude),
+        Quantity("amplitude", joint, solved.unit(unit), *amplitude),
         Quantity("harmonic", joint, "1", harmonic, scatter),
         Quantity("phase", joint, "rad", phase, float(np.hypot(turned[1], centre * scatter))),
     )

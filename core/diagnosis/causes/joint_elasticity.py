@@ -61,14 +61,14 @@ class JointElasticity(OwnJointCause):
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report the stiffness; its relative deviation is the compliance's."""
         compliance, deviation = float(solved.values[0]), float(solved.covariance[0, 0] ** 0.5)
-        angular = 2.0 * np.pi * solved.scalars["resonance_hz"]
+        joint, angular = solved.site[0], 2.0 * np.pi * solved.scalars["resonance_hz"]
         damping = 2.0 * solved.scalars["damping_ratio"] / (angular * compliance)
         doubts = [deviation / compliance]
         doubts += [solved.deviations.get(name, 0.0) / value for name, value in solved.scalars.items()]
         doubt = float(np.linalg.norm(doubts))
         return (
-            Quantity("stiffness", solved.site[0], "N m/rad", 1.0 / compliance, deviation / compliance**2),
-            Quantity("damping", solved.site[0], "N m s/rad", damping, damping * doubt),
+            Quantity("stiffness", joint, solved.unit("N m/rad"), 1.0 / compliance, deviation / compliance**2),
+            Quantity("damping", joint, solved.unit("N m s/rad"), damping, damping * doubt),
         )
 
     def statement(self, solved: Solved) -> str:

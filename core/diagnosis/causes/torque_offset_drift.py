@@ -13,6 +13,7 @@ from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.drift import Drift, course
 from core.log.model import LogRows
+from core.robot.joint_units import joint_unit
 from core.robot.model import RobotModel
 
 SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
@@ -67,11 +68,11 @@ class TorqueOffsetDrift(OwnJointCause, MendsLog):
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """Say what is subtracted."""
-        del robot
+        size = f"{rounded(numbers['total_drift'], 4)} {joint_unit(robot, joints[0], 'N m')}"
         end = numbers["start"] + numbers["duration"]
         return (
             f"From the torque of joint {joints[0]} a drift is subtracted that goes from 0 at "
-            f"{rounded(numbers['start'], 4)} s to {rounded(numbers['total_drift'], 4)} N m at "
+            f"{rounded(numbers['start'], 4)} s to {size} at "
             f"{rounded(end, 4)} s, with a time constant of {rounded(numbers['time_constant'], 4)} s"
         )
 

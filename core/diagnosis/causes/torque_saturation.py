@@ -11,6 +11,7 @@ from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.saturation import Saturation
+from core.robot.joint_units import joint_unit
 from core.robot.model import RobotModel
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
@@ -60,7 +61,7 @@ class TorqueSaturation(OwnJointCause):
         """Give the limit, which is known no better than the predicted torque that it clips."""
         limit = solved.scalars["limit"]
         deviation = float(np.hypot(solved.deviations.get("limit", 0.0), PREDICTION_ERROR * limit))
-        return (Quantity("limit", solved.site[0], "N m", limit, deviation),)
+        return (Quantity("limit", solved.site[0], solved.unit("N m"), limit, deviation),)
 
     def statement(self, solved: Solved) -> str:
         """Say where the torque ends."""
@@ -72,9 +73,8 @@ class TorqueSaturation(OwnJointCause):
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """Say why the log stays as it is: a limit one per cent off leaves what looks like contacts."""
-        del robot
-        limit = rounded(numbers["limit"], 4)
+        limit = f"{rounded(numbers['limit'], 4)} {joint_unit(robot, joints[0], 'N m')}"
         return (
             "The model has the excess as a further term; cutting the log's torque of "
-            f"joint {joints[0]} at {limit} N m would be exact only with the exact limit"
+            f"joint {joints[0]} at {limit} would be exact only with the exact limit"
         )

@@ -15,6 +15,7 @@ from core.arrays import JointSeries, Samples
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.errors import OptionError
+from core.robot.joint_units import joint_unit
 
 OTHER_VELOCITY = "velocity_of_joint_"
 
@@ -75,7 +76,7 @@ def coordinate(look: Look, believed: Prediction, name: str, joint: int) -> Coord
         return _other(look, name, joint, series)
     if series is None or np.isnan(series[:, joint - 1]).all():
         return None
-    return Coordinate(name, joint, _unit(look, _KINDS[name].unit, joint), series[:, joint - 1])
+    return Coordinate(name, joint, _unit(look, name, joint), series[:, joint - 1])
 
 
 def coordinate_series(look: Look, believed: Prediction, name: str) -> JointSeries | None:
@@ -99,18 +100,17 @@ def travel(position: Samples, velocity: Samples) -> Samples:
     return np.asarray(gone - np.maximum.accumulate(begins))
 
 
+def _unit(look: Look, name: str, joint: int) -> str:
+    """Give a coordinate's unit; a motor turns whatever its joint does."""
+    unit = _KINDS[name].unit
+    return unit if name == "motor_phase" else joint_unit(look.robot, joint, unit)
+
+
 def _other(look: Look, name: str, joint: int, velocity: JointSeries | None) -> Coordinate | None:
     moving = int(name.removeprefix(OTHER_VELOCITY))
     if moving == joint or velocity is None:
         return None
-    return Coordinate(name, joint, _unit(look, "rad/s", moving), velocity[:, moving - 1])
-
-
-def _unit(look: Look, unit: str, joint: int) -> str:
-    slides = any(link.joint == joint and link.kind == "prismatic" for link in look.robot.links)
-    if not slides or unit in ("s", "degC"):
-        return unit
-    return unit.replace("N m", "N") if unit.startswith("N m") else unit.replace("rad", "m")
+    return Coordinate(name, joint, joint_unit(look.robot, moving, "rad/s"), velocity[:, moving - 1])
 
 
 def _time(look: Look, believed: Prediction) -> JointSeries:

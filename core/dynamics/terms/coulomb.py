@@ -32,7 +32,7 @@ class Coulomb:
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List FC of every joint that has it."""
-        return own_joint_parameters(robot, _joints(robot), "FC", ("N m", "N"), 0.0)
+        return own_joint_parameters(robot, _joints(robot), "FC", "N m", 0.0)
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Pair each joint with its own parameter."""

@@ -10,12 +10,13 @@ import numpy as np
 
 from core.arrays import JointSeries, Samples, Series
 from core.dynamics.term import Entry
+from core.robot.joint_units import joint_unit
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
 from core.signals.state import MotionState
 
 Symbol = tuple[str, str, float | None]
-"""Name, SI unit, and physical lower bound (None where any sign is possible)."""
+"""Name, SI unit (on a joint that turns), and physical lower bound (None where any sign is possible)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,10 +35,10 @@ class OneJointTerm:
         return f"{self.kind}_{self.joint}"
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
-        """List the effect's parameters."""
-        del robot
+        """List the effect's parameters, in units of its joint."""
         return tuple(
-            Parameter(symbol, self.joint, self.joint, unit, lower) for symbol, unit, lower in self.symbols
+            Parameter(symbol, self.joint, self.joint, joint_unit(robot, self.joint, unit), lower)
+            for symbol, unit, lower in self.symbols
         )
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:

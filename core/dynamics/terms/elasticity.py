@@ -5,7 +5,7 @@ link's inertia on spring and damper, one below their resonance. What the load ch
 Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import ClassVar
 
@@ -15,7 +15,9 @@ from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 from core.arrays import JointSeries, Samples, Spectrum
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
+from core.robot.joint_units import joint_unit
 from core.robot.model import RobotModel
+from core.robot.parameters import Parameter
 from core.signals.state import MotionState
 from core.signals.zero_phase import kernel
 
@@ -39,6 +41,12 @@ class Elasticity(AllJointsTerm):
     symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
     kind: ClassVar[str] = "joint_elasticity"
     remembers: ClassVar[bool] = True
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List the compliance, in the unit of its joint."""
+        return tuple(
+            replace(one, unit=joint_unit(robot, self.joint, one.unit)) for one in super().parameters(robot)
+        )
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per unit of compliance."""

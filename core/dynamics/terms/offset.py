@@ -24,7 +24,7 @@ class Offset:
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List OFF of every joint that has it."""
-        return own_joint_parameters(robot, _joints(robot), "OFF", ("N m", "N"), None)
+        return own_joint_parameters(robot, _joints(robot), "OFF", "N m", None)
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Pair each joint with its own parameter."""

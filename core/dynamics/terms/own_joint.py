@@ -9,20 +9,20 @@ import numpy as np
 
 from core.arrays import Samples, Series
 from core.dynamics.term import Entry
+from core.robot.joint_units import joint_unit
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
 
 
 def own_joint_parameters(
-    robot: RobotModel, joints: tuple[int, ...], symbol: str, units: tuple[str, str], lower: float | None
+    robot: RobotModel, joints: tuple[int, ...], symbol: str, unit: str, lower: float | None
 ) -> tuple[Parameter, ...]:
     """Name one parameter for each of the joints (from 0).
 
-    `units` are those for a revolute and for a prismatic joint.
+    `unit` is that of a joint that turns.
     """
-    kinds = {link.joint - 1: link.kind for link in reversed(robot.links)}
     return tuple(
-        Parameter(symbol, joint + 1, joint + 1, units[kinds[joint] == "prismatic"], lower) for joint in joints
+        Parameter(symbol, joint + 1, joint + 1, joint_unit(robot, joint + 1, unit), lower) for joint in joints
     )
 
 

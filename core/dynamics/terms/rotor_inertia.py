@@ -25,7 +25,7 @@ class RotorInertia:
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List IA of every joint that has it."""
-        return own_joint_parameters(robot, _joints(robot), "IA", ("kg m2", "kg"), 0.0)
+        return own_joint_parameters(robot, _joints(robot), "IA", "kg m2", 0.0)
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Pair each joint with its own parameter."""

@@ -21,7 +21,7 @@ class Viscous:
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List FV of every joint that has it."""
-        return own_joint_parameters(robot, _joints(robot), "FV", ("N m s/rad", "N s/m"), 0.0)
+        return own_joint_parameters(robot, _joints(robot), "FV", "N m s/rad", 0.0)
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Pair each joint with its own parameter."""

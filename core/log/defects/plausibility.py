@@ -8,6 +8,7 @@ import numpy as np
 
 from core.log.defects.stretch import Facts
 from core.log.model import Defect
+from core.log.units import TORQUE_OR_FORCE
 
 LARGEST_SPAN = 13.0
 """A joint that turns from minus one turn to plus one spans 12.6 rad."""
@@ -58,7 +59,8 @@ def _missing_torques(facts: Facts) -> list[Defect]:
             int(joint) + 1,
             facts.samples,
             ((facts.start, facts.start + facts.duration),),
-            f"Joint {joint + 1}'s torque is {facts.low['torque'][joint]:g} N m throughout, not measured.",
+            f"Joint {joint + 1}'s torque is {facts.low['torque'][joint]:g} {TORQUE_OR_FORCE} throughout, "
+            "not measured.",
         )
         for joint in dead
     ]

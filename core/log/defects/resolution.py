@@ -9,6 +9,7 @@ import numpy as np
 from core.arrays import JointVector, Samples, Series
 from core.log.defects.stretch import Facts, Stretch, sampled_share
 from core.log.model import Defect
+from core.log.units import ANGLE_OR_WAY, TORQUE_OR_FORCE
 
 SAMPLED_ROWS = 20_000
 SMALL_STEPS = 20
@@ -73,11 +74,11 @@ def _statement(channel: str, joint: int, step: float, context: tuple[float, floa
     typical, deviation, seconds = context
     if channel == "torque":
         return (
-            f"Joint {joint}'s torque comes in steps of {step:.3g} N m (lsb), "
+            f"Joint {joint}'s torque comes in steps of {step:.3g} {TORQUE_OR_FORCE} (lsb), "
             f"{100.0 * step / deviation:.2g} % of its standard deviation."
         )
     return (
-        f"Joint {joint}'s position comes in steps of {step:.3g} rad (lsb) and typically moves "
-        f"{typical / step:.2g} of them per sample; one step is "
-        f"{step / (2.0 * seconds):.3g} rad/s of centred velocity."
+        f"Joint {joint}'s position comes in steps of {step:.3g} {ANGLE_OR_WAY} (lsb) and typically "
+        f"moves {typical / step:.2g} of them per sample; one step is "
+        f"{step / (2.0 * seconds):.3g} rad/s (m/s) of centred velocity."
     )

@@ -10,6 +10,7 @@ from core.arrays import SampleMask, Samples
 from core.log.defects.runs import Runs
 from core.log.defects.stretch import Facts, Stretch
 from core.log.model import Defect
+from core.log.units import TORQUE_OR_FORCE
 
 SHORTEST_PLATEAU = 5
 FEWEST_ROWS = 10
@@ -85,8 +86,8 @@ class Saturation:
                 if limit.top < far or not limit.holds():
                     continue
                 statement = (
-                    f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} N m for "
-                    f"{limit.runs.rows} of {facts.samples} samples, as a limited or clipped signal does."
+                    f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} {TORQUE_OR_FORCE} "
+                    f"for {limit.runs.rows} of {facts.samples} samples, as a limited or clipped signal does."
                 )
                 defect = Defect(
                     "saturation", "torque", joint + 1, limit.runs.rows, limit.runs.intervals, statement

@@ -10,6 +10,7 @@ from core.arrays import Matrix, Samples, Series, Vector
 from core.log.defects.runs import Runs
 from core.log.defects.stretch import Facts, Stretch, counted
 from core.log.model import Defect
+from core.log.units import ANGLE_OR_WAY, TORQUE_OR_FORCE
 
 SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05}
 """Smaller jumps, as a share of the channel's range, are noise to everything that follows."""
@@ -46,7 +47,7 @@ class Spikes:
         """State the spikes, channel by channel and joint by joint."""
         found = []
         for channel, all_runs in self._runs.items():
-            unit = "rad" if channel == "position" else "N m"
+            unit = ANGLE_OR_WAY if channel == "position" else TORQUE_OR_FORCE
             for joint, runs in enumerate(all_runs):
                 if runs.rows:
                     largest, span = self._largest[channel][joint], facts.span(channel)[joint]

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from core.report.page.figures import finding_figure
 from core.report.page.markup import Html, listing, section, table, tag, together
+from core.report.page.units import unit_of_effort
 from core.report.page.words import (
     Document,
     band,
@@ -18,7 +19,6 @@ from core.report.page.words import (
     unbroken,
     uncertain,
     unit,
-    unit_of_effort,
 )
 
 _RAW = "raw check"

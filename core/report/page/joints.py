@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from core.report.page.figures import joint_bars
 from core.report.page.markup import Html, section, table, tag
-from core.report.page.words import Document, fit_band, interval, is_real, number, percent, unit_of_effort
+from core.report.page.units import effort, stray
+from core.report.page.words import Document, fit_band, interval, is_real, percent
 
 
 def joints_section(document: Document) -> Html | None:
@@ -22,8 +23,8 @@ def _compared(document: Document, old: dict[int, Document], new: dict[int, Docum
     rows = [
         [
             *_joint(document, row),
-            number(row["rms_residual"]),
-            number(new[joint]["rms_residual"]),
+            effort(document, joint, row["rms_residual"]),
+            effort(document, joint, new[joint]["rms_residual"]),
             percent(row["nrmse_of_rms_percent"]),
             percent(new[joint]["nrmse_of_rms_percent"]),
             *_gain(gains.get(joint)),
@@ -40,7 +41,7 @@ def _alone(document: Document, old: dict[int, Document]) -> Html:
     rows = [
         [
             *_joint(document, row),
-            number(row["rms_residual"]),
+            effort(document, joint, row["rms_residual"]),
             percent(row["nrmse_of_rms_percent"]),
             _causes_on(document, joint),
         ]
@@ -52,7 +53,7 @@ def _alone(document: Document, old: dict[int, Document]) -> Html:
 
 _UNSEEN = "Error of the predicted torque on data that no fit has seen"
 _TORQUE_NOTE = (
-    "RMS in N m (N where a joint slides). The interval comes from drawing whole blocks of time anew; an "
+    "The interval comes from drawing whole blocks of time anew; an "
     "interval that holds zero means no difference on that joint that is sure."
 )
 
@@ -63,7 +64,7 @@ def _band_note(document: Document) -> str:
 
 def _joint(document: Document, row: Document) -> tuple[str, str]:
     joint = int(row["joint"])
-    return str(joint), f"{number(row['rms_torque'])} {unit_of_effort(document, joint)}"
+    return str(joint), effort(document, joint, row["rms_torque"])
 
 
 def _gain(gain: Document | None) -> tuple[object, str]:
@@ -105,7 +106,7 @@ def _motion_table(document: Document) -> Html | None:
         [
             f"{joint + 1}",
             *(
-                f"{number(1000.0 * side['position_rms'][place][joint])}"
+                stray(document, joint + 1, side["position_rms"][place][joint])
                 for place in range(len(horizons))
                 for side in (old, new)
             ),
@@ -117,8 +118,8 @@ def _motion_table(document: Document) -> Html | None:
     told = simulation.get("note")
     note = (
         f"From {old['windows']} measured states in unseen data, both models were driven by the measured "
-        "torque; the error is how far the simulated robot had strayed from the measured one. RMS in mrad (mm "
-        f"where a joint slides).{f' In the extended model {told}.' if told else ''}"
+        "torque; the error is how far the simulated robot had strayed from the measured one, RMS."
+        f"{f' In the extended model {told}.' if told else ''}"
     )
     return table("Error of the simulated motion", (*headings, "improvement", "95 %"), rows, note=note)
 

@@ -2,17 +2,8 @@
 
 from core.report.page.figures import dependence_figure
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import (
-    Document,
-    band,
-    coordinate,
-    interval,
-    joints,
-    number,
-    series,
-    share,
-    unit_of_effort,
-)
+from core.report.page.units import effort, unit_of_effort
+from core.report.page.words import Document, band, coordinate, interval, joints, number, series, share
 
 _SOURCES = {
     "repeats": "repeats of the motion",
@@ -33,8 +24,8 @@ def unexplained_section(document: Document) -> Html:
     rows = [
         (
             str(joint + 1),
-            number(left["rms_residual"][joint]),
-            number(left["noise_floor"][joint]),
+            effort(document, joint + 1, left["rms_residual"][joint]),
+            effort(document, joint + 1, left["noise_floor"][joint]),
             _SOURCES.get(left["noise_floor_source"][joint], left["noise_floor_source"][joint]),
             share(shares[joint]),
             interval([end and 100.0 * end for end in left["interval_95"][joint]]),
@@ -44,7 +35,7 @@ def unexplained_section(document: Document) -> Html:
     ]
     headings = ("joint", "residual RMS", "noise floor", "floor from", "predictable share", "95 %", "where")
     note = (
-        f"RMS in N m (N where a joint slides), {band(document)}. Noise floor: the noise, estimated without "
+        f"RMS {band(document)}. Noise floor: the noise, estimated without "
         "any model. Predictable share: how much of the residual's mean square a generic learner foretells, "
         "which is the most that any further cause could explain."
     )

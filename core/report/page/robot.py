@@ -3,8 +3,11 @@
 from collections.abc import Sequence
 
 from core.report.page.markup import Html, listing, section, table, tag
+from core.report.page.units import effort, unit_of_mass_matrix
 from core.report.page.whisker import whisker
-from core.report.page.words import Document, fit_band, number, percent, uncertain, unit, unit_of_effort
+from core.report.page.words import Document, fit_band, number, percent, uncertain, unit
+
+_OF_PSEUDO_INERTIA = "in SI units, of entries in kg m², kg m and kg; its sign is what counts"
 
 
 def headline(document: Document) -> str:
@@ -28,25 +31,27 @@ def scores_section(document: Document) -> Html | None:
     rows = [
         (
             str(joint),
-            f"{number(row['rms_torque'])} {unit_of_effort(document, joint)}",
-            number(row["rms_residual"]),
+            effort(document, joint, row["rms_torque"]),
+            effort(document, joint, row["rms_residual"]),
             percent(row["nrmse_of_range_percent"]),
             percent(row["nrmse_of_rms_percent"]),
-            *(
-                (number(held[joint]["rms_residual"]), percent(held[joint]["nrmse_of_rms_percent"]))
-                if joint in held
-                else ("", "")
-            ),
+            *_unseen(document, held.get(joint)),
         )
         for joint, row in fit.items()
     ]
     headings = ("joint", "torque RMS", "error, fitted", "% of range", "% of RMS", "error, unseen", "% of RMS")
     note = (
-        f"RMS in N m (N where a joint slides), {fit_band(document)}: torque and error pass the filter that "
+        f"RMS {fit_band(document)}: torque and error pass the filter that "
         "the model is fitted with. Unseen: blocks of time that were held out of the fit."
     )
     told = table("Error of the predicted torque", headings, rows, note=note)
     return section("How well it predicts torque", told, key="torque")
+
+
+def _unseen(document: Document, row: Document | None) -> tuple[str, str]:
+    if row is None:
+        return "", ""
+    return effort(document, row["joint"], row["rms_residual"]), percent(row["nrmse_of_rms_percent"])
 
 
 def existence_section(document: Document) -> Html | None:
@@ -62,8 +67,11 @@ def existence_section(document: Document) -> Html | None:
     bounds = found.get("active_constraints") or []
     told = [
         f"The identified robot {can} exist; plain least squares gives one that {least}.",
-        smallest and f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(smallest))}.",
-        mass and f"Smallest eigenvalue of the mass matrix in {workspace}: {number(mass['workspace'])}.",
+        smallest
+        and f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(smallest))} {_OF_PSEUDO_INERTIA}.",
+        mass
+        and f"Smallest eigenvalue of the mass matrix in {workspace}: {number(mass['workspace'])} "
+        f"{unit_of_mass_matrix(document)}.",
         f"Solver: {solver.get('status')}; objective {objectives[0]} beside {objectives[1]} of least squares.",
         bounds and f"Bounds that the estimate touches: {', '.join(bounds)}.",
     ]

@@ -3,7 +3,8 @@
 import json
 
 from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.words import Document, number, percent, reference, unit_of_effort
+from core.report.page.units import effort
+from core.report.page.words import Document, number, percent, reference
 
 _IDENTIFY = (
     "Position is differentiated and torque filtered by the same zero-phase filters; the equations of motion "
@@ -69,7 +70,7 @@ def _excitation(document: Document) -> list[object]:
     ]
     noise, memory = precision.get("noise") or [], precision.get("memory_factor") or []
     rows = [
-        (str(joint), f"{number(one)} {unit_of_effort(document, joint)}", number(factor))
+        (str(joint), effort(document, joint, one), number(factor))
         for joint, (one, factor) in enumerate(zip(noise, memory, strict=False), start=1)
     ]
     note = "Memory: by how much samples that resemble their neighbours inflate the variance of a constant."

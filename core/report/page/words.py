@@ -9,6 +9,8 @@ Document = Mapping[str, Any]
 """A result document, or a part of one."""
 _WORTH_A_WORD = 1.0
 """Percent."""
+_SMALLEST, _LARGEST = 0.1, 1000
+"""Percentages below and above are told by these bounds: what they are exactly helps nobody."""
 MINUS = "\N{MINUS SIGN}"
 _STUCK = "\N{NO-BREAK SPACE}"
 NOTHING = "-"
@@ -83,17 +85,23 @@ def uncertain(value: Number, deviation: Number, unit: str = "1") -> str:
 
 
 def percent(value: Number) -> str:
-    """Write a percentage as far as it says anything.
+    """Write a percentage as far as it says anything, and bounds beyond that.
 
     Examples
     --------
-    >>> percent(3.14159), percent(66.8), percent(-0.004)
-    ('3.1 %', '67 %', '0.0 %')
+    >>> percent(3.14159), percent(66.8), percent(0.0)
+    ('3.1 %', '67 %', '0 %')
+    >>> percent(2e-8), percent(2.07e9)
+    ('< 0.1 %', '> 1000 %')
     """
     if value is None:
         return NOTHING
-    shown = f"{value:.0f}" if abs(value) >= 10.0 else f"{value:.1f}"
-    return f"{'0.0' if shown == '-0.0' else shown} %".replace("-", MINUS)
+    if value and abs(value) < 0.5 * _SMALLEST:
+        return f"{'<' if value > 0.0 else '>'} {MINUS * (value < 0.0)}{_SMALLEST} %"
+    if abs(value) > _LARGEST:
+        return f"{'>' if value > 0.0 else '<'} {MINUS * (value < 0.0)}{_LARGEST} %"
+    shown = f"{value:.0f}" if not value or abs(value) >= 10.0 else f"{value:.1f}"
+    return f"{shown} %".replace("-", MINUS)
 
 
 def share(fraction: Number) -> str:
@@ -112,12 +120,12 @@ def interval(ends: Sequence[Number] | None) -> str:
 
     Examples
     --------
-    >>> interval([53.6, 74.2]), interval(None)
-    ('54 to 74 %', '-')
+    >>> interval([53.6, 74.2]), interval([-0.001, 0.2]), interval(None)
+    ('54 to 74 %', '0 to 0.2 %', '-')
     """
     if ends is None or None in ends:
         return NOTHING
-    low, high = (percent(end).removesuffix(" %") for end in ends)
+    low, high = (percent(None if end is None else round(end, 1) + 0.0).removesuffix(" %") for end in ends)
     return f"{low} to {high} %"
 
 
@@ -280,13 +288,6 @@ def fit_band(document: Document) -> str:
     """
     cutoffs = sorted({number((log.get("filter") or {}).get("cutoff_hz")) for log in document["logs"]})
     return f"up to {series(cutoffs)} Hz"
-
-
-def unit_of_effort(document: Document, joint: int) -> str:
-    """Give N for a joint that slides, N m for one that turns."""
-    listed = document.get("robot", {}).get("joints") or []
-    kind = listed[joint - 1].get("type") if 0 < joint <= len(listed) else None
-    return "N" if kind == "prismatic" else "N m"
 
 
 def _tail(words: str) -> str:

@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 
 from core.arrays import Instants, InstantSeries, JointSeries, Mask, Samples
 from core.errors import OptionError
-from core.log.preview import thin
+from core.log.preview import rows_between, thin
 from core.report.traces.layout import HELD_OUT, LOG, SIGNALS, TIME, USED, column
 
 GAP_STEPS = 1.5
@@ -93,7 +93,7 @@ def read_traces(path: Path, view: View) -> Traces:
             if signal not in known:
                 raise _unknown("signal", signal, known)
         time = log.column(TIME)
-        first, last = _rows(time, view)
+        first, last = rows_between(lambda row: float(time[row]), len(time), view.begin, view.end)
         inside = time[first:last]
         names = [column(signal, view.joint) for signal in view.signals]
 
@@ -169,20 +169,6 @@ class LogOfTraces:
 
     def _log_of(self, group: int, place: int) -> int:
         return int(self.file.metadata.row_group(group).column(place).statistics.min)
-
-
-def _rows(time: Samples, view: View) -> tuple[int, int]:
-    """Give the rows of a stretch of time, and one more on either side, so that lines leave the picture."""
-    begin = time[0] if view.begin is None else view.begin
-    end = time[-1] if view.end is None else view.end
-    first, last = np.searchsorted(time, begin, side="left"), np.searchsorted(time, end, side="right")
-    if not begin < end or last <= 0 or first >= len(time):
-        raise OptionError(
-            "nothing was measured in that stretch of time",
-            evidence={"from": begin, "to": end, "first_s": float(time[0]), "last_s": float(time[-1])},
-            remedy="ask for a stretch between the first and the last instant, from before to",
-        )
-    return max(int(first) - 1, 0), min(int(last) + 1, len(time))
 
 
 def stretches(time: Samples) -> list[tuple[int, int]]:

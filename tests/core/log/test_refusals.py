@@ -29,6 +29,8 @@ def test_a_value_that_is_no_usable_number_is_refused_with_its_column_and_row(for
         columns["tau_2"][[1000, 2000]] = value
 
     error = refusal(spoiled(change), tmp_path, form)
+    assert error.cause.startswith("the column 'tau_2' holds 2 values missing")
+    assert error.cause.endswith("the first in row 1001")
     assert error.evidence == {"columns": {"tau_2": {"rows": 2, "first_rows": [1001, 2001]}}}
 
 

@@ -237,3 +237,13 @@ def test_a_short_range_tells_only_distant_harmonics_apart_and_a_long_one_whole_w
     )
     assert np.diff(short).min() == pytest.approx(4.0)
     assert long == [float(number) for number in range(2, 21)]
+
+
+@pytest.mark.parametrize(
+    "cause", [one for one in CAUSES if one.id != "joint_coupling"], ids=lambda cause: cause.id
+)
+def test_what_is_told_of_a_joint_that_slides_is_in_metres_and_newtons(cause, scene):
+    found = replace(as_found(cause, *scene, 0.1), slides=True)
+    units = {one.name: one.unit for one in cause.quantities(found) if one.name != "phase"}
+    told = [*units.values(), cause.statement(found)]
+    assert not [one for one in told if "N m" in one or "rad" in one]

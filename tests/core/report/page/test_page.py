@@ -219,14 +219,14 @@ def test_the_curve_shows_what_the_finding_takes_away_so_that_explained_dots_lie_
 def test_torque_of_a_sliding_joint_is_a_force():
     text = Page(compose_page(identified())).text
     assert "1 10.0 N m" in text
-    assert "2 5.00 N " in text
+    assert "2 5.00 N 0.175 N " in text
     assert "2 5.00 N m" not in text
 
 
 def test_motion_is_compared_at_every_horizon_in_thousandths():
     text = Page(compose_page(diagnosed())).text
     assert "before, 50 ms after, 50 ms before, 200 ms after, 200 ms improvement 95 %" in text
-    assert "1 1.00 0.500 4.00 2.00 50 % 45 to 55 %" in text
+    assert "1 1.00 mrad 0.500 mrad 4.00 mrad 2.00 mrad 50 % 45 to 55 %" in text
     assert "From 60 measured states" in text
 
 
@@ -239,7 +239,7 @@ def test_motion_that_was_not_compared_is_said_with_its_reason():
 def test_what_the_motion_was_not_free_to_decide_is_said_below_its_table():
     simulation = diagnosed()["diagnosis"]["simulation"] | {"note": "time_delay is taken out"}
     text = Page(compose_page(diagnosed(simulation=simulation))).text
-    assert "where a joint slides). In the extended model time_delay is taken out." in text
+    assert "strayed from the measured one, RMS. In the extended model time_delay is taken out." in text
 
 
 def test_a_gain_is_marked_as_real_only_where_its_interval_leaves_zero_out():
@@ -284,7 +284,7 @@ def test_nothing_found_is_said_as_plainly_as_a_cause():
     assert "Nothing that follows the motion is left" in text
     missing = "The reason about encoder_offset: The joint's zero is off, joint 1 . Motion that would show it:"
     assert missing in text
-    assert "1 10.0 N m 0.200 2.0 % 2 5.00 N" in text  # one column of errors, as nothing was cured
+    assert "1 10.0 N m 0.200 N m 2.0 % 2 5.00 N" in text  # one column of errors, as nothing was cured
 
 
 def test_structure_without_a_cause_is_said_with_its_joint_and_place():
@@ -328,6 +328,28 @@ def test_an_identification_is_told_with_its_error_on_unseen_data_and_whether_the
     assert "plain least squares gives one that cannot" in text
     seen = Page(compose_page(identified(validation=[], validation_total_percent=None))).text
     assert "torque error 2.2 % on the data it was fitted to" in seen
+
+
+def test_percentages_that_say_nothing_are_told_by_their_bounds():
+    tiny = Page(compose_page(identified(validation_total_percent=4e-6))).text
+    assert "torque error < 0.1 % on unseen data" in tiny
+    huge = Page(compose_page(identified(validation_total_percent=2.07e9))).text
+    assert "torque error > 1000 % on unseen data" in huge
+
+
+@pytest.mark.parametrize(
+    ("kinds", "unit"),
+    [
+        (["revolute", "revolute"], "0.0700 kg m²."),
+        (["prismatic", "prismatic"], "0.0700 kg."),
+        (["revolute", "prismatic"], "0.0700 in SI units, of entries in kg m², kg m and kg."),
+    ],
+)
+def test_eigenvalues_are_told_with_their_unit_or_that_they_have_none(kinds, unit):
+    robot = {"name": "bench arm", "joints": [{"type": kind} for kind in kinds]}
+    text = Page(compose_page(identified(robot=robot))).text
+    assert f"mass matrix in 10000 configurations of the workspace: {unit}" in text
+    assert "pseudo-inertia: 0.00100 in SI units, of entries in kg m², kg m and kg" in text
 
 
 def test_the_parameters_of_a_diagnosis_are_those_of_the_extended_model():

@@ -1,0 +1,2 @@
+// Say which address holds nothing.
+document.getElementById("address").textContent = location.pathname;

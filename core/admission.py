@@ -1,0 +1,62 @@
+"""Refuse at once what a robot and its logs do not allow, from what is known of them before any row is read.
+
+What only the samples can show (no motion, a cut-off below the motion's band) is found while computing.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.dynamics.model import standard_model
+from core.errors import OptionError
+from core.estimate.constraints import check_links
+from core.options import IdentifyOptions
+from core.robot.model import RobotModel
+from core.signals.condition import check_currents
+
+
+@dataclass(frozen=True)
+class KnownLog:
+    """Say what is known of a log that was read once.
+
+    Attributes
+    ----------
+    rate_hz, duration
+        Sampling rate, and last stamp minus first in s.
+    """
+
+    name: str
+    channels: tuple[str, ...]
+    rate_hz: float
+    duration: float
+
+
+def admit(options: IdentifyOptions, robot: RobotModel, logs: Sequence[KnownLog]) -> None:
+    """Hold options against the robot and the logs that they are meant for.
+
+    Raises
+    ------
+    OptionError
+        If a cut-off, a held-out log, a torque term or a bound does not fit them.
+    LogError
+        If a log holds currents, and the robot does not say what torque a current gives.
+    """
+    model = standard_model(robot, options.terms)
+    if options.reference is None:  # otherwise the reference decides which links the model has
+        check_links(options.estimate.bounds, model)
+    options.validation.chosen(len(logs))
+    for log in logs:
+        options.filter.check_log(log.rate_hz, log.duration)
+        _check_instants(options, log)
+        check_currents(robot, log.channels, log.name)
+
+
+def _check_instants(options: IdentifyOptions, log: KnownLog) -> None:
+    """Refuse a decimation that leaves fewer instants than there are blocks to put them in."""
+    decimation, blocks = options.filter.decimation, options.validation.blocks
+    instants = int(log.rate_hz * log.duration / (decimation or 1)) + 1
+    if decimation and instants < blocks:
+        raise OptionError(
+            "decimation leaves fewer instants of the log than there are blocks",
+            evidence={"decimation": decimation, "instants": instants, "blocks": blocks, "log": log.name},
+            remedy="leave decimation out, or keep one sample in so few that every block has some",
+        )

@@ -1,0 +1,35 @@
+"""Effects have the units of the joint that they act on."""
+
+import numpy as np
+import pytest
+
+from core.dynamics.model import standard_model
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.elasticity import Elasticity
+from core.dynamics.terms.spring import Spring
+from core.dynamics.terms.stribeck import Stribeck
+from core.robot.description import robot_from_description
+from core.robot.model import RobotModel
+
+ROW = {"alpha": 0.0, "d": 0.1, "r": 0.0, "theta_offset": 0.0}
+
+
+@pytest.fixture(scope="module")
+def robot() -> RobotModel:
+    """Give one joint that turns and one that slides."""
+    joints = [{"type": "revolute", **ROW}, {"type": "prismatic", **ROW}]
+    return robot_from_description({"name": "two", "joints": joints})
+
+
+def test_standard_parameters_of_a_slide_are_those_of_a_force_and_a_way(robot):
+    units = {one.name: one.unit for one in standard_model(robot).parameters}
+    assert [units[f"{name}1"] for name in ("FV", "FC", "OFF", "IA")] == ["N m s/rad", "N m", "N m", "kg m2"]
+    assert [units[f"{name}2"] for name in ("FV", "FC", "OFF", "IA")] == ["N s/m", "N", "N", "kg"]
+
+
+@pytest.mark.parametrize("joint", [1, 2])
+def test_further_effects_follow_their_joint(robot, joint):
+    believed = Prediction(standard_model(robot, ("rigid_body",)), np.zeros(20))
+    terms = (Spring(joint), Stribeck(joint, 0.1), Elasticity(joint, believed, 10.0, 20.0, 0.1))
+    units = [term.parameters(robot)[0].unit for term in terms]
+    assert units == [["N m/rad", "N m", "rad/(N m)"], ["N/m", "N", "m/N"]][joint - 1]
