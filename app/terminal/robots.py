@@ -5,11 +5,19 @@ from typing import Annotated, Any
 import typer
 
 from app.documents import json_bytes
-from app.terminal.bench import FromUrdf, bench
+from app.terminal.bench import bench
 from app.terminal.exits import Exit
-from app.terminal.given import JsonOption, KeyOption, RobotArgument, UrlOption
+from app.terminal.given import (
+    BaseLinkOption,
+    GravityOption,
+    JsonOption,
+    KeyOption,
+    RobotArgument,
+    TipLinkOption,
+    UrlOption,
+    part_of,
+)
 from app.terminal.speech import out, say, write
-from core.errors import RobotError
 
 COMMANDS = typer.Typer(
     help="List, show and check robots.",
@@ -18,9 +26,6 @@ COMMANDS = typer.Typer(
     rich_markup_mode=None,
     epilog="\b\nExample:\n  veritorque robots list",
 )
-BaseLinkOption = Annotated[str, typer.Option(help="Of a URDF: the link that stands still.")]
-TipLinkOption = Annotated[str, typer.Option(help="Of a URDF: the last link that is meant.")]
-GravityOption = Annotated[str, typer.Option(help="Of a URDF: x,y,z in m/s2 in the base frame.")]
 GEOMETRY = ("alpha", "d", "theta_offset", "r", "gamma", "b")
 
 
@@ -37,7 +42,8 @@ def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = 
 
 
 @COMMANDS.command(
-    epilog="\b\nExamples:\n  veritorque robots show yumi-left\n  veritorque robots show yumi --json"
+    epilog="\b\nExamples:\n  veritorque robots show yumi-left\n"
+    "  veritorque robots show robot.urdf --tip-link link_7 --json"
 )
 def show(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
@@ -50,9 +56,8 @@ def show(  # noqa: PLR0913  # the options of a command line
     json: JsonOption = False,
 ) -> None:
     """Show a robot as it is understood; with --json its description, which a URDF becomes as well."""
-    part = FromUrdf(base_link or None, tip_link or None, _vector(gravity))
     with bench(url, key) as one:
-        seen = one.robot(robot, part)
+        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
     if json:
         write(json_bytes(seen["description"]))
         return
@@ -61,10 +66,16 @@ def show(  # noqa: PLR0913  # the options of a command line
     _tell_suspicions(seen)
 
 
-@COMMANDS.command(epilog="\b\nExample:\n  veritorque robots check examples/yumi/robot.json")
-def check(
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots check examples/yumi/robot.json\n"
+    "  veritorque robots check robot.urdf --tip-link link_7 --gravity=0,0,-9.81"
+)
+def check(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
     *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
     fail_on_findings: Annotated[
         bool, typer.Option("--fail-on-findings", help="End with 1 where something looks like a mistake.")
     ] = False,
@@ -73,20 +84,30 @@ def check(
 ) -> None:
     """Check a description: what cannot be used is an error, what is rarely meant is told with its numbers."""
     with bench(url, key) as one:
-        seen = one.robot(robot)
+        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
     say(f"{seen['name']}: {seen['joints']} joints; it can be used")
     _tell_suspicions(seen)
     if fail_on_findings and seen["suspicions"]:
         raise typer.Exit(Exit.FOUND)
 
 
-@COMMANDS.command(epilog="\b\nExample:\n  veritorque robots base-parameters yumi-left")
-def base_parameters(
-    robot: RobotArgument, *, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots base-parameters yumi-left\n"
+    "  veritorque robots base-parameters robot.urdf --tip-link link_3"
+)
+def base_parameters(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
 ) -> None:
     """List the combinations of parameters that a motion of the robot can tell apart, with their groupings."""
     with bench(url, key) as one:
-        document = one.base_parameters(robot)
+        document = one.base_parameters(robot, part_of(base_link, tip_link, gravity))
     if json:
         write(json_bytes(document))
         return
@@ -127,17 +148,3 @@ def _tell_suspicions(seen: dict[str, Any]) -> None:
 
 def _listed(values: list[float]) -> str:
     return ", ".join(f"{value:.4g}" for value in values)
-
-
-def _vector(text: str) -> tuple[float, ...] | None:
-    if not text:
-        return None
-    try:
-        parts = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        parts = ()
-    if len(parts) != 3:
-        raise RobotError(
-            "gravity is not three numbers", evidence={"given": text}, remedy="write --gravity=0,0,-9.81"
-        )
-    return parts

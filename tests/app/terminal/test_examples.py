@@ -9,14 +9,13 @@ from typer.main import get_command
 
 from app.jobs import process
 from app.terminal import serve
+from app.terminal.exits import Exit
 from app.terminal.local import LocalBench
 from app.terminal.main import COMMANDS
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT, run
 from tests.app.test_server import listening_service
 from tests.core.report.documents import diagnosed
-
-FOUND = 1
 
 
 def walk(command, path=()):
@@ -68,11 +67,12 @@ def names(tmp_path_factory):
 
 @pytest.fixture
 def prepared(monkeypatch, desk):
-    """A folder in which a service has been run before: with a key and a backup; gives the key's name."""
+    """A folder in which a robot was exported and a service run: with a key and a backup; gives its name."""
     monkeypatch.setattr(serve, "_listen", lambda _: None)
     monkeypatch.setattr(process, "work_until_told", lambda *_, **__: None)
     assert run("keys", "create", "lab").exit_code == 0
     assert run("backup", "backup-of-sunday").exit_code == 0
+    assert run("export", "result.json", "robot.urdf").exit_code == 0
     return {"3f2a91": run("keys", "list").stdout.split()[0]}
 
 
@@ -85,18 +85,19 @@ def test_every_example_runs(line, names, prepared):
     assert ended.exit_code == 0, ended.output
 
 
-@pytest.mark.usefixtures("desk")
-def test_the_example_of_a_diagnosis_finds_what_is_hidden_in_its_log(monkeypatch):
+@pytest.mark.usefixtures("prepared")
+def test_the_examples_of_a_diagnosis_find_what_is_hidden_in_its_log(monkeypatch):
     """The science of it is tested elsewhere and takes its time; here it is what the command does with it."""
     from app.documents import json_bytes
 
-    (line,) = examples(EVERY["diagnose"])
     asked = []
     monkeypatch.setattr(LocalBench, "run", lambda _, *given: asked.append(given) or json_bytes(diagnosed()))
-    assert called(line, {}).exit_code == FOUND
-    ((study, _, report),) = asked
+    ends = [called(line, {}).exit_code for line in examples(EVERY["diagnose"])]
+    assert ends == [Exit.FOUND, Exit.DONE]
+    (study, _, report), (other, _, none) = asked
     assert (study.kind, study.robot, study.logs[0].is_file()) == ("diagnose", "yumi-left", True)
-    assert report == Path("diagnosis.html")
+    assert (report, none) == (Path("diagnosis.html"), None)
+    assert (Path(other.robot).is_file(), other.part.tip_link) == (True, "link_7")
 
 
 def called(line, names):
