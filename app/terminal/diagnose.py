@@ -29,7 +29,7 @@ COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
 Examples:
   veritorque diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html --fail-on-findings
-  veritorque diagnose robot.urdf examples/yumi/hidden_log.csv --tip-link link_7 --gravity=0,0,-9.81
+  veritorque diagnose robot.urdf examples/yumi/hidden_log.csv --tip-link joint_7 --gravity=0,0,-9.81
 """
 ReferenceOption = Annotated[
     str,

@@ -27,7 +27,7 @@ EPILOG = """\b
 Examples:
   veritorque identify yumi-left examples/yumi/log.csv
   veritorque identify examples/yumi/robot.json examples/yumi/log.csv --set bootstrap.draws=0 --json
-  veritorque identify robot.urdf examples/yumi/log.csv --tip-link link_7 --out again.json
+  veritorque identify robot.urdf examples/yumi/log.csv --tip-link joint_7 --set bootstrap.draws=0
 """
 
 

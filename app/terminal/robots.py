@@ -43,7 +43,7 @@ def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = 
 
 @COMMANDS.command(
     epilog="\b\nExamples:\n  veritorque robots show yumi-left\n"
-    "  veritorque robots show robot.urdf --tip-link link_7 --json"
+    "  veritorque robots show robot.urdf --tip-link joint_7 --json"
 )
 def show(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
@@ -68,7 +68,7 @@ def show(  # noqa: PLR0913  # the options of a command line
 
 @COMMANDS.command(
     epilog="\b\nExamples:\n  veritorque robots check examples/yumi/robot.json\n"
-    "  veritorque robots check robot.urdf --tip-link link_7 --gravity=0,0,-9.81"
+    "  veritorque robots check robot.urdf --tip-link joint_7 --gravity=0,0,-9.81"
 )
 def check(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
@@ -93,7 +93,7 @@ def check(  # noqa: PLR0913  # the options of a command line
 
 @COMMANDS.command(
     epilog="\b\nExamples:\n  veritorque robots base-parameters yumi-left\n"
-    "  veritorque robots base-parameters robot.urdf --tip-link link_3"
+    "  veritorque robots base-parameters robot.urdf --tip-link joint_3"
 )
 def base_parameters(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,

@@ -97,7 +97,7 @@ def test_the_examples_of_a_diagnosis_find_what_is_hidden_in_its_log(monkeypatch)
     (study, _, report), (other, _, none) = asked
     assert (study.kind, study.robot, study.logs[0].is_file()) == ("diagnose", "yumi-left", True)
     assert (report, none) == (Path("diagnosis.html"), None)
-    assert (Path(other.robot).is_file(), other.part.tip_link) == (True, "link_7")
+    assert (Path(other.robot).is_file(), other.part.tip_link) == (True, "joint_7")
 
 
 def called(line, names):
