@@ -62,7 +62,7 @@ def show(  # noqa: PLR0913  # the options of a command line
         write(json_bytes(seen["description"]))
         return
     say(f"{seen['name']}: {seen['joints']} joints, gravity {_listed(seen['description']['gravity'])} m/s2")
-    out().print(_joint_table(seen["description"]))
+    _print_joints(seen["description"]["joints"])
     _tell_suspicions(seen)
 
 
@@ -119,26 +119,25 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
         say(f"without effect on the torque: {', '.join(document['without_effect'])}")
 
 
-def _joint_table(description: dict[str, Any]) -> Any:  # noqa: ANN401  # rich is loaded when something is drawn
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table
+def _print_joints(rows: list[dict[str, Any]]) -> None:
+    from app.terminal.columns import Column, print_table
 
-    table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
-    rows = description["joints"]
     shown = [name for name in GEOMETRY if any(row.get(name) for row in rows)]
-    for heading in ("joint", "name", "type", "on", *shown, "position"):
-        table.add_column(heading, justify="left" if heading in ("name", "type") else "right")
-    for place, row in enumerate(rows, start=1):
-        limits = (row.get("limits") or {}).get("position")
-        table.add_row(
-            str(place),
-            str(row.get("name", "")),
-            str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else ""),
-            str(row.get("antecedent", "")),
-            *(f"{row.get(name) or 0.0:.4g}" for name in shown),
-            "" if limits is None else f"{limits[0]:.4g} .. {limits[1]:.4g}",
-        )
-    return table
+    limits = [(row.get("limits") or {}).get("position") for row in rows]
+    kinds = [
+        str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else "") for row in rows
+    ]
+    columns = [
+        Column("joint", [str(place) for place in range(1, len(rows) + 1)]),
+        Column("name", [str(row.get("name", "")) for row in rows], is_text=True, spare=3),
+        Column("type", kinds, is_text=True, spare=1),
+        Column("on", [str(row.get("antecedent", "")) for row in rows], spare=2),
+        *(Column(name, [f"{row.get(name) or 0.0:.4g}" for row in rows]) for name in shown),
+        Column(
+            "position", ["" if one is None else f"{one[0]:.4g} .. {one[1]:.4g}" for one in limits], spare=4
+        ),
+    ]
+    print_table(out(), columns)
 
 
 def _tell_suspicions(seen: dict[str, Any]) -> None:
