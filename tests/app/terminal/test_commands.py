@@ -328,6 +328,64 @@ def test_a_full_disk_is_told_as_what_it_is():
     assert "make room" in said
 
 
+def closed(number, *arguments):
+    """Run a command one of whose streams was closed by whoever called it, as ``>&-`` does in a shell."""
+    script = f"import os, sys; os.close({number}); os.execv(sys.executable, [sys.executable, *sys.argv[1:]])"
+    command = [sys.executable, "-c", script, "-m", "app", *arguments]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return ended.returncode, ended.stdout, ended.stderr
+
+
+@pytest.mark.parametrize(
+    "command", ["version", "--version", "--help", "robots show yumi", "robots show yumi --json"]
+)
+def test_a_command_that_has_something_to_say_tells_that_its_output_is_closed(command):
+    code, _, said = closed(1, *command.split())
+    assert code == Exit.INPUT
+    assert said.startswith("error: standard output is closed")
+    assert "what to do: " in said
+
+
+def test_a_command_that_writes_a_file_needs_no_output_and_lends_its_number_to_no_file(desk):
+    assert closed(1, "export", "result.json", "robot.urdf") == (Exit.DONE, "", "saved robot.urdf\n")
+    assert (desk / "robot.urdf").read_text().endswith("</robot>\n")
+
+
+def test_a_command_whose_errors_nobody_reads_works_and_ends_as_ever():
+    assert closed(2, "version")[0] == Exit.DONE
+    assert closed(2, "robots", "show", "nobody") == (Exit.INPUT, "", "")
+
+
+@pytest.mark.parametrize(
+    "loaded",
+    [
+        "app.terminal.interruption",
+        "app.terminal.main",
+        "typer",
+        "app.terminal.guard",
+        "app.terminal.robots",
+        "app.terminal.local",
+    ],
+)
+def test_an_interruption_while_the_command_is_being_loaded_ends_as_any_other(loaded):
+    script = (
+        "import os, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "class Interrupting:\n"
+        "    def find_spec(self, name, *_):\n"
+        f"        if name == {loaded!r}: os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Interrupting())\n"
+        "sys.argv = ['veritorque', 'robots', 'list']\n"
+        "from app.terminal.start import main\n"
+        "main()\n"
+    )
+    command = [sys.executable, "-c", script]
+    ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout) == (Exit.INTERRUPTED, "")
+    assert ended.stderr in ("", "interrupted\n")
+
+
 def test_a_name_that_the_alphabet_of_the_terminal_lacks_stops_nothing(tmp_path):
     log = tmp_path / "Übung.csv"
     log.write_bytes(csv_log())
