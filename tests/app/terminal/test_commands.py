@@ -9,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 
 from app.client.client import Client
@@ -182,6 +183,22 @@ def test_a_report_made_from_files_shows_what_was_measured_and_estimated_as_the_s
             assert run(*asked, VERITORQUE_URL=service).exit_code == 0
     here, there = ((planar / name).read_text() for name in ("here.html", "there.html"))
     assert here.count("<svg") == there.count("<svg") >= 4
+
+
+def test_what_a_job_computed_instant_by_instant_is_fetched_as_a_file_and_missed_in_a_result(
+    planar, tmp_path_factory
+):
+    with listening_service(tmp_path_factory.mktemp("data"), InlineExecutor()) as (_, port):
+        service = ("--url", f"http://127.0.0.1:{port}")
+        asked = run("identify", "arm.json", "swing.csv", *QUICK, "--out", "arm-result.json", *service)
+        job = asked.stderr.partition("job ")[2].split()[0]
+        assert run("export", job, "residuals.parquet", *service).exit_code == Exit.DONE
+    table = pq.read_table(planar / "residuals.parquet")
+    assert {"time", "residual_1", "torque_estimated_2", "used_2"} <= set(table.column_names)
+    assert table.num_rows > 100
+    refused = run("export", "arm-result.json", "residuals.parquet")
+    assert (refused.exit_code, "--url" in refused.stderr) == (Exit.INPUT, True)
+    assert "residuals.parquet" in run("export", "--list").stdout
 
 
 def test_a_job_that_was_taken_before_the_interruption_came_is_dismissed_all_the_same(

@@ -1,5 +1,6 @@
 """Every command shows an example in its help, and every example runs."""
 
+import logging
 import re
 import shlex
 from pathlib import Path
@@ -52,10 +53,18 @@ def test_every_command_has_help_with_an_example_of_itself(name):
     assert examples(EVERY[name])
 
 
+class _Recording(StubExecutor):
+    """Leave what a computation leaves instant by instant; here it is not looked into."""
+
+    def run(self, computation, **more):
+        computation.traces.write_bytes(b"PAR1")
+        return super().run(computation, **more)
+
+
 @pytest.fixture(scope="module")
 def names(tmp_path_factory):
     """What examples call by name and this machine calls otherwise: a service, and a job on it."""
-    executor = StubExecutor()
+    executor = _Recording()
     executor.release.set()
     with listening_service(tmp_path_factory.mktemp("served"), executor) as (_, port):
         url = f"http://127.0.0.1:{port}"
@@ -83,6 +92,13 @@ QUICK = sorted({line for name, one in EVERY.items() for line in examples(one) if
 def test_every_example_runs(line, names, prepared):
     ended = called(line, names | prepared)
     assert ended.exit_code == 0, ended.output
+
+
+@pytest.mark.usefixtures("prepared")
+def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_is_closed(capsys):
+    assert run("work").exit_code == 0
+    logging.getLogger("app.jobs.worker").warning("computed")
+    assert "Logging error" not in capsys.readouterr().err
 
 
 @pytest.mark.usefixtures("prepared")
