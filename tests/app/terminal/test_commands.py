@@ -201,6 +201,12 @@ def test_what_a_job_computed_instant_by_instant_is_fetched_as_a_file_and_missed_
     assert "residuals.parquet" in run("export", "--list").stdout
 
 
+def test_a_report_of_a_result_says_which_figures_it_cannot_have(desk):
+    whole = run("report", "result.json", "--out", "page.html")
+    assert (whole.exit_code, "identify --report" in whole.stderr) == (Exit.DONE, True)
+    assert (desk / "page.html").is_file()
+
+
 def test_a_job_that_was_taken_before_the_interruption_came_is_dismissed_all_the_same(
     planar, tmp_path_factory, monkeypatch
 ):
