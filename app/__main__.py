@@ -5,6 +5,6 @@ name.
 """
 
 if __name__ == "__main__":
-    from app.terminal.main import main
+    from app.terminal.start import main
 
     main()

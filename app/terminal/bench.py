@@ -16,6 +16,18 @@ Tell = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
+class FromUrdf:
+    """Say which part of a URDF is meant, and where down is (m/s2 in the base frame)."""
+
+    base_link: str | None = None
+    tip_link: str | None = None
+    gravity: tuple[float, ...] | None = None
+
+
+WHOLE = FromUrdf()
+
+
+@dataclass(frozen=True)
 class Study:
     """Ask for a computation.
 
@@ -27,6 +39,8 @@ class Study:
         What `Bench.robot` takes.
     mapping
         Of all logs; None for the default names.
+    part
+        Of the robot, where it is a URDF.
     """
 
     kind: str
@@ -34,18 +48,7 @@ class Study:
     logs: tuple[Path, ...]
     mapping: Mapping[str, object] | None = None
     options: Mapping[str, object] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class FromUrdf:
-    """Say which part of a URDF is meant, and where down is (m/s2 in the base frame)."""
-
-    base_link: str | None = None
-    tip_link: str | None = None
-    gravity: tuple[float, ...] | None = None
-
-
-WHOLE = FromUrdf()
+    part: FromUrdf = WHOLE
 
 
 def require_whole(given: str, part: FromUrdf) -> None:
@@ -76,7 +79,7 @@ class Bench(Protocol):
         """Read a robot as `GET /v1/robots/{id}` gives it."""
         ...
 
-    def base_parameters(self, given: str) -> Document:
+    def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
         ...
 

@@ -7,6 +7,8 @@ import typer
 from app.terminal.bench import Study
 from app.terminal.exits import Exit
 from app.terminal.given import (
+    BaseLinkOption,
+    GravityOption,
     JsonOption,
     KeyOption,
     LogsArgument,
@@ -15,16 +17,19 @@ from app.terminal.given import (
     ProfileOption,
     RobotArgument,
     SetOption,
+    TipLinkOption,
     UrlOption,
     mapping_of,
     options_of,
+    part_of,
 )
 from app.terminal.study import OutOption, ReportOption, Wanted, run
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
-Example:
+Examples:
   veritorque diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html --fail-on-findings
+  veritorque diagnose robot.urdf examples/yumi/hidden_log.csv --tip-link joint_7 --gravity=0,0,-9.81
 """
 ReferenceOption = Annotated[
     str,
@@ -42,6 +47,9 @@ def diagnose(  # noqa: PLR0913  # the options of a command line
     *,
     reference: ReferenceOption = "",
     fail_on_findings: FailOption = False,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
     mapping: MappingOption = "",
     profile: ProfileOption = "",
     options: OptionsOption = "",
@@ -54,7 +62,8 @@ def diagnose(  # noqa: PLR0913  # the options of a command line
 ) -> None:
     """Identify a robot, then name what its simulation gets wrong, why, and what mending it gains."""
     chosen = options_of(options, settings) | ({"reference": reference} if reference else {})
-    study = Study("diagnose", robot, tuple(logs), mapping_of(mapping, profile), chosen)
+    part = part_of(base_link, tip_link, gravity)
+    study = Study("diagnose", robot, tuple(logs), mapping_of(mapping, profile), chosen, part)
     document = run(study, url=url, key=key, wanted=Wanted(json, out, report))
     if not json:
         from app.terminal.findings import print_diagnosis

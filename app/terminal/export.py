@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from app.artifacts import TRACES_FILE, TRACES_TYPE
 from app.terminal.files import means_a_file, require_folder, save
 from app.terminal.given import KeyOption, UrlOption
 from app.terminal.results import RESULT_HELP, read_result
@@ -13,17 +14,21 @@ from core.errors import OptionError
 from core.export.formats import FORMATS
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+TRACES_TITLE = "torques and residuals of every instant, of a job (--url)"
 EPILOG = "\b\nExamples:\n  veritorque export result.json robot.urdf\n" + (
     "  veritorque export result.json robot.xml --out yumi.xml\n"
+    "  veritorque export 5f0c1d9e residuals.parquet --url http://127.0.0.1:8000\n"
     "  veritorque export --list\n\n\b\nFormats:\n"
     + "\n".join(f"  {name:<24}{form.title}" for name, form in FORMATS.items())
+    + f"\n  {TRACES_FILE:<24}{TRACES_TITLE}\n"
 )
 
 
 def _print_list(wanted: bool) -> None:  # noqa: FBT001  # as typer calls it
     if wanted:
         for name, form in FORMATS.items():
-            say(f"{name:<24}{form.media_type:<28}{form.title}")
+            say(f"{name:<24}{form.media_type:<34}{form.title}")
+        say(f"{TRACES_FILE:<24}{TRACES_TYPE:<34}{TRACES_TITLE}")
         raise typer.Exit
 
 
@@ -43,10 +48,10 @@ def export(
     ] = False,
 ) -> None:
     """Write the identified robot as URDF, MJCF, SDFormat, YAML, CSV, MATLAB, C, or a model file."""
-    if name not in FORMATS:
+    if name not in (*FORMATS, TRACES_FILE):
         raise OptionError(
             f"there is no format {name}",
-            evidence={"known": list(FORMATS)},
+            evidence={"known": [*FORMATS, TRACES_FILE]},
             remedy="name one of the known formats",
         )
     target = out or Path(name)
@@ -65,4 +70,11 @@ def _content(result: str, name: str, url: str, key: str) -> bytes:
 
         with Client(url, key or None) as client:
             return client.export(result, name)
-    return FORMATS[name].write(read_result(result))
+    document = read_result(result)
+    if name == TRACES_FILE:
+        raise OptionError(
+            f"{result} holds the result, and not the torques of every instant",
+            evidence={"asked_for": name, "kind": document["kind"]},
+            remedy="give --url and the id of a job: the service keeps them; `identify --report` draws them",
+        )
+    return FORMATS[name].write(document)

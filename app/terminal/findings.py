@@ -6,13 +6,12 @@ The full story with its figures is in the report; this is what a reader sees fir
 from collections.abc import Mapping
 from typing import Any
 
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
-from rich.table import Table
 
-from app.terminal.tables import LEFT, number, percent
+from app.terminal.columns import Column, print_table
+from app.terminal.tables import number, percent
 
 Document = Mapping[str, Any]
 
@@ -27,7 +26,15 @@ def print_diagnosis(console: Console, result: Document) -> None:
         for line in reasons(finding, band):
             console.print(Padding(escape(line), (0, 0, 0, 3)))
     if diagnosis["gain"]:
-        console.print(gain_table(result))
+        title = "Error on data that no fit has seen, without and with the cure in the model"
+        console.print()
+        print_table(
+            console,
+            gain_columns(result),
+            title=title,
+            caption=where_judged(result),
+            styles=["green" if is_sure(row) else "" for row in diagnosis["gain"]],
+        )
     console.print(remainder(diagnosis["unexplained"]))
 
 
@@ -71,28 +78,25 @@ def chance(p_value: float) -> str:
     return f"{p_value:.0e}" if p_value > 1e-300 else "below 1e-300"
 
 
-def gain_table(result: Document) -> Table:
-    """Set the error on held-out data before and after the cure in a table, in torque and in motion."""
+def gain_columns(result: Document) -> list[Column]:
+    """Give the error on held-out data before and after the cure, in torque and in motion."""
     diagnosis = result["diagnosis"]
-    title = "\nError on data that no fit has seen, without and with the cure in the model"
-    table = Table(title=title, caption=where_judged(result), box=SIMPLE_HEAD, **LEFT)
-    headings = ("joint", "before, N m", "after, N m", "less torque error, %", "95 %", "less motion error, %")
-    for heading in headings:
-        table.add_column(heading, justify="right")
-    moved = diagnosis["simulation"].get("improvement_total_percent") or []
-    for row in diagnosis["gain"]:
-        ends, joint = row["interval_95"], row["joint"]
-        sure = ends is not None and ends[0] > 0.0 and row["improvement_percent"] >= 1.0
-        table.add_row(
-            str(joint),
-            number(row["rms_residual_before"]),
-            number(row["rms_residual_after"]),
-            percent(row["improvement_percent"]),
-            "" if ends is None else f"{ends[0]:.1f} to {ends[1]:.1f}",
-            percent(moved[joint - 1]) if moved else "",
-            style="green" if sure else None,
-        )
-    return table
+    rows, moved = diagnosis["gain"], diagnosis["simulation"].get("improvement_total_percent") or []
+    ends = [row["interval_95"] for row in rows]
+    return [
+        Column("joint", [str(row["joint"]) for row in rows]),
+        Column("before, N m", [number(row["rms_residual_before"]) for row in rows], spare=2),
+        Column("after, N m", [number(row["rms_residual_after"]) for row in rows], spare=1),
+        Column("less torque error, %", [percent(row["improvement_percent"]) for row in rows]),
+        Column("95 %", ["" if one is None else f"{one[0]:.1f} to {one[1]:.1f}" for one in ends], spare=3),
+        Column("less motion error, %", [percent(moved[row["joint"] - 1]) if moved else "" for row in rows]),
+    ]
+
+
+def is_sure(row: Document) -> bool:
+    """Tell a gain that is more than luck, and worth naming."""
+    ends = row["interval_95"]
+    return ends is not None and ends[0] > 0.0 and row["improvement_percent"] >= 1.0
 
 
 def where_judged(result: Document) -> str:

@@ -6,7 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from core.errors import LogError, OptionError, VeritorqueError
+from app.terminal.bench import FromUrdf
+from core.errors import LogError, OptionError, RobotError, VeritorqueError
 
 Document = dict[str, Any]
 
@@ -15,6 +16,11 @@ RobotArgument = Annotated[
     typer.Argument(
         metavar="ROBOT", help="A built-in robot, a description (JSON) or a URDF; with --url also an id."
     ),
+]
+BaseLinkOption = Annotated[str, typer.Option(help="Of a URDF: the link that stands still.")]
+TipLinkOption = Annotated[str, typer.Option(help="Of a URDF: the last link that is meant.")]
+GravityOption = Annotated[
+    str, typer.Option(metavar="X,Y,Z", help="Of a URDF: gravity in the base link's frame, m/s2.")
 ]
 LogsArgument = Annotated[list[Path], typer.Argument(metavar="LOG...", help="Logs in any format.")]
 MappingOption = Annotated[
@@ -38,6 +44,22 @@ KeyOption = Annotated[
     ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print a document, and nothing else.")]
+
+
+def part_of(base_link: str, tip_link: str, gravity: str) -> FromUrdf:
+    """Join what was given of a URDF; what is empty was not given.
+
+    Raises
+    ------
+    RobotError
+        If gravity is not three numbers.
+
+    Examples
+    --------
+    >>> part_of("", "left_hand", "0,0,-9.81")
+    FromUrdf(base_link=None, tip_link='left_hand', gravity=(0.0, 0.0, -9.81))
+    """
+    return FromUrdf(base_link or None, tip_link or None, _vector(gravity) if gravity else None)
 
 
 def mapping_of(mapping: str, profile: str) -> Document | None:
@@ -106,6 +128,18 @@ def json_object(given: str, what: str, error: type[VeritorqueError]) -> Document
             remedy='give named fields: {"...": ...}',
         )
     return document
+
+
+def _vector(text: str) -> tuple[float, ...]:
+    try:
+        parts = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        parts = ()
+    if len(parts) != 3:
+        raise RobotError(
+            "gravity is not three numbers", evidence={"given": text}, remedy="write --gravity=0,0,-9.81"
+        )
+    return parts
 
 
 def _value(text: str) -> object:

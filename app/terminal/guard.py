@@ -17,6 +17,7 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from app.terminal.exits import Exit, exit_of, exit_of_error
+from app.terminal.interruption import let_commands_hear
 from app.terminal.speech import complain, note
 from core.errors import VeritorqueError
 
@@ -46,7 +47,13 @@ class Commands(TyperGroup):
         loaded = get_command(import_module(self.homes[cmd_name]).COMMANDS)
         found = getattr(loaded, "commands", {}).get(cmd_name, loaded)
         found.name = cmd_name
+        let_commands_hear()
         return found
+
+    def make_context(self, *arguments: Any, **more: Any) -> Any:  # noqa: ANN401
+        """Read the command line; whatever stops that becomes words and an exit code."""
+        with guarded():
+            return super().make_context(*arguments, **more)
 
     def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
         """Run a command; whatever stops it becomes words and an exit code."""
@@ -79,6 +86,13 @@ def _other(error: Exception) -> Exit:
     if isinstance(error, Problem):
         complain(str(error.detail), error.evidence, error.remedy)
         return exit_of(error.kind)
+    if isinstance(error, OSError) and error.errno == errno.EBADF and not error.filename:
+        complain(
+            "standard output is closed, and this command has something to say there",
+            {"reason": error.strerror},
+            "leave it open, or send it to a file or to /dev/null",
+        )
+        return Exit.INPUT
     if isinstance(error, OSError) and error.errno in NO_ROOM:
         complain(
             "there is no room for what is to be written",

@@ -4,6 +4,8 @@ import typer
 
 from app.terminal.bench import Study
 from app.terminal.given import (
+    BaseLinkOption,
+    GravityOption,
     JsonOption,
     KeyOption,
     LogsArgument,
@@ -12,9 +14,11 @@ from app.terminal.given import (
     ProfileOption,
     RobotArgument,
     SetOption,
+    TipLinkOption,
     UrlOption,
     mapping_of,
     options_of,
+    part_of,
 )
 from app.terminal.study import OutOption, ReportOption, Wanted, run
 
@@ -23,6 +27,7 @@ EPILOG = """\b
 Examples:
   veritorque identify yumi-left examples/yumi/log.csv
   veritorque identify examples/yumi/robot.json examples/yumi/log.csv --set bootstrap.draws=0 --json
+  veritorque identify robot.urdf examples/yumi/log.csv --tip-link joint_7 --set bootstrap.draws=0
 """
 
 
@@ -31,6 +36,9 @@ def identify(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
     logs: LogsArgument,
     *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
     mapping: MappingOption = "",
     profile: ProfileOption = "",
     options: OptionsOption = "",
@@ -42,7 +50,14 @@ def identify(  # noqa: PLR0913  # the options of a command line
     report: ReportOption = None,
 ) -> None:
     """Identify a robot from its logs: parameters of a robot that can exist, and how well each is known."""
-    study = Study("identify", robot, tuple(logs), mapping_of(mapping, profile), options_of(options, settings))
+    study = Study(
+        "identify",
+        robot,
+        tuple(logs),
+        mapping_of(mapping, profile),
+        options_of(options, settings),
+        part_of(base_link, tip_link, gravity),
+    )
     document = run(study, url=url, key=key, wanted=Wanted(json, out, report))
     if not json:
         from app.terminal.speech import out as console

@@ -63,11 +63,11 @@ class LocalBench:
             "description": description,
         }
 
-    def base_parameters(self, given: str) -> Document:
+    def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
         from app.jobs import science
 
-        description = self.robot(given)["description"]
+        description = self.robot(given, part)["description"]
         _tell_of_compiling()
         return {"robot": given} | science.base_parameters(description)
 
@@ -85,7 +85,7 @@ class LocalBench:
         from app.jobs.computation import Computation, LogFile
 
         tell("load", 0.0)
-        robot = self.robot(study.robot)["description"]
+        robot = self.robot(study.robot, study.part)["description"]
         science.check_options(study.kind, dict(study.options))
         mapping = None if study.mapping is None else dict(study.mapping)
         logs = tuple(LogFile(path, log_name(path.name), mapping, _hash(path)) for path in study.logs)

@@ -30,7 +30,7 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
     if log.ignored_columns:
         yield f"  {'not used':<20}{_shortened(log.ignored_columns)}"
     yield from _reach_lines(seen.reach)
-    yield f"{len(log.defects)} defects" + (":" if log.defects else "")
+    yield f"{len(log.defects)} {'defect' if len(log.defects) == 1 else 'defects'}{':' if log.defects else ''}"
     for defect in log.defects:
         joint = "" if defect.joint is None else f" {defect.joint}"
         yield f"  {defect.kind:<18}{defect.channel + joint:<14}{defect.statement}"

@@ -55,16 +55,26 @@ def check(
     if json:
         say(encoder.dumps(documents if len(documents) > 1 else documents[0]))
     for path, seen in checks:
-        if not json:
-            for line in lines_of(path, seen):
-                say(line)
-        if seen.refusal is not None:
-            complain(seen.refusal.cause, _of(path, seen.refusal), seen.refusal.remedy)
-            _tell_suggestion(seen.suggestion)
+        for line in () if json else lines_of(path, seen):
+            say(line)
+        _tell_of(path, seen)
     if any(seen.refusal is not None for _, seen in checks):
         raise typer.Exit(Exit.INPUT)
     if fail_on_defects and any(document["defects"] for document in documents):
         raise typer.Exit(Exit.FOUND)
+
+
+def _tell_of(path: Path, seen: "LogCheck") -> None:
+    """Say beside the result why a log cannot be used, and which mapping might mend it."""
+    why = "the sizes suggest these units; believe the recorder rather than this"
+    if seen.refusal is not None:
+        complain(seen.refusal.cause, _of(path, seen.refusal), seen.refusal.remedy)
+        why = "the names suggest this; look at the units before you believe it"
+    if seen.suggestion is not None:
+        written = encoder.dumps(seen.suggestion)
+        unknown = ', and write for "?" what the recorder knows' if '"?"' in written else ""
+        note(f"  {why}{unknown}:")
+        note(f"  --mapping '{written}'")
 
 
 def _look(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
@@ -79,9 +89,3 @@ def _look(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
 def _of(path: Path, error: LogError) -> dict[str, Any]:
     """Give what was seen, with the log in which it was: there may be several."""
     return {"log": path.name, **error.evidence}
-
-
-def _tell_suggestion(suggestion: Any) -> None:  # noqa: ANN401  # a mapping, or None
-    if suggestion is not None:
-        note("  the names suggest this; look at the units before you believe it:")
-        note(f"  --mapping '{encoder.dumps(suggestion)}'")

@@ -32,15 +32,15 @@ class RemoteBench:
             "description": dict(robot.description),
         }
 
-    def base_parameters(self, given: str) -> Document:
+    def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
-        return self._client.base_parameters(self._robot(given))
+        return self._client.base_parameters(self._robot(given, part))
 
     def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
         """Compute; whoever interrupts this dismisses the job."""
         for path in study.logs:
             require_file(path, LogError)
-        robot = self._robot(study.robot)
+        robot = self._robot(study.robot, study.part)
         tell("upload", 0.0)
         logs = [self._client.upload(path, mapping=study.mapping) for path in study.logs]
         ask = partial(self._client.submit, study.kind, robot, logs, study.options)
@@ -57,7 +57,7 @@ class RemoteBench:
             save(report, self._client.report(job))
         return self._client.result_bytes(job)
 
-    def _robot(self, given: str, part: FromUrdf = WHOLE) -> Robot:
+    def _robot(self, given: str, part: FromUrdf) -> Robot:
         if means_a_file(given):
             return self._client.add_robot(Path(given), **vars(part))
         require_whole(given, part)

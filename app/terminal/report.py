@@ -8,6 +8,7 @@ import typer
 from app.terminal.files import means_a_file, require_folder, save
 from app.terminal.given import KeyOption, UrlOption
 from app.terminal.results import RESULT_HELP, read_result
+from app.terminal.speech import note
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
@@ -36,3 +37,4 @@ def report(
     from core.report.page.page import compose_page
 
     save(out, compose_page(read_result(result)).encode())
+    note("without torques over time, which no result holds: identify --report and jobs (--url) draw them")

@@ -5,11 +5,19 @@ from typing import Annotated, Any
 import typer
 
 from app.documents import json_bytes
-from app.terminal.bench import FromUrdf, bench
+from app.terminal.bench import bench
 from app.terminal.exits import Exit
-from app.terminal.given import JsonOption, KeyOption, RobotArgument, UrlOption
+from app.terminal.given import (
+    BaseLinkOption,
+    GravityOption,
+    JsonOption,
+    KeyOption,
+    RobotArgument,
+    TipLinkOption,
+    UrlOption,
+    part_of,
+)
 from app.terminal.speech import out, say, write
-from core.errors import RobotError
 
 COMMANDS = typer.Typer(
     help="List, show and check robots.",
@@ -18,9 +26,6 @@ COMMANDS = typer.Typer(
     rich_markup_mode=None,
     epilog="\b\nExample:\n  veritorque robots list",
 )
-BaseLinkOption = Annotated[str, typer.Option(help="Of a URDF: the link that stands still.")]
-TipLinkOption = Annotated[str, typer.Option(help="Of a URDF: the last link that is meant.")]
-GravityOption = Annotated[str, typer.Option(help="Of a URDF: x,y,z in m/s2 in the base frame.")]
 GEOMETRY = ("alpha", "d", "theta_offset", "r", "gamma", "b")
 
 
@@ -37,7 +42,8 @@ def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = 
 
 
 @COMMANDS.command(
-    epilog="\b\nExamples:\n  veritorque robots show yumi-left\n  veritorque robots show yumi --json"
+    epilog="\b\nExamples:\n  veritorque robots show yumi-left\n"
+    "  veritorque robots show robot.urdf --tip-link joint_7 --json"
 )
 def show(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
@@ -50,21 +56,26 @@ def show(  # noqa: PLR0913  # the options of a command line
     json: JsonOption = False,
 ) -> None:
     """Show a robot as it is understood; with --json its description, which a URDF becomes as well."""
-    part = FromUrdf(base_link or None, tip_link or None, _vector(gravity))
     with bench(url, key) as one:
-        seen = one.robot(robot, part)
+        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
     if json:
         write(json_bytes(seen["description"]))
         return
     say(f"{seen['name']}: {seen['joints']} joints, gravity {_listed(seen['description']['gravity'])} m/s2")
-    out().print(_joint_table(seen["description"]))
+    _print_joints(seen["description"]["joints"])
     _tell_suspicions(seen)
 
 
-@COMMANDS.command(epilog="\b\nExample:\n  veritorque robots check examples/yumi/robot.json")
-def check(
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots check examples/yumi/robot.json\n"
+    "  veritorque robots check robot.urdf --tip-link joint_7 --gravity=0,0,-9.81"
+)
+def check(  # noqa: PLR0913  # the options of a command line
     robot: RobotArgument,
     *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
     fail_on_findings: Annotated[
         bool, typer.Option("--fail-on-findings", help="End with 1 where something looks like a mistake.")
     ] = False,
@@ -73,20 +84,30 @@ def check(
 ) -> None:
     """Check a description: what cannot be used is an error, what is rarely meant is told with its numbers."""
     with bench(url, key) as one:
-        seen = one.robot(robot)
+        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
     say(f"{seen['name']}: {seen['joints']} joints; it can be used")
     _tell_suspicions(seen)
     if fail_on_findings and seen["suspicions"]:
         raise typer.Exit(Exit.FOUND)
 
 
-@COMMANDS.command(epilog="\b\nExample:\n  veritorque robots base-parameters yumi-left")
-def base_parameters(
-    robot: RobotArgument, *, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots base-parameters yumi-left\n"
+    "  veritorque robots base-parameters robot.urdf --tip-link joint_3"
+)
+def base_parameters(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
 ) -> None:
     """List the combinations of parameters that a motion of the robot can tell apart, with their groupings."""
     with bench(url, key) as one:
-        document = one.base_parameters(robot)
+        document = one.base_parameters(robot, part_of(base_link, tip_link, gravity))
     if json:
         write(json_bytes(document))
         return
@@ -98,26 +119,25 @@ def base_parameters(
         say(f"without effect on the torque: {', '.join(document['without_effect'])}")
 
 
-def _joint_table(description: dict[str, Any]) -> Any:  # noqa: ANN401  # rich is loaded when something is drawn
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table
+def _print_joints(rows: list[dict[str, Any]]) -> None:
+    from app.terminal.columns import Column, print_table
 
-    table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
-    rows = description["joints"]
     shown = [name for name in GEOMETRY if any(row.get(name) for row in rows)]
-    for heading in ("joint", "name", "type", "on", *shown, "position"):
-        table.add_column(heading, justify="left" if heading in ("name", "type") else "right")
-    for place, row in enumerate(rows, start=1):
-        limits = (row.get("limits") or {}).get("position")
-        table.add_row(
-            str(place),
-            str(row.get("name", "")),
-            str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else ""),
-            str(row.get("antecedent", "")),
-            *(f"{row.get(name) or 0.0:.4g}" for name in shown),
-            "" if limits is None else f"{limits[0]:.4g} .. {limits[1]:.4g}",
-        )
-    return table
+    limits = [(row.get("limits") or {}).get("position") for row in rows]
+    kinds = [
+        str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else "") for row in rows
+    ]
+    columns = [
+        Column("joint", [str(place) for place in range(1, len(rows) + 1)]),
+        Column("name", [str(row.get("name", "")) for row in rows], is_text=True, spare=3),
+        Column("type", kinds, is_text=True, spare=1),
+        Column("on", [str(row.get("antecedent", "")) for row in rows], spare=2),
+        *(Column(name, [f"{row.get(name) or 0.0:.4g}" for row in rows]) for name in shown),
+        Column(
+            "position", ["" if one is None else f"{one[0]:.4g} .. {one[1]:.4g}" for one in limits], spare=4
+        ),
+    ]
+    print_table(out(), columns)
 
 
 def _tell_suspicions(seen: dict[str, Any]) -> None:
@@ -127,17 +147,3 @@ def _tell_suspicions(seen: dict[str, Any]) -> None:
 
 def _listed(values: list[float]) -> str:
     return ", ".join(f"{value:.4g}" for value in values)
-
-
-def _vector(text: str) -> tuple[float, ...] | None:
-    if not text:
-        return None
-    try:
-        parts = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        parts = ()
-    if len(parts) != 3:
-        raise RobotError(
-            "gravity is not three numbers", evidence={"given": text}, remedy="write --gravity=0,0,-9.81"
-        )
-    return parts

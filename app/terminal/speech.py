@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NoReturn
 if TYPE_CHECKING:
     from rich.console import Console
 
+MOST_PARTS = 4
+"""Named parts of what was seen that are written out; documents hold all."""
 PIPED_WIDTH = 200
 """Columns where nobody watches: lines are not folded, so that a table keeps one row a line."""
 
@@ -74,7 +76,9 @@ def _console(*, error: bool) -> "Console":
 
 def _shown(value: object) -> str:
     if isinstance(value, Mapping):
-        return "; ".join(f"{name}: {_shown(one)}" for name, one in value.items()) or "none"
+        parts = [f"{name}: {_shown(one)}" for name, one in value.items()]
+        more = len(parts) - MOST_PARTS
+        return "; ".join(parts[:MOST_PARTS] + ([f"and {more} more"] if more > 0 else [])) or "none"
     if isinstance(value, list | tuple):
         return ", ".join(_shown(one) for one in value) or "none"
     return str(value)

@@ -1,17 +1,16 @@
 """Print an identification: parameters, how well each is known, errors per joint, and a verdict in words."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
 
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table
+
+from app.terminal.columns import Column, print_table
 
 Document = Mapping[str, Any]
 
 FRICTION: Final = ("OFF", "FC", "FV")
-LEFT: Final[dict[str, Any]] = {"title_justify": "left", "caption_justify": "left", "title_style": "bold"}
 
 
 def print_result(console: Console, result: Document) -> None:
@@ -19,8 +18,9 @@ def print_result(console: Console, result: Document) -> None:
     friction, inertial = parted(result["base_parameters"])
     for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
         if part:
-            console.print(parameter_table(title, part))
-    console.print(score_table(result))
+            print_table(console, parameter_columns(part), title=title, caption="* essential")
+    title = "Error of the predicted torque, % of its range and of its rms"
+    print_table(console, score_columns(result), title=title)
     for line in verdict(result):
         console.print(line)
 
@@ -32,45 +32,33 @@ def parted(rows: Iterable[Document]) -> tuple[list[Document], list[Document]]:
     return friction, [row for row in rows if row not in friction]
 
 
-def parameter_table(title: str, rows: Iterable[Document]) -> Table:
-    """Set parameters in a table; a star marks the essential ones."""
-    table = Table(title=title, caption="* essential", box=SIMPLE_HEAD, padding=(0, 1, 0, 0), **LEFT)
-    table.add_column("")
-    for heading in ("value", "deviation", "%P", "OLS"):
-        table.add_column(heading, justify="right")
-    table.add_column("unit", style="dim")
-    for row in rows:
-        table.add_row(
-            f"{row['name']}{'*' if row.get('essential') else ''}",
-            number(row["value"]),
-            number(row.get("standard_deviation"), digits=2),
-            percent(row.get("relative_deviation_percent")),
-            number(row.get("value_ols")),
-            str(row.get("unit", "")),
-        )
-    return table
+def parameter_columns(rows: Sequence[Document]) -> list[Column]:
+    """Give the columns of a table of parameters; a star marks the essential ones."""
+    return [
+        Column("", [f"{row['name']}{'*' if row.get('essential') else ''}" for row in rows], is_text=True),
+        Column("value", [number(row["value"]) for row in rows]),
+        Column("deviation", [number(row.get("standard_deviation"), digits=2) for row in rows], spare=2),
+        Column("%P", [percent(row.get("relative_deviation_percent")) for row in rows]),
+        Column("OLS", [number(row.get("value_ols")) for row in rows], spare=3),
+        Column("unit", [str(row.get("unit", "")) for row in rows], is_text=True, spare=1),
+    ]
 
 
-def score_table(result: Document) -> Table:
-    """Set the error of the predicted torque per joint in a table, fitted and held out."""
-    table = Table(
-        title="Error of the predicted torque, % of its range and of its rms", box=SIMPLE_HEAD, **LEFT
-    )
-    for heading in ("joint", "rms, N m", "fitted: range", "rms", "held out: range", "rms"):
-        table.add_column(heading, justify="right")
+def score_columns(result: Document) -> list[Column]:
+    """Give the error of the predicted torque per joint, fitted and held out."""
+    fitted = result["fit"]
     unseen = {row["joint"]: row for row in result.get("validation") or []}
-    for row in result["fit"]:
-        other = unseen.get(row["joint"], {})
-        table.add_row(
-            str(row["joint"]),
-            number(row.get("rms_torque")),
-            *(
-                percent(part.get(f"nrmse_of_{of}_percent"))
-                for part in (row, other)
-                for of in ("range", "rms")
-            ),
-        )
-    return table
+    held_out = [unseen.get(row["joint"], {}) for row in fitted]
+    errors = [
+        Column(f"{name}: {of}", [percent(row.get(f"nrmse_of_{of}_percent")) for row in rows], spare=spare)
+        for name, rows, spare in (("fitted", fitted, 2), ("held out", held_out, 0))
+        for of in ("range", "rms")
+    ]
+    return [
+        Column("joint", [str(row["joint"]) for row in fitted]),
+        Column("rms, N m", [number(row.get("rms_torque")) for row in fitted], spare=1),
+        *errors,
+    ]
 
 
 def verdict(result: Document) -> list[str]:

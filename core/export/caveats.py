@@ -51,6 +51,11 @@ def without_place(format_name: str, what: str, values: Iterable[str]) -> tuple[s
     return (sentence,) if listed else ()
 
 
+def rotors(identified: IdentifiedRobot) -> list[str]:
+    """Write the rotors' inertias joint by joint."""
+    return per_joint(identified, "IA", "kg m2 (slide: kg)")
+
+
 def per_joint(identified: IdentifiedRobot, symbol: str, unit: str) -> list[str]:
     """Write a drive's parameter joint by joint, as ``joint_1 0.02 kg m2``; zeros are left out."""
     joints = identified.robot.joints

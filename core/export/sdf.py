@@ -1,16 +1,20 @@
 """Write the identified robot as SDFormat, Gazebo's form: links at our frames, the rest where it has a place.
 
-Bodies, viscous and Coulomb friction and mimic joints have one; rotor inertia, torque offsets and coupled
-motors stand in a comment. Gravity belongs to the world: the base is fixed to it, tilted so that gravity
-points along -z. Source: SDFormat specification 1.7 (frames) and 1.11 (mimic).
+Bodies, viscous and Coulomb friction and mimic joints have one; torque offsets and coupled motors stand in a
+comment. Rotor inertia has one in Drake's extension, which other readers pass over, and mimics stand there
+once more, because Drake does not read SDFormat's own. Gravity belongs to the world: the base is fixed to it,
+tilted so that gravity points along -z. Source: SDFormat specification 1.7 (frames, names) and 1.11 (mimic);
+Drake, the page "Parsing Models".
 """
 
+from collections.abc import Sequence
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
 from core.arrays import LinkParameters, Rotation, Vector3
-from core.export.caveats import caveats
+from core.export.caveats import caveats, rotors
 from core.export.elements import child, comment, document, text_of
 from core.export.identified import IdentifiedRobot
 from core.export.movers import Mover, free_name, movers
@@ -29,29 +33,78 @@ def write_sdf(identified: IdentifiedRobot) -> str:
     RobotError
         If a joint's coordinate is scaled, which SDFormat cannot say.
     """
-    placed = movers(identified.robot)
-    names = [free_name("base", [mover.link.name for mover in placed]), *(mover.link.name for mover in placed)]
-    root = ET.Element("sdf", version="1.11" if any(mover.following for mover in placed) else "1.7")
-    model = child(root, "model", name=identified.robot.name)
+    names, placed = _named(movers(identified.robot))
+    version = "1.11" if any(mover.following for mover in placed) else "1.7"
+    root = ET.Element("sdf", {"version": version, "xmlns:drake": "drake.mit.edu"})
+    model = child(root, "model", name=_allowed(identified.robot.name))
     size = float(np.linalg.norm(identified.robot.gravity))
     gravity = f"Gravity is {size!r} m/s2 along -z of the model's frame."
-    comment(model, (*caveats(identified), *left_out(identified, "SDFormat"), gravity))
+    comment(
+        model, (*caveats(identified), *_of_rotors(identified), *left_out(identified, "SDFormat"), gravity)
+    )
     base = child(model, "link", name=names[0])
     turn = upright(identified.robot.gravity)
     _write_pose(base, np.zeros(3), np.eye(3) if turn is None else turn)
-    free = free_name("world_to_base", [mover.name for mover in placed])
+    free = free_name("world_to_base", [*names, *(mover.name for mover in placed)])
     fixed = child(model, "joint", name=free, type="fixed")
     child(fixed, "parent").text = "world"
     child(fixed, "child").text = names[0]
-    drives = [identified.of_joints(symbol) for symbol in ("FV", "FC")]
+    drives = np.column_stack([identified.of_joints(symbol) for symbol in ("FV", "FC", "IA")])
     for mover, body in zip(placed, identified.bodies, strict=True):
         link = child(model, "link", name=mover.link.name)
         _write_pose(link, mover.translation, mover.rotation, relative_to=names[mover.parent])
         _write_inertial(link, body)
-        index = mover.link.joint - 1
-        friction = None if mover.following else (drives[0][index], drives[1][index])
-        _write_joint(model, mover, names[mover.parent], friction)
+        drive = None if mover.following else drives[mover.link.joint - 1]
+        _write_joint(model, mover, names[mover.parent], drive)
     return document(root)
+
+
+def _of_rotors(identified: IdentifiedRobot) -> tuple[str, ...]:
+    listed = "; ".join(rotors(identified))
+    sentence = (
+        "SDFormat has no place for rotor inertia (armature, IA); Drake reads it from drake:rotor_inertia, "
+        f"others leave it out: {listed}."
+    )
+    return (sentence,) if listed else ()
+
+
+def _named(placed: Sequence[Mover]) -> tuple[list[str], list[Mover]]:
+    """Give the links' names, the base's first, and the movers by names that SDFormat takes.
+
+    Links and joints share one set of names. Joints keep theirs, by which logs and controllers call them; a
+    link that is called as a joint is called ``..._link``.
+    """
+    joints: dict[str, str] = {}
+    for mover in placed:
+        joints[mover.name] = free_name(_allowed(mover.name), list(joints.values()))
+    wanted = [_allowed(mover.link.name) for mover in placed]
+    names = [free_name("base", [*joints.values(), *wanted])]
+    for name in wanted:
+        taken = [*joints.values(), *names]
+        names.append(name if name not in taken else free_name(f"{name}_link", [*taken, *wanted]))
+    return names, [
+        replace(
+            mover,
+            name=joints[mover.name],
+            link=replace(mover.link, name=name),
+            following=mover.following and replace(mover.following, master=joints[mover.following.master]),
+        )
+        for mover, name in zip(placed, names[1:], strict=True)
+    ]
+
+
+def _allowed(name: str) -> str:
+    """Write a name as SDFormat takes one: ``world`` and ``__name__`` are its own, ``::`` parts nested names.
+
+    Examples
+    --------
+    >>> _allowed("left::elbow"), _allowed("world"), _allowed("__model__"), _allowed("joint_1")
+    ('left_elbow', 'world_', 'model', 'joint_1')
+    """
+    plain = name.replace("::", "_")
+    if plain.startswith("__") and plain.endswith("__"):
+        plain = plain.strip("_") or "_"
+    return free_name(plain, ["world"])
 
 
 def _write_pose(
@@ -72,7 +125,8 @@ def _write_inertial(link: ET.Element, body: LinkParameters) -> None:
         child(table, name).text = text_of(inertia[place])
 
 
-def _write_joint(model: ET.Element, mover: Mover, parent: str, friction: tuple[float, float] | None) -> None:
+def _write_joint(model: ET.Element, mover: Mover, parent: str, drive: Vector3 | None) -> None:
+    """Add a joint; drive is viscous friction, Coulomb friction and rotor inertia, None of one that mimics."""
     joint = child(model, "joint", name=mover.name, type=mover.kind)
     child(joint, "parent").text = parent
     child(joint, "child").text = mover.link.name
@@ -86,12 +140,16 @@ def _write_joint(model: ET.Element, mover: Mover, parent: str, friction: tuple[f
         limit = child(axis, "limit")
         for name, value in known.items():
             child(limit, name).text = text_of(value)
-    if friction is not None:
+    if drive is not None:
         dynamics = child(axis, "dynamics")
-        child(dynamics, "damping").text = text_of(friction[0])
-        child(dynamics, "friction").text = text_of(friction[1])
+        child(dynamics, "damping").text = text_of(drive[0])
+        child(dynamics, "friction").text = text_of(drive[1])
+        child(joint, "drake:rotor_inertia").text = text_of(drive[2])
+        child(joint, "drake:gear_ratio").text = text_of(1.0)
     if mover.following is not None:
-        mimic = child(axis, "mimic", joint=mover.following.master)
-        child(mimic, "multiplier").text = text_of(mover.following.ratio)
-        child(mimic, "offset").text = text_of(mover.following.offset)
+        one = mover.following
+        mimic = child(axis, "mimic", joint=one.master)
+        child(mimic, "multiplier").text = text_of(one.ratio)
+        child(mimic, "offset").text = text_of(one.offset)
         child(mimic, "reference").text = text_of(0.0)
+        child(joint, "drake:mimic", joint=one.master, multiplier=one.ratio, offset=one.offset)

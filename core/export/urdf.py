@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from core.arrays import LinkParameters, Rotation, Vector3
-from core.export.caveats import caveats, of_motors, per_joint, smoothing, without_place
+from core.export.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
 from core.export.elements import child, comment, document
 from core.export.identified import IdentifiedRobot
 from core.export.movers import Mover, free_name, movers
@@ -35,7 +35,8 @@ def write_urdf(identified: IdentifiedRobot) -> str:
     """
     placed = movers(identified.robot)
     root = ET.Element("robot", name=identified.robot.name)
-    comment(root, (*caveats(identified), *left_out(identified, "URDF")))
+    armature = without_place("URDF", "rotor inertia (armature, IA)", rotors(identified))
+    comment(root, (*caveats(identified), *armature, *left_out(identified, "URDF")))
     taken = [mover.link.name for mover in placed]
     base = free_name("base", taken)
     _write_base(root, identified.robot.gravity, base, free_name("world", [*taken, base]))
@@ -54,9 +55,6 @@ def write_urdf(identified: IdentifiedRobot) -> str:
 def left_out(identified: IdentifiedRobot, format_name: str) -> tuple[str, ...]:
     """Say what URDF, and SDF likewise, has no place for."""
     return (
-        *without_place(
-            format_name, "rotor inertia (armature, IA)", per_joint(identified, "IA", "kg m2 (slide: kg)")
-        ),
         *without_place(format_name, "torque offsets (OFF)", per_joint(identified, "OFF", "N m (slide: N)")),
         *without_place(format_name, "coupled motors", of_motors(identified)),
         *smoothing(identified),

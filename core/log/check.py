@@ -14,7 +14,7 @@ from core.errors import LogError
 from core.log.layout import Channel, Layout
 from core.log.model import JointLog
 from core.log.reader import lay_out, open_table, read_table
-from core.log.suggestion import suggested_mapping
+from core.log.suggestion import suggested_mapping, suggested_units
 
 PIECE_ROWS = 1 << 16
 
@@ -47,7 +47,7 @@ class LogCheck:
     refusal
         Why it cannot be used.
     suggestion
-        A mapping to confirm, where names or units are not known.
+        A mapping to confirm, where names or units are not known, or a unit makes implausible sizes.
     """
 
     format: str
@@ -78,7 +78,8 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
         log = read_table(table, layout, name=path.stem, sha256="")
     except LogError as error:
         return LogCheck(form.name, table.names, recognised, refusal=error)
-    return LogCheck(form.name, table.names, recognised, log, _reach(log, layout))
+    units = None if mapping else suggested_units(table, layout, log.defects)
+    return LogCheck(form.name, table.names, recognised, log, _reach(log, layout), suggestion=units)
 
 
 def _reach(log: JointLog, layout: Layout) -> tuple[Reach, ...]:

@@ -185,7 +185,12 @@ class Contract:
                 "first_row": row,
                 "stamps_s": [before, after],
             },
-            remedy="sort the rows by time and keep one row per stamp",
+            remedy="sort the rows by time and keep one row per stamp"
+            + (
+                '; where rounding made the stamps alike, "time": null with the true "rate_hz" stands for them'
+                if self._duplicates and not self._backwards
+                else ""
+            ),
         )
 
     def _check_alive(self) -> None:

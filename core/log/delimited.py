@@ -1,7 +1,7 @@
 """Read comma, semicolon or tab separated text with a header line.
 
-The delimiter is taken from the header; comment lines start with `#`; with semicolons a decimal comma is
-understood. A header which is itself the last comment line, as numpy.savetxt writes it, is accepted.
+The delimiter is taken from the header; comment lines start with `#`; with semicolons and tabs a decimal comma
+is understood. A header which is itself the last comment line, as numpy.savetxt writes it, is accepted.
 """
 
 import codecs
@@ -27,6 +27,9 @@ HEAD_BYTES = 1 << 20
 BLOCK_BYTES = 1 << 22
 DELIMITERS = ",;\t"
 MAX_COMMENTS = 100_000
+_BAD_ROW = re.compile(
+    r"Row #(?P<line>\d+): Expected (?P<columns>\d+) columns, got (?P<cells>\d+): (?P<text>.*)", re.DOTALL
+)
 _BAD_CELL = re.compile(r"column #(?P<column>\d+).*?invalid value '(?P<found>[^']*)'", re.DOTALL)
 
 
@@ -72,10 +75,12 @@ class DelimitedTable:
         try:
             yield
         except pa.ArrowInvalid as error:
-            place = _BAD_CELL.search(str(error))
-            if place is None:
-                raise
-            raise not_numeric(self.names[int(place["column"])], place["found"][:80]) from error
+            if (cell := _BAD_CELL.search(str(error))) is not None:
+                found = cell["found"][:80]
+                raise not_numeric(self.names[int(cell["column"])], found, _advice(found)) from error
+            if (row := _BAD_ROW.search(str(error))) is not None:
+                raise _uneven(row, self.delimiter) from error
+            raise
 
 
 def open_delimited(path: Path) -> DelimitedTable:
@@ -95,7 +100,13 @@ def open_delimited(path: Path) -> DelimitedTable:
     skip = next(
         (i for i in range(header_index + 1, len(lines)) if not _is_comment(lines[i])), header_index + 1
     )
-    decimal = "," if delimiter == ";" and "," in first_row and "." not in first_row else "."
+    if len(names) == 1 and _is_spaced(header, first_row):
+        raise LogError(
+            "the columns are separated by spaces",
+            evidence={"header": header[:120]},
+            remedy="separate them by commas, semicolons or tabs",
+        )
+    decimal = "," if delimiter != "," and "," in first_row and "." not in first_row else "."
     _check_text(path)
     return DelimitedTable(path, names, delimiter, decimal, skip)
 
@@ -184,6 +195,36 @@ def _is_numbers(line: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _is_spaced(header: str, first_row: str) -> bool:
+    """Tell a table that blanks set apart: as many words in the header as numbers below it."""
+    cells = first_row.split()
+    return len(header.split()) == len(cells) > 1 and all(map(_is_numbers, cells))
+
+
+def _advice(found: str) -> str:
+    """Say what to do about a cell that is no number."""
+    if re.fullmatch(r"[-+]?\d+,\d*(e[-+]?\d+)?", found, re.IGNORECASE):
+        return "write decimal points in every row, or decimal commas in every row between semicolons or tabs"
+    return "store plain numbers, or map another column; a line of units below the header starts with #"
+
+
+def _uneven(row: re.Match[str], delimiter: str) -> LogError:
+    """Say that a row has more or fewer cells than there are columns."""
+    more = int(row["cells"]) > int(row["columns"])
+    commas = more and delimiter == "," and "." not in row["text"]
+    remedy = "write one cell per column in every row"
+    if commas:
+        remedy = "write decimal points, or keep the decimal commas and separate the columns by semicolons"
+    elif not more:
+        remedy += "; where it is the last row the file was cut short: copy it whole"
+    return LogError(
+        f"line {row['line']} holds {row['cells']} cells, and the header names {row['columns']} columns"
+        + (": the numbers seem to have decimal commas" if commas else ""),
+        evidence={"line": int(row["line"]), "text": row["text"][:120]},
+        remedy=remedy,
+    )
 
 
 def _names(path: Path, header: str, delimiter: str) -> tuple[str, ...]:

@@ -20,6 +20,9 @@ from core.log.table import Table
 from core.log.units import PREFIXES, TIME, UNITS
 
 SHOWN_COLUMNS = 24
+NEEDED = ("position", "torque", "current")
+"""Of which one column per joint has to be there; of torque and current one is enough."""
+OTHER_NAME = "a column of another name is mapped, with its unit"
 
 
 @dataclass(frozen=True)
@@ -115,7 +118,10 @@ def _bind_time(table: Table, mapping: LogMapping) -> Channel | None:
         return _declared(TIME, request, table)
     if mapping.rate_hz is None:
         raise _missing(
-            TIME, [TIME], table, 'name the time column, or declare "rate_hz" if the samples are uniform'
+            TIME,
+            [TIME],
+            table,
+            'name the time column, or declare the rate if the samples are uniform: {"rate_hz": 250}',
         )
     return None
 
@@ -131,6 +137,12 @@ def _bind_channel(channel: str, table: Table, mapping: LogMapping) -> Channel | 
 def _default_columns(channel: str, table: Table) -> tuple[str, ...]:
     """Find `q_1` to `q_n`, or the single `q` of a one-joint log."""
     prefix = PREFIXES[channel]
+    if channel in NEEDED and f"{prefix}_0" in table.names:
+        raise LogError(
+            f"the columns of {channel} are counted from 0, and default names from 1",
+            evidence={"columns": [name for name in table.names if re.fullmatch(f"{prefix}_[0-9]+", name)]},
+            remedy=f"map them in the order of the joints, or rename them {prefix}_1, {prefix}_2, ...",
+        )
     numbers = [
         int(name[len(prefix) + 1 :])
         for name in table.names
@@ -140,7 +152,7 @@ def _default_columns(channel: str, table: Table) -> tuple[str, ...]:
         return (prefix,) if prefix in table.names else ()
     wanted = [f"{prefix}_{number}" for number in range(1, max(numbers) + 1)]
     if len(numbers) < len(wanted):
-        raise _missing(channel, wanted, table, "log every joint, or map the columns that are there")
+        raise _missing(channel, wanted, table, f"log {channel} of every joint; {OTHER_NAME}")
     return tuple(wanted)
 
 
@@ -179,19 +191,30 @@ def _require(table: Table, channels: Sequence[Channel]) -> None:
         raise _missing("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
     if "torque" not in names and "current" not in names:
         raise _missing(
-            "torque", ["tau_1", "...", "current_1", "..."], table, "map torques or currents with their unit"
+            "torque",
+            ["tau_1", "...", "current_1", "..."],
+            table,
+            f"log the torque of every joint, or its motor current, with the positions; {OTHER_NAME}",
         )
 
 
 def _one_column_per_joint(channels: Sequence[Channel]) -> None:
     counts = {channel.name: len(channel.columns) for channel in channels}
-    if len(set(counts.values())) > 1:
-        odd = next(name for name, count in counts.items() if count != counts["position"])
-        raise LogError(
-            f"{odd} does not have one column per joint",
-            evidence={"columns": counts},
-            remedy=f'log {odd} of every joint, or map it; "{odd}": null in the mapping leaves it out',
-        )
+    usual = max(counts.values(), key=lambda count: (list(counts.values()).count(count), count))
+    odd = next((channel for channel in channels if len(channel.columns) != usual), None)
+    if odd is None:
+        return
+    wanted = [f"{PREFIXES[odd.name]}_{number}" for number in range(1, usual + 1)]
+    evidence: dict[str, object] = {"columns": counts}
+    if set(odd.columns) < set(wanted):
+        evidence["absent"] = [name for name in wanted if name not in odd.columns]
+    spare = odd.name not in NEEDED or (odd.name != "position" and {"torque", "current"} <= set(counts))
+    raise LogError(
+        f"{odd.name} does not have one column per joint",
+        evidence=evidence,
+        remedy=f"log {odd.name} of every joint; {OTHER_NAME}"
+        + (f'; "{odd.name}": null in the mapping leaves it out' if spare else ""),
+    )
 
 
 def _no_column_twice(channels: Sequence[Channel], time: Channel | None) -> None:
@@ -207,15 +230,15 @@ def _no_column_twice(channels: Sequence[Channel], time: Channel | None) -> None:
 
 def _missing(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
     absent = [name for name in wanted if name not in table.names]
-    nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, table.names, 3))}
+    candidates = [
+        name for name in table.names if not re.fullmatch(r"(time|q|qd|tau|current|temperature)(_\d+)?", name)
+    ]
+    nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
     evidence: dict[str, object] = {
         "looked_for": wanted[:SHOWN_COLUMNS],
         "columns": list(table.names[:SHOWN_COLUMNS]),
         "nearest": nearest,
     }
-    candidates = [
-        name for name in table.names if not re.fullmatch(r"(time|q|qd|tau|current|temperature)(_\d+)?", name)
-    ]
     readings = _readings(channel, candidates, table)
     if readings:
         evidence["plausible_readings"] = readings

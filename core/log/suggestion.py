@@ -7,8 +7,12 @@ shown.
 
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from core.errors import LogError
+from core.log.layout import Layout
+from core.log.mapping import RATE
+from core.log.model import Defect
 from core.log.profiles import PROFILE, PROFILES, fill_in
 from core.log.readings import plausible_readings
 from core.log.table import Table
@@ -24,12 +28,14 @@ WORDS: Mapping[str, tuple[str, ...]] = {
 """Words in a column's name by channel, the more telling channel first."""
 TIME_WORDS = ("time", "t", "timestamp", "stamp", "sec", "seconds", "ms", "clock", "tick")
 UNKNOWN = "?"
+IMPLAUSIBLE = "implausible_unit"
 
 
 def suggested_mapping(table: Table) -> dict[str, object] | None:
     """Give a mapping that fits the names of the columns; None where they tell too little.
 
-    Units are the most plausible by size, or `UNKNOWN` where the size tells none.
+    Units are the most plausible by size, or `UNKNOWN` where the size tells none; so is the rate of a log
+    without a clock.
 
     Examples
     --------
@@ -41,17 +47,39 @@ def suggested_mapping(table: Table) -> dict[str, object] | None:
     """
     profile = _profile(table.names)
     if profile is not None:
-        return {PROFILE: profile}
-    mapping: dict[str, object] = {}
+        return {PROFILE: profile} | _own_clock(profile, table)
+    mapping: dict[str, dict[str, Any]] = {}
     time = next((name for name in table.names if set(_words(name)) & set(TIME_WORDS)), None)
-    if time is not None:
-        mapping[TIME] = {"column": time, "unit": _unit(TIME, table, time)}
     for stem, columns in _families(table.names).items():
         channel = _channel(stem)
         if channel is not None and channel not in mapping:
             mapping[channel] = {"columns": columns, "unit": _unit(channel, table, columns[0])}
-    useful = "position" in mapping and ("torque" in mapping or "current" in mapping)
-    return {name: mapping[name] for name in UNITS if name in mapping} if useful else None
+    if not _is_whole(mapping):
+        return None
+    clock = {RATE: UNKNOWN} if time is None else {TIME: {"column": time, "unit": _unit(TIME, table, time)}}
+    return clock | {name: mapping[name] for name in UNITS if name in mapping}
+
+
+def suggested_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
+    """Give the mapping by which channels of implausible size would be of a plausible one; None if none is."""
+    channels = {channel.name: channel for channel in (layout.time, *layout.channels) if channel is not None}
+    mapping: dict[str, object] = {}
+    for defect in defects:
+        channel = channels.get(defect.channel)
+        if defect.kind != IMPLAUSIBLE or channel is None or channel.name in mapping:
+            continue
+        unit = _unit(channel.name, table, channel.columns[(defect.joint or 1) - 1])
+        if unit not in (UNKNOWN, *channel.units):
+            columns = {"column": channel.columns[0]} if channel.name == TIME else {"columns": channel.columns}
+            mapping[channel.name] = columns | {"unit": unit}
+    return mapping or None
+
+
+def _is_whole(mapping: Mapping[str, Mapping[str, Sequence[str]]]) -> bool:
+    """Tell whether position and an effort are there, with one column per joint each."""
+    efforts = [mapping[name] for name in ("torque", "current") if name in mapping]
+    joints = {len(one["columns"]) for one in mapping.values()}
+    return "position" in mapping and bool(efforts) and len(joints) == 1
 
 
 def _profile(names: Sequence[str]) -> str | None:
@@ -64,6 +92,16 @@ def _profile(names: Sequence[str]) -> str | None:
         if isinstance(filled, dict) and {"position"} < filled.keys() & UNITS.keys():
             return name
     return None
+
+
+def _own_clock(profile: str, table: Table) -> dict[str, object]:
+    """Give the clock where its steps are not of the size that the profile's unit makes of them."""
+    filled = fill_in({PROFILE: profile}, table.names)
+    clock = filled.get(TIME) if isinstance(filled, dict) else None
+    if not isinstance(clock, dict) or "unit" not in clock:
+        return {}
+    unit = _unit(TIME, table, clock["column"])
+    return {} if unit in (UNKNOWN, clock["unit"]) else {TIME: clock | {"unit": unit}}
 
 
 def _families(names: Sequence[str]) -> dict[str, list[str]]:

@@ -193,10 +193,10 @@ def duplicate_columns(names: Sequence[str]) -> LogError:
     )
 
 
-def not_numeric(name: str, found: str) -> LogError:
+def not_numeric(name: str, found: str, advice: str = "") -> LogError:
     """Say that a column which is needed holds something else than numbers."""
     return LogError(
         f"the column {name!r} is not made of numbers",
         evidence={"column": name, "found": found},
-        remedy="store plain numbers, or map another column",
+        remedy=advice or "store plain numbers, or map another column",
     )

@@ -1,3 +1,4 @@
+import logging
 import os
 import shutil
 from pathlib import Path
@@ -11,8 +12,18 @@ ROOT = Path(__file__).parents[3]
 
 
 def run(*arguments, **environment):
-    """Run a command as a shell would; standard output and standard error are apart."""
-    return CliRunner().invoke(COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
+    """Run a command as a shell would; standard output and standard error are apart.
+
+    A command that opens the journal does so for its process, which here goes on: later lines would go to a
+    standard error that is closed by then.
+    """
+    journal = logging.getLogger()
+    handlers, level = journal.handlers, journal.level
+    try:
+        return CliRunner().invoke(COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
+    finally:
+        journal.handlers = handlers
+        journal.setLevel(level)
 
 
 @pytest.fixture(autouse=True)

@@ -9,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 
 from app.client.client import Client
@@ -184,6 +185,28 @@ def test_a_report_made_from_files_shows_what_was_measured_and_estimated_as_the_s
     assert here.count("<svg") == there.count("<svg") >= 4
 
 
+def test_what_a_job_computed_instant_by_instant_is_fetched_as_a_file_and_missed_in_a_result(
+    planar, tmp_path_factory
+):
+    with listening_service(tmp_path_factory.mktemp("data"), InlineExecutor()) as (_, port):
+        service = ("--url", f"http://127.0.0.1:{port}")
+        asked = run("identify", "arm.json", "swing.csv", *QUICK, "--out", "arm-result.json", *service)
+        job = asked.stderr.partition("job ")[2].split()[0]
+        assert run("export", job, "residuals.parquet", *service).exit_code == Exit.DONE
+    table = pq.read_table(planar / "residuals.parquet")
+    assert {"time", "residual_1", "torque_estimated_2", "used_2"} <= set(table.column_names)
+    assert table.num_rows > 100
+    refused = run("export", "arm-result.json", "residuals.parquet")
+    assert (refused.exit_code, "--url" in refused.stderr) == (Exit.INPUT, True)
+    assert "residuals.parquet" in run("export", "--list").stdout
+
+
+def test_a_report_of_a_result_says_which_figures_it_cannot_have(desk):
+    whole = run("report", "result.json", "--out", "page.html")
+    assert (whole.exit_code, "identify --report" in whole.stderr) == (Exit.DONE, True)
+    assert (desk / "page.html").is_file()
+
+
 def test_a_job_that_was_taken_before_the_interruption_came_is_dismissed_all_the_same(
     planar, tmp_path_factory, monkeypatch
 ):
@@ -326,6 +349,64 @@ def test_a_full_disk_is_told_as_what_it_is():
     assert code == Exit.INPUT
     assert "there is no room" in said
     assert "make room" in said
+
+
+def closed(number, *arguments):
+    """Run a command one of whose streams was closed by whoever called it, as ``>&-`` does in a shell."""
+    script = f"import os, sys; os.close({number}); os.execv(sys.executable, [sys.executable, *sys.argv[1:]])"
+    command = [sys.executable, "-c", script, "-m", "app", *arguments]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return ended.returncode, ended.stdout, ended.stderr
+
+
+@pytest.mark.parametrize(
+    "command", ["version", "--version", "--help", "robots show yumi", "robots show yumi --json"]
+)
+def test_a_command_that_has_something_to_say_tells_that_its_output_is_closed(command):
+    code, _, said = closed(1, *command.split())
+    assert code == Exit.INPUT
+    assert said.startswith("error: standard output is closed")
+    assert "what to do: " in said
+
+
+def test_a_command_that_writes_a_file_needs_no_output_and_lends_its_number_to_no_file(desk):
+    assert closed(1, "export", "result.json", "robot.urdf") == (Exit.DONE, "", "saved robot.urdf\n")
+    assert (desk / "robot.urdf").read_text().endswith("</robot>\n")
+
+
+def test_a_command_whose_errors_nobody_reads_works_and_ends_as_ever():
+    assert closed(2, "version")[0] == Exit.DONE
+    assert closed(2, "robots", "show", "nobody") == (Exit.INPUT, "", "")
+
+
+@pytest.mark.parametrize(
+    "loaded",
+    [
+        "app.terminal.interruption",
+        "app.terminal.main",
+        "typer",
+        "app.terminal.guard",
+        "app.terminal.robots",
+        "app.terminal.local",
+    ],
+)
+def test_an_interruption_while_the_command_is_being_loaded_ends_as_any_other(loaded):
+    script = (
+        "import os, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "class Interrupting:\n"
+        "    def find_spec(self, name, *_):\n"
+        f"        if name == {loaded!r}: os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Interrupting())\n"
+        "sys.argv = ['veritorque', 'robots', 'list']\n"
+        "from app.terminal.start import main\n"
+        "main()\n"
+    )
+    command = [sys.executable, "-c", script]
+    ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout) == (Exit.INTERRUPTED, "")
+    assert ended.stderr in ("", "interrupted\n")
 
 
 def test_a_name_that_the_alphabet_of_the_terminal_lacks_stops_nothing(tmp_path):

@@ -1,5 +1,6 @@
 """Every command shows an example in its help, and every example runs."""
 
+import logging
 import re
 import shlex
 from pathlib import Path
@@ -9,14 +10,13 @@ from typer.main import get_command
 
 from app.jobs import process
 from app.terminal import serve
+from app.terminal.exits import Exit
 from app.terminal.local import LocalBench
 from app.terminal.main import COMMANDS
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT, run
 from tests.app.test_server import listening_service
 from tests.core.report.documents import diagnosed
-
-FOUND = 1
 
 
 def walk(command, path=()):
@@ -53,10 +53,18 @@ def test_every_command_has_help_with_an_example_of_itself(name):
     assert examples(EVERY[name])
 
 
+class _Recording(StubExecutor):
+    """Leave what a computation leaves instant by instant; here it is not looked into."""
+
+    def run(self, computation, **more):
+        computation.traces.write_bytes(b"PAR1")
+        return super().run(computation, **more)
+
+
 @pytest.fixture(scope="module")
 def names(tmp_path_factory):
     """What examples call by name and this machine calls otherwise: a service, and a job on it."""
-    executor = StubExecutor()
+    executor = _Recording()
     executor.release.set()
     with listening_service(tmp_path_factory.mktemp("served"), executor) as (_, port):
         url = f"http://127.0.0.1:{port}"
@@ -68,11 +76,12 @@ def names(tmp_path_factory):
 
 @pytest.fixture
 def prepared(monkeypatch, desk):
-    """A folder in which a service has been run before: with a key and a backup; gives the key's name."""
+    """A folder in which a robot was exported and a service run: with a key and a backup; gives its name."""
     monkeypatch.setattr(serve, "_listen", lambda _: None)
     monkeypatch.setattr(process, "work_until_told", lambda *_, **__: None)
     assert run("keys", "create", "lab").exit_code == 0
     assert run("backup", "backup-of-sunday").exit_code == 0
+    assert run("export", "result.json", "robot.urdf").exit_code == 0
     return {"3f2a91": run("keys", "list").stdout.split()[0]}
 
 
@@ -85,18 +94,26 @@ def test_every_example_runs(line, names, prepared):
     assert ended.exit_code == 0, ended.output
 
 
-@pytest.mark.usefixtures("desk")
-def test_the_example_of_a_diagnosis_finds_what_is_hidden_in_its_log(monkeypatch):
+@pytest.mark.usefixtures("prepared")
+def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_is_closed(capsys):
+    assert run("work").exit_code == 0
+    logging.getLogger("app.jobs.worker").warning("computed")
+    assert "Logging error" not in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("prepared")
+def test_the_examples_of_a_diagnosis_find_what_is_hidden_in_its_log(monkeypatch):
     """The science of it is tested elsewhere and takes its time; here it is what the command does with it."""
     from app.documents import json_bytes
 
-    (line,) = examples(EVERY["diagnose"])
     asked = []
     monkeypatch.setattr(LocalBench, "run", lambda _, *given: asked.append(given) or json_bytes(diagnosed()))
-    assert called(line, {}).exit_code == FOUND
-    ((study, _, report),) = asked
+    ends = [called(line, {}).exit_code for line in examples(EVERY["diagnose"])]
+    assert ends == [Exit.FOUND, Exit.DONE]
+    (study, _, report), (other, _, none) = asked
     assert (study.kind, study.robot, study.logs[0].is_file()) == ("diagnose", "yumi-left", True)
-    assert report == Path("diagnosis.html")
+    assert (report, none) == (Path("diagnosis.html"), None)
+    assert (Path(other.robot).is_file(), other.part.tip_link) == (True, "joint_7")
 
 
 def called(line, names):

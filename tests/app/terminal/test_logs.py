@@ -116,3 +116,126 @@ def test_a_look_loads_no_solver_and_no_service(tmp_path):
     heavy = {"numba", "cvxpy", "clarabel", "scipy", "sklearn", "fastapi", "sqlalchemy", "httpx2", "pandas"}
     assert not loaded & heavy
     assert "pyarrow" in loaded
+
+
+def without(*columns):
+    kept = [place for place, name in enumerate(DEFAULT) if name not in columns]
+    return [DEFAULT[place] for place in kept], lambda table: table[:, kept]
+
+
+def renamed(**names):
+    return [names.get(name, name) for name in DEFAULT], lambda table: table
+
+
+def set_to(row, column, value):
+    """Write a value, or that of the row before where it is None."""
+
+    def change(table):
+        table[row, column] = table[row - 1, column] if value is None else value
+        return table
+
+    return DEFAULT, change
+
+
+FAULTS = {
+    "no torque at all": (without("tau_1", "tau_2"), "no column for torque", "log the torque of every joint"),
+    "torque of one joint absent": (without("tau_2"), "absent: tau_2", "log torque of every joint"),
+    "position of the last joint absent": (without("q_2"), "absent: q_2", "log position of every joint"),
+    "position of the first joint absent": (without("q_1"), "no column for position: q_1", "of every joint"),
+    "counted from 0": (
+        renamed(q_1="q_0", q_2="q_1", tau_1="tau_0", tau_2="tau_1"),
+        "counted from 0",
+        "rename them q_1",
+    ),
+    "no clock": (without("time"), "no column for time", '{"rate_hz": 250}'),
+    "a value that is none": (set_to(100, 2, np.nan), "q_2: rows: 1; first_rows: 101", "cut these rows out"),
+    "a stamp twice": (set_to(200, 0, None), "duplicate stamps: 1", '"time": null'),
+    "a step back": (set_to(200, 0, 0.5), "time goes backwards", "sort the rows by time"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_what_is_wrong_is_told_by_cause_evidence_and_remedy(tmp_path, fault):
+    (names, change), evidence, remedy = FAULTS[fault]
+    refused = run("logs", "check", written(tmp_path / "faulty.csv", names, change=change))
+    assert refused.exit_code == Exit.INPUT
+    said, told = refused.stderr.split("  what to do: ")
+    assert said.startswith("error: ")
+    assert "log: faulty.csv" in said
+    assert evidence in said
+    assert remedy in told.splitlines()[0]
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_suggestion_is_made_only_where_it_leads_somewhere(tmp_path, fault):
+    (names, change), *_ = FAULTS[fault]
+    path = written(tmp_path / "faulty.csv", names, change=change)
+    suggested = run("logs", "check", path).stderr.partition("--mapping '")[2].partition("'")[0]
+    assert bool(suggested) == (fault in ("counted from 0", "no clock"))
+    if suggested:
+        known = suggested.replace('"?"', "200")
+        assert run("logs", "check", path, "--mapping", known).exit_code == Exit.DONE
+
+
+UNITS = {"time": ("ms", {"time_factor": 1000.0}), "position": ("deg", {"angle_factor": 57.29578})}
+
+
+@pytest.mark.parametrize("channel", UNITS)
+def test_default_names_in_other_units_are_told_with_the_mapping_that_mends_them(tmp_path, channel):
+    unit, factors = UNITS[channel]
+    path = written(tmp_path / "scaled.csv", DEFAULT, **factors)
+    seen = run("logs", "check", path)
+    assert (seen.exit_code, "implausible_unit" in seen.stdout) == (Exit.DONE, True)
+    assert run("logs", "check", path, "--fail-on-defects").exit_code == Exit.FOUND
+    suggested = seen.stderr.partition("--mapping '")[2].partition("'")[0]
+    assert list(json.loads(suggested)) == [channel]
+    assert json.loads(suggested)[channel]["unit"] == unit
+    mended = run("logs", "check", path, "--mapping", suggested, "--fail-on-defects")
+    assert (mended.exit_code, mended.stderr) == (Exit.DONE, "")
+
+
+def test_a_recorder_whose_clock_counts_otherwise_is_suggested_with_the_clock_that_there_is(tmp_path):
+    path = written(tmp_path / "panda.csv", ("time", "q[0]", "q[1]", "tau_J[0]", "tau_J[1]"))
+    suggested = run("logs", "check", path).stderr.partition("--mapping '")[2].partition("'")[0]
+    assert json.loads(suggested) == {"profile": "franka", "time": {"column": "time", "unit": "s"}}
+    told = json.loads(run("logs", "check", path, "--mapping", suggested, "--json").stdout)
+    assert told["rate_hz"] == pytest.approx(200.0, rel=1e-6)
+
+
+def text_of(path, change):
+    written(path, DEFAULT)
+    path.write_text(change(path.read_text()))
+    return str(path)
+
+
+TEXTS = {
+    "decimal commas between commas": (lambda text: text.replace(".", ","), "decimal commas", "semicolons"),
+    "blanks between columns": (lambda text: text.replace(",", " "), "separated by spaces", "by commas"),
+    "cut short": (lambda text: text[:-30], "line 2401 holds 3 cells", "copy it whole"),
+    "a line of units": (
+        lambda text: text.replace("\n", "\ns,rad,rad,Nm,Nm\n", 1),
+        "found: s",
+        "starts with #",
+    ),
+    "a decimal comma further down": (
+        lambda text: text.replace(",", ";")[::-1].replace(".", ",", 1)[::-1],
+        "not made of numbers",
+        "decimal commas in every row",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", TEXTS)
+def test_a_table_that_is_written_otherwise_says_how(tmp_path, fault):
+    change, cause, remedy = TEXTS[fault]
+    refused = run("logs", "check", text_of(tmp_path / "odd.csv", change))
+    assert refused.exit_code == Exit.INPUT
+    assert cause in refused.stderr.partition("  what to do: ")[0]
+    assert remedy in refused.stderr.partition("  what to do: ")[2]
+
+
+@pytest.mark.parametrize("sign", [";", "\t"])
+def test_decimal_commas_are_understood_where_columns_are_not_set_apart_by_commas(tmp_path, sign):
+    path = text_of(tmp_path / "comma.csv", lambda text: text.replace(",", sign).replace(".", ","))
+    told = json.loads(run("logs", "check", path, "--json").stdout)
+    assert (told["rate_hz"], told["defects"]) == (pytest.approx(200.0, rel=1e-6), [])

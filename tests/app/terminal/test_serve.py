@@ -4,26 +4,13 @@ import subprocess
 import sys
 
 import pytest
-from typer.testing import CliRunner
 
 from app.main import create_app
 from app.settings import Settings, reaches_other_machines
 from app.store.lock import DirectoryLock
 from app.terminal import serve
-from app.terminal.main import COMMANDS
 from app.version import VERSION
-
-
-def run(*arguments, **environment):
-    return CliRunner().invoke(COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
-
-
-@pytest.fixture(autouse=True)
-def the_environment_is_left_as_it_was():
-    before = dict(os.environ)
-    yield
-    os.environ.clear()
-    os.environ.update(before)
+from tests.app.terminal.conftest import run
 
 
 @pytest.fixture

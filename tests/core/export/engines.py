@@ -110,7 +110,7 @@ def pinocchio_torque(model: pin.Model, names: list[str], state: MotionState, mim
         needed = pin.rnea(model, data, q, dq, ddq)
         return {name: needed[model.joints[model.getJointId(name)].idx_v] for name in moves}
 
-    return _by_virtual_work(names, state, mimics, torque)
+    return by_virtual_work(names, state, mimics, torque)
 
 
 def mujoco_model(text: str) -> mujoco.MjModel:
@@ -131,7 +131,7 @@ def mujoco_torque(model: mujoco.MjModel, names: list[str], state: MotionState, m
         mujoco.mj_inverse(model, data)
         return {name: data.qfrc_inverse[place] for name, place in places.items()}
 
-    return _by_virtual_work(names, state, mimics, torque)
+    return by_virtual_work(names, state, mimics, torque)
 
 
 def mujoco_acceleration(
@@ -150,7 +150,7 @@ def mujoco_acceleration(
     return found
 
 
-def _by_virtual_work(names, state, mimics, torque):
+def by_virtual_work(names, state, mimics, torque):
     total = np.zeros_like(state.position)
     for row in range(len(total)):
         motion = zip(state.position[row], state.velocity[row], state.acceleration[row], strict=True)

@@ -122,6 +122,52 @@ def test_any_name_that_a_robot_may_have_stays_whole(name):
     assert len(names) == len(set(names))
 
 
+@pytest.mark.parametrize("of_joint", [False, True])
+@pytest.mark.parametrize("name", ["joint_2", "base", "world", "world_to_base", "left::elbow", "__model__"])
+def test_sdformat_calls_links_and_joints_by_names_that_nothing_else_has(name, of_joint):
+    """A reader of SDFormat refuses a name that is given twice, and the names that are its own."""
+    plain = ROBOTS["with mimics"]
+    links = (replace(plain.links[0], name=name), *plain.links[1:])
+    joints = (replace(plain.joints[1], name=name), *plain.joints[2:])
+    named = replace(plain, name=name, links=links)
+    robot = replace(named, joints=(plain.joints[0], *joints)) if of_joint else named
+    model = ET.fromstring(write_sdf(identified(robot))).find("model")
+    known = {tag: [one.get("name") for one in model.iter(tag)] for tag in ("link", "joint")}
+    names = known["link"] + known["joint"]
+    assert len(set(names)) == len(names) == len(robot.links) + len(robot.links) + 2
+    for one in (*names, model.get("name")):
+        assert one != "world"
+        assert not re.search("::|^__.*__$", one)
+    meant = {one.text for tag in ("parent", "child") for one in model.iter(tag)}
+    assert meant == {"world", *known["link"]}
+    assert {one.get("joint") for one in model.iter("mimic")} <= set(known["joint"])
+
+
+def test_sdformat_holds_rotors_and_mimics_where_drake_reads_them():
+    found = identified(ROBOTS["with mimics"])
+    joints = {one.get("name"): one for one in ET.fromstring(write_sdf(found)).iter("joint")}
+    namespace = {"drake": "drake.mit.edu"}
+    for joint, inertia in zip(found.robot.joints, found.of_joints("IA"), strict=True):
+        gear = (
+            joints[joint.name].findtext(f"drake:{tag}", None, namespace)
+            for tag in ("rotor_inertia", "gear_ratio")
+        )
+        assert [float(one) for one in gear] == [inertia, 1.0]
+    for joint in joints.values():
+        ours, theirs = joint.find("axis/mimic"), joint.find("drake:mimic", namespace)
+        assert (ours is None) == (theirs is None)
+        if ours is not None:
+            told = [ours.get("joint"), ours.findtext("multiplier"), ours.findtext("offset")]
+            assert list(theirs.attrib.values()) == told
+
+
+def test_joints_keep_their_names_in_sdformat_by_which_logs_call_them():
+    found = identified(ROBOTS["yumi-left"])
+    root = ET.fromstring(write_sdf(found))
+    moving = [one.get("name") for one in root.iter("joint") if one.get("type") != "fixed"]
+    assert moving == [joint.name for joint in found.robot.joints]
+
+
 def test_a_c_header_holds_names_that_would_end_its_comments_and_strings():
     found = identified(replace(ROBOTS["yumi-left"], name='7*/ "arm" \\'))
     text = write_c_header(found)
