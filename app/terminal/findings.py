@@ -11,7 +11,7 @@ from rich.markup import escape
 from rich.padding import Padding
 
 from app.terminal.columns import Column, print_table
-from app.terminal.tables import number, percent
+from app.terminal.tables import effort_column, percent
 
 Document = Mapping[str, Any]
 
@@ -85,8 +85,8 @@ def gain_columns(result: Document) -> list[Column]:
     ends = [row["interval_95"] for row in rows]
     return [
         Column("joint", [str(row["joint"]) for row in rows]),
-        Column("before, N m", [number(row["rms_residual_before"]) for row in rows], spare=2),
-        Column("after, N m", [number(row["rms_residual_after"]) for row in rows], spare=1),
+        effort_column(result, "before", rows, "rms_residual_before", spare=2),
+        effort_column(result, "after", rows, "rms_residual_after", spare=1),
         Column("less torque error, %", [percent(row["improvement_percent"]) for row in rows]),
         Column("95 %", ["" if one is None else f"{one[0]:.1f} to {one[1]:.1f}" for one in ends], spare=3),
         Column("less motion error, %", [percent(moved[row["joint"] - 1]) if moved else "" for row in rows]),

@@ -7,6 +7,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from app.terminal.columns import Column, print_table
+from core.report.page.units import unit_of_effort
 
 Document = Mapping[str, Any]
 
@@ -56,9 +57,19 @@ def score_columns(result: Document) -> list[Column]:
     ]
     return [
         Column("joint", [str(row["joint"]) for row in fitted]),
-        Column("rms, N m", [number(row.get("rms_torque")) for row in fitted], spare=1),
+        effort_column(result, "rms", fitted, "rms_torque", spare=1),
         *errors,
     ]
+
+
+def effort_column(result: Document, heading: str, rows: Sequence[Document], key: str, spare: int) -> Column:
+    """Give torques of joints; where others slide, whose forces stand beside them, every row has its unit."""
+    numbers = [number(row.get(key)) for row in rows]
+    units = [unit_of_effort(result, row["joint"]) for row in rows]
+    if len(set(units)) == 1:
+        return Column(f"{heading}, {units[0]}", numbers, spare=spare)
+    told = [f"{value} {unit}" if value else "" for value, unit in zip(numbers, units, strict=True)]
+    return Column(heading, told, spare=spare)
 
 
 def verdict(result: Document) -> list[str]:

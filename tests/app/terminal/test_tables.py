@@ -9,6 +9,7 @@ from rich.console import Console
 
 from app.documents import json_bytes
 from app.terminal.columns import Column, print_table
+from app.terminal.tables import effort_column
 from tests.app.terminal.conftest import run
 from tests.core.report.documents import diagnosed
 
@@ -76,3 +77,18 @@ def test_headings_are_folded_before_a_column_is_left_out_and_the_column_that_is_
         rows = [line for line in text.splitlines() if "shoulder" in line]
         assert len(rows) == 1
         assert len(rows[0].rstrip()) <= max(width, len("  joint  shoulder"))
+
+
+@pytest.mark.parametrize(
+    ("kinds", "heading", "cells"),
+    [
+        (("revolute", "revolute"), "rms, N m", ["1", "2"]),
+        (("prismatic", "prismatic"), "rms, N", ["1", "2"]),
+        (("prismatic", "revolute"), "rms", ["1 N", "2 N m"]),
+    ],
+)
+def test_forces_of_slides_are_told_in_newtons(kinds, heading, cells):
+    document = {"robot": {"joints": [{"type": kind} for kind in kinds]}}
+    rows = [{"joint": 1, "rms_torque": 1.0}, {"joint": 2, "rms_torque": 2.0}]
+    column = effort_column(document, "rms", rows, "rms_torque", spare=1)
+    assert (column.heading, list(column.cells)) == (heading, cells)
