@@ -9,12 +9,12 @@ import pytest
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.rivals import standing
-from core.diagnosis.selection import Selection, clear_enough, rise, select
+from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, Selection, clear_enough, log_p, rise, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 
-QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
+QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
 
 CLEAN = None
@@ -109,6 +109,22 @@ def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly
     type(causes[0]).leaves = leaves
     found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
     assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
+
+
+@pytest.mark.parametrize(
+    ("wave", "size", "named"),
+    [(QUICKER, 0.006, True), (NEARLY_QUICK, 0.034, False)],
+    ids=["as clear before the first was known", "much clearer before it was known"],
+)
+def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_that(wave, size, named):
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("other", {wave: 1.0}))
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, wave: size})), causes)
+    nothing_found(bench)
+    quick, other = bench.candidates
+    first = bench.tried((quick,))
+    second = bench.added(first, other)
+    assert np.log(FURTHER_LEVEL / 2.0) < log_p(first, second) < np.log(LEVEL / 2.0)
+    assert {name for name, _ in names(select(bench))} == {"quick", *(["other"] if named else [])}
 
 
 @pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
