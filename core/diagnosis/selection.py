@@ -24,8 +24,8 @@ LEVEL = 1e-4
 """Chance of naming anything in a log that hides nothing."""
 FURTHER_LEVEL = 1e-7
 """The same beside another cause: no columns are exact, and what they leave is not luck,"""
-UNDIMINISHED = 0.9
-"""unless so much of its rise was there before any other cause was known: that is nobody's leaving."""
+UNCHANGED = 0.9
+"""unless, on a joint of its own, it was as clear, within this share, before any other cause was known."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
 RIVALS = 6
@@ -165,11 +165,14 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> b
 
 def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
     """Tell whether a last member is as clear as a first one has to be, and owes nothing to the others."""
-    member = trial.members[-1]
-    if not now.members or member.cause.event or not clear_enough(bench, now, trial, kinds, LEVEL):
+    member, others = trial.members[-1], [set(one.site) for one in now.members]
+    if not others or member.cause.event or not all(one and one.isdisjoint(member.site) for one in others):
+        return False
+    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL):
         return False
     none = bench.tried(())
-    return rise(now, trial) > UNDIMINISHED * rise(none, bench.added(none, member))
+    alone, beside = rise(none, bench.added(none, member)), rise(now, trial)
+    return min(alone, beside) > UNCHANGED * max(alone, beside)
 
 
 def clear_enough(
