@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.dynamics.model import standard_model
-from core.errors import OptionError
+from core.errors import OptionError, VeritorqueError
 from core.estimate.constraints import check_links
 from core.options import IdentifyOptions
 from core.robot.model import RobotModel
 from core.signals.condition import check_currents
+from core.signals.several import check_different
 
 
 @dataclass(frozen=True)
@@ -22,12 +23,19 @@ class KnownLog:
     ----------
     rate_hz, duration
         Sampling rate, and last stamp minus first in s.
+    samples, stretches
+        Number of rows, and of parts between gaps, at most.
+    sha256
+        Hash of the file's bytes.
     """
 
     name: str
     channels: tuple[str, ...]
     rate_hz: float
     duration: float
+    samples: int
+    stretches: int = 1
+    sha256: str = ""
 
 
 def admit(options: IdentifyOptions, robot: RobotModel, logs: Sequence[KnownLog]) -> None:
@@ -38,25 +46,35 @@ def admit(options: IdentifyOptions, robot: RobotModel, logs: Sequence[KnownLog])
     OptionError
         If a cut-off, a held-out log, a torque term or a bound does not fit them.
     LogError
-        If a log holds currents, and the robot does not say what torque a current gives.
+        If a log is given twice, or holds currents and the robot does not say what torque a current gives.
     """
+    check_different([log.name for log in logs], [log.sha256 for log in logs])
     model = standard_model(robot, options.terms)
     if options.reference is None:  # otherwise the reference decides which links the model has
         check_links(options.estimate.bounds, model)
     options.validation.chosen(len(logs))
     for log in logs:
-        options.filter.check_log(log.rate_hz, log.duration)
-        _check_instants(options, log)
-        check_currents(robot, log.channels, log.name)
+        try:
+            options.filter.check_log(log.rate_hz, log.duration)
+            _check_instants(options, log)
+            check_currents(robot, log.channels, log.name)
+        except VeritorqueError as error:
+            error.evidence.setdefault("log", log.name)
+            raise
 
 
 def _check_instants(options: IdentifyOptions, log: KnownLog) -> None:
-    """Refuse a decimation that leaves fewer instants than there are blocks to put them in."""
+    """Refuse a decimation that leaves fewer instants than there are blocks to put them in.
+
+    Every stretch between gaps keeps its first instant, whatever the decimation.
+    """
     decimation, blocks = options.filter.decimation, options.validation.blocks
-    instants = int(log.rate_hz * log.duration / (decimation or 1)) + 1
-    if decimation and instants < blocks:
+    if decimation is None:
+        return
+    instants = (log.samples - log.stretches) // decimation + log.stretches
+    if instants < blocks:
         raise OptionError(
             "decimation leaves fewer instants of the log than there are blocks",
-            evidence={"decimation": decimation, "instants": instants, "blocks": blocks, "log": log.name},
-            remedy="leave decimation out, or keep one sample in so few that every block has some",
+            evidence={"decimation": decimation, "instants": instants, "blocks": blocks},
+            remedy="leave decimation out, keep one sample in fewer, or ask for fewer blocks in validation",
         )

@@ -8,7 +8,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -159,7 +159,7 @@ def admit(kind: str, options: Document, description: Document, logs: Sequence[Do
     OptionError
         If an option does not fit them.
     LogError
-        If a log holds currents, and the robot does not say what torque a current gives.
+        If a log is given twice, or holds currents and the robot does not say what torque a current gives.
     """
     from core.admission import KnownLog, admit
 
@@ -169,6 +169,9 @@ def admit(kind: str, options: Document, description: Document, logs: Sequence[Do
             tuple(cast("list[str]", log["channels"])),
             cast("float", log["rate_hz"]),
             cast("float", log["duration_s"]),
+            cast("int", log["samples"]),
+            1 + sum(one["count"] for one in _defects(log) if one["kind"] == "gap"),
+            str(log["sha256"]),
         )
         for log in logs
     ]
@@ -248,6 +251,10 @@ def compute(computation: Computation, progress: Progress) -> Document:
         request, progress
     )
     return document
+
+
+def _defects(log: Document) -> list[dict[str, Any]]:
+    return cast("list[dict[str, Any]]", log["defects"])
 
 
 def _short(values: np.ndarray) -> list[float | None]:

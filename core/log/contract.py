@@ -36,7 +36,7 @@ def check_length(rows: int) -> None:
         raise LogError(
             cause,
             evidence={"rows": rows, "at_least": FEWEST_ROWS},
-            remedy="log at least 1 s of motion, better 10 s or more",
+            remedy=f"log at least {FEWEST_ROWS} rows and 1 s of motion, better 10 s or more",
         )
 
 

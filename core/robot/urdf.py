@@ -16,6 +16,7 @@ import numpy as np
 from core.arrays import LinkParameters, Rotation, Vector3
 from core.errors import RobotError
 from core.robot.description import LEVEL_GRAVITY, MOST_JOINTS
+from core.robot.fields import LARGEST_NUMBER
 from core.robot.frames import rotation_to
 from core.robot.inertia import moved
 from core.robot.model import Joint, JointKind, Link, RobotModel
@@ -68,9 +69,9 @@ def robot_from_urdf(
     """
     document = read_urdf_document(text)
     down = np.array(gravity, dtype=float)
-    if down.shape != (3,) or not np.isfinite(down).all():
+    if down.shape != (3,) or not (np.abs(down) <= LARGEST_NUMBER).all():
         raise RobotError(
-            "gravity is not three finite numbers",
+            f"gravity is not three finite numbers of at most {LARGEST_NUMBER:g}",
             evidence={"gravity": str(gravity)[:80]},
             remedy="give the acceleration of gravity in the base frame, e.g. 0,0,-9.81",
         )

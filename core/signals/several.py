@@ -1,5 +1,7 @@
 """Condition all logs of a request, and refuse what would count the same data twice."""
 
+from collections.abc import Sequence
+
 from core.errors import LogError, VeritorqueError
 from core.log.model import JointLog
 from core.robot.model import RobotModel
@@ -33,13 +35,24 @@ def condition_all(
     return tuple(motions)
 
 
+def check_different(names: Sequence[str], hashes: Sequence[str]) -> None:
+    """Refuse the same log twice; logs whose hash is not known, which is then empty, pass.
+
+    Raises
+    ------
+    LogError
+        If two logs hold the same bytes.
+    """
+    known = [one for one in hashes if one]
+    if len(set(known)) < len(known):
+        raise LogError(
+            "the same log is given more than once, and would count as independent data",
+            evidence={"logs": list(names), "different": len(set(known))},
+            remedy="name every log once",
+        )
+
+
 def _check(logs: tuple[JointLog, ...]) -> None:
     if not logs:
         raise LogError("there is no log to identify from", evidence={"logs": 0}, remedy="name at least one")
-    hashes = [log.sha256 for log in logs if log.sha256]
-    if len(set(hashes)) < len(hashes):
-        raise LogError(
-            "the same log is given more than once, and would count as independent data",
-            evidence={"logs": [log.name for log in logs], "different": len(set(hashes))},
-            remedy="name every log once",
-        )
+    check_different([log.name for log in logs], [log.sha256 for log in logs])

@@ -1,6 +1,7 @@
 """Hold requests to what can be known before any row of a log is read."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -10,7 +11,7 @@ from core.options import parse_diagnose_options, parse_options
 from tests.core.estimate.worlds import planar_robot
 
 ROBOT = planar_robot()
-LOG = KnownLog("swing.csv", ("position", "torque"), rate_hz=250.0, duration=20.0)
+LOG = KnownLog("swing.csv", ("position", "torque"), rate_hz=250.0, duration=20.0, samples=5001)
 NEARLY = math.nextafter(125.0, 0.0)
 
 FITS = [
@@ -26,6 +27,7 @@ DOES_NOT_FIT = [
     {"filter": {"position_cutoff_hz": 125.0}},
     {"filter": {"cutoff_hz": 0.05}},
     {"filter": {"decimation": 264}},
+    {"filter": {"decimation": 251}, "validation": {"blocks": 21}},
     {"bounds": {"mass": [[3, 1.0, 2.0]]}},
     {"bounds": {"mass": [[0, 1.0, 2.0]]}},
     {"bounds": {"centre_box": [[3, 0, 0, 0, 1, 1, 1]]}},
@@ -49,11 +51,29 @@ def test_what_cannot_succeed_is_refused_with_the_numbers_that_show_it(options):
 
 
 def test_every_log_is_held_against_the_options():
-    slow = KnownLog("slow.csv", LOG.channels, rate_hz=20.0, duration=20.0)
+    slow = KnownLog("slow.csv", LOG.channels, rate_hz=20.0, duration=20.0, samples=401)
     asked = parse_options({"filter": {"cutoff_hz": 12.0}, "validation": {"logs": [2]}})
     with pytest.raises(OptionError) as refusal:
         admit(asked, ROBOT, [LOG, slow])
-    assert refusal.value.evidence["rate_hz"] == 20.0
+    assert (refusal.value.evidence["rate_hz"], refusal.value.evidence["log"]) == (20.0, "slow.csv")
+
+
+@pytest.mark.parametrize(("samples", "stretches", "fits"), [(200, 1, 1), (1875, 1, 93), (2400, 12, 265)])
+def test_a_decimation_may_leave_one_instant_a_block_and_no_less(samples, stretches, fits):
+    """By the rows that there are; where steps vary, or stamps are rounded, rate times duration is less."""
+    blocks = (samples - stretches) // fits + stretches
+    log = KnownLog("s.csv", LOG.channels, 100.0 - 1e-9, 1.99, samples, stretches)
+    wanted = {"validation": {"blocks": blocks}}
+    admit(parse_options(wanted | {"filter": {"decimation": fits}}), ROBOT, [log])
+    with pytest.raises(OptionError, match="fewer instants"):
+        admit(parse_options(wanted | {"filter": {"decimation": 2 * fits}}), ROBOT, [log])
+
+
+def test_the_same_log_twice_is_refused_and_two_of_the_same_name_are_not():
+    one, other = replace(LOG, sha256="a"), replace(LOG, sha256="b")
+    admit(parse_options({}), ROBOT, [one, other])
+    with pytest.raises(LogError, match="more than once"):
+        admit(parse_options({}), ROBOT, [one, other, one])
 
 
 def test_bounds_on_a_model_that_a_reference_decides_are_left_to_it():
@@ -63,4 +83,4 @@ def test_bounds_on_a_model_that_a_reference_decides_are_left_to_it():
 
 def test_currents_of_a_robot_whose_drives_are_not_described_are_refused():
     with pytest.raises(LogError, match="what torque a current gives"):
-        admit(parse_options({}), ROBOT, [KnownLog("amperes.csv", ("position", "current"), 250.0, 20.0)])
+        admit(parse_options({}), ROBOT, [replace(LOG, channels=("position", "current"))])

@@ -1,6 +1,7 @@
 import logging
 import os
 import shutil
+import signal
 from pathlib import Path
 
 import pytest
@@ -14,16 +15,19 @@ ROOT = Path(__file__).parents[3]
 def run(*arguments, **environment):
     """Run a command as a shell would; standard output and standard error are apart.
 
-    A command that opens the journal does so for its process, which here goes on: later lines would go to a
-    standard error that is closed by then.
+    A command opens the journal, and takes a request to end for an interruption, for its process, which here
+    goes on: later lines would go to a standard error that is closed by then, and whoever ends the tests would
+    only make one of them fail.
     """
     journal = logging.getLogger()
     handlers, level = journal.handlers, journal.level
+    told_to_end = signal.getsignal(signal.SIGTERM)
     try:
         return CliRunner().invoke(COMMANDS, arguments, env={"COLUMNS": "120"} | environment)
     finally:
         journal.handlers = handlers
         journal.setLevel(level)
+        signal.signal(signal.SIGTERM, told_to_end)
 
 
 @pytest.fixture(autouse=True)

@@ -3,6 +3,7 @@
 import logging
 import re
 import shlex
+import signal
 from pathlib import Path
 
 import pytest
@@ -95,6 +96,12 @@ def test_every_example_runs(line, names, prepared):
 
 
 @pytest.mark.usefixtures("prepared")
+def test_a_study_leaves_it_to_the_tests_what_a_request_to_end_them_means():
+    before = signal.getsignal(signal.SIGTERM)
+    run("identify", "nobody", "nothing.csv")
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
 def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_is_closed(capsys):
     assert run("work").exit_code == 0
     logging.getLogger("app.jobs.worker").warning("computed")

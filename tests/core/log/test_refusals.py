@@ -221,3 +221,9 @@ def test_angles_wrapped_at_half_a_turn_are_refused_with_the_joint_and_the_jumps(
     assert error.evidence["joint_2"]["jumps"] == jumps
     assert set(error.evidence) == {"joint_2"}
     assert "unwrap" in error.remedy
+
+
+def test_too_few_rows_over_a_long_time_are_told_how_many_rows_it_takes(tmp_path):
+    error = refusal(swing(seconds=30.0, rate_hz=2.0), tmp_path)
+    assert error.evidence == {"rows": 60, "at_least": 100}
+    assert "100 rows" in error.remedy

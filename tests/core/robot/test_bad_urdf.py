@@ -162,6 +162,7 @@ def test_a_default_namespace_changes_nothing():
         ({"base_link": "tip"}, "no joint moves"),
         ({"gravity": (0.0, 0.0)}, "not three finite numbers"),
         ({"gravity": (0.0, 0.0, float("nan"))}, "not three finite numbers"),
+        ({"gravity": (0.0, 0.0, 1e300)}, "not three finite numbers of at most 1e"),
     ],
 )
 def test_a_choice_that_makes_no_sense_is_refused(choice, cause):
