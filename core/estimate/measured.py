@@ -7,7 +7,7 @@ import numpy as np
 
 from core.arrays import BlockKey
 from core.dynamics.model import DynamicModel
-from core.errors import ExcitationError
+from core.errors import ExcitationError, OptionError
 from core.estimate.options import EstimateOptions
 from core.estimate.robust import ROUNDS, huber_weights
 from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
@@ -33,11 +33,23 @@ class Measured:
         return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
 
     def parts(self, observation: Observation) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Give the places of the fitted and of the held-out blocks."""
-        held = [(block.log, block.number) in self.held_out for block in observation.blocks]
-        places = range(len(held))
-        fitted = tuple(place for place in places if not held[place])
-        return fitted, tuple(place for place in places if held[place])
+        """Give the places of the fitted and of the held-out blocks.
+
+        Raises
+        ------
+        OptionError
+            If blocks are held out, but none of them has an instant to judge by.
+        """
+        fitted, held = [], []
+        for place, block in enumerate(observation.blocks):
+            (held if (block.log, block.number) in self.held_out else fitted).append(place)
+        if self.held_out and not any(one.rows for place in held for one in observation.blocks[place].factors):
+            raise OptionError(
+                "no kept instant lies in the held-out blocks",
+                evidence={"instants kept": observation.kept, "blocks held out": len(self.held_out)},
+                remedy="keep more instants (smaller decimation, longer log), or hold out longer blocks",
+            )
+        return tuple(fitted), tuple(held)
 
 
 def smoothed(

@@ -159,6 +159,11 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
         OptionError,
         "nothing would be left",
     ),
+    "a hold-out between the kept instants": (
+        lambda: _request(filter={"decimation": 20}, validation={"blocks": 200, "fraction": 0.005}),
+        OptionError,
+        "no kept instant lies in the held-out blocks",
+    ),
     "a cut-off above the log's rate": (
         lambda: _request(filter={"cutoff_hz": 80}),
         OptionError,
