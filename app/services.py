@@ -83,7 +83,7 @@ class Services:
         if computing is not None:
             computing.start()
         inspector.prepare()
-        science.check_options("identify", {})  # loads what that needs, so that no request waits for it
+        science.read_options("identify", {})  # loads what that needs, so that no request waits for it
 
         def alive() -> bool:
             return computing is None or computing.alive

@@ -6,11 +6,10 @@ What only the samples can show (no motion, a cut-off below the motion's band) is
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.dynamics.model import standard_model
+from core.dynamics.model import DynamicModel
 from core.errors import OptionError, VeritorqueError
 from core.estimate.constraints import check_links
 from core.options import IdentifyOptions
-from core.robot.model import RobotModel
 from core.signals.condition import check_currents
 from core.signals.several import check_different
 
@@ -38,18 +37,17 @@ class KnownLog:
     sha256: str = ""
 
 
-def admit(options: IdentifyOptions, robot: RobotModel, logs: Sequence[KnownLog]) -> None:
-    """Hold options against the robot and the logs that they are meant for.
+def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog]) -> None:
+    """Hold options against the model of the robot and the logs that they are meant for.
 
     Raises
     ------
     OptionError
-        If a cut-off, a held-out log, a torque term or a bound does not fit them.
+        If a cut-off, a held-out log or a bound does not fit them.
     LogError
         If a log is given twice, or holds currents and the robot does not say what torque a current gives.
     """
     check_different([log.name for log in logs], [log.sha256 for log in logs])
-    model = standard_model(robot, options.terms)
     if options.reference is None:  # otherwise the reference decides which links the model has
         check_links(options.estimate.bounds, model)
     options.validation.chosen(len(logs))
@@ -57,7 +55,7 @@ def admit(options: IdentifyOptions, robot: RobotModel, logs: Sequence[KnownLog])
         try:
             options.filter.check_log(log.rate_hz, log.duration)
             _check_instants(options, log)
-            check_currents(robot, log.channels, log.name)
+            check_currents(model.robot, log.channels, log.name)
         except VeritorqueError as error:
             error.evidence.setdefault("log", log.name)
             raise

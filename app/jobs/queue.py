@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from typing import TYPE_CHECKING
 
 from app.catalogue import Catalogue
 from app.jobs import science
@@ -12,6 +13,9 @@ from app.store.queueing import Asked, Outcome
 from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
 from app.store.store import TenantStore
 from core.errors import LogError
+
+if TYPE_CHECKING:
+    from core.dynamics.model import DynamicModel
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,8 @@ class Queue:
         """
         robot = cache(lambda identity: self._catalogue.robot(identity, named_in_body=True))
         log = cache(lambda identity: self._catalogue.log(identity, named_in_body=True))
-        checked = [self._checked(one, robot, log) for one in wanted]
+        model = cache(lambda identity, terms: science.model_of(robot(identity).description, terms))
+        checked = [self._checked(one, robot, log, model) for one in wanted]
         wait = self._store.jobs.begin_to_add([one for one in checked if isinstance(one, Asked)])
 
         def outcomes() -> list[Outcome]:
@@ -58,15 +63,19 @@ class Queue:
         return outcomes
 
     def _checked(
-        self, wanted: Wanted, robot_of: Callable[[str], RobotRecord], log_of: Callable[[str], LogRecord]
+        self,
+        wanted: Wanted,
+        robot_of: Callable[[str], RobotRecord],
+        log_of: Callable[[str], LogRecord],
+        model_of: Callable[[str, tuple[str, ...] | None], "DynamicModel"],
     ) -> Asked | Exception:
         """Refuse at once what cannot succeed."""
         try:
             robot, logs = robot_of(wanted.robot), tuple(log_of(identity) for identity in wanted.logs)
-            science.check_options(wanted.kind, wanted.options)
+            options = science.read_options(wanted.kind, wanted.options)
             for log in logs:
                 _check_joints(robot, log)
-            science.admit(wanted.kind, wanted.options, robot.description, [log.summary for log in logs])
+            science.admit(options, model_of(wanted.robot, options.terms), [log.summary for log in logs])
             check_reference(self._store, wanted.kind, robot, wanted.options)
         except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
             return error

@@ -27,6 +27,7 @@ from core.robot.urdf import robot_from_urdf
 from core.robot.writing import to_description
 
 if TYPE_CHECKING:
+    from core.dynamics.model import DynamicModel
     from core.options import IdentifyOptions
 
 KINDS = ("identify", "diagnose")
@@ -134,8 +135,8 @@ def trace_log(log: LogFile, glance: Glance) -> Document:
     }
 
 
-def check_options(kind: str, options: Document) -> None:
-    """Refuse options before anything is computed.
+def read_options(kind: str, options: Document) -> "IdentifyOptions":
+    """Read the options of a kind of job.
 
     Raises
     ------
@@ -148,11 +149,26 @@ def check_options(kind: str, options: Document) -> None:
             evidence={"given": kind, "known": list(KINDS)},
             remedy="ask for one of the known kinds",
         )
-    _parsed(kind, options)
+    from core.options import parse_diagnose_options, parse_options
+
+    return (parse_diagnose_options if kind == "diagnose" else parse_options)(options)
 
 
-def admit(kind: str, options: Document, description: Document, logs: Sequence[Document]) -> None:
-    """Refuse options that a robot or logs do not allow, from what the logs' summaries say.
+def model_of(description: Document, terms: tuple[str, ...] | None) -> "DynamicModel":
+    """Give the model of a robot with the chosen torque terms.
+
+    Raises
+    ------
+    OptionError
+        If the terms do not fit the robot.
+    """
+    from core.dynamics.model import standard_model
+
+    return standard_model(robot_from_description(description), terms)
+
+
+def admit(options: "IdentifyOptions", model: "DynamicModel", logs: Sequence[Document]) -> None:
+    """Refuse options that a robot's model or logs do not allow, from what the logs' summaries say.
 
     Raises
     ------
@@ -175,7 +191,7 @@ def admit(kind: str, options: Document, description: Document, logs: Sequence[Do
         )
         for log in logs
     ]
-    admit(_parsed(kind, options), robot_from_description(description), known)
+    admit(options, model, known)
 
 
 def reference_job(kind: str, options: Document) -> str | None:
@@ -262,14 +278,8 @@ def _short(values: np.ndarray) -> list[float | None]:
     return [None if np.isnan(value) else float(str(value)) for value in values.astype(np.float32)]
 
 
-def _parsed(kind: str, options: Document) -> "IdentifyOptions":
-    from core.options import parse_diagnose_options, parse_options
-
-    return (parse_diagnose_options if kind == "diagnose" else parse_options)(options)
-
-
 def _reference_name(options: Document) -> str | None:
-    return _parsed("diagnose", options).reference
+    return read_options("diagnose", options).reference
 
 
 def _result(reference: Path | None) -> Document | None:

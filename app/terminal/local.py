@@ -86,7 +86,7 @@ class LocalBench:
 
         tell("load", 0.0)
         robot = self.robot(study.robot, study.part)["description"]
-        science.check_options(study.kind, dict(study.options))
+        science.read_options(study.kind, dict(study.options))
         mapping = None if study.mapping is None else dict(study.mapping)
         logs = tuple(LogFile(path, log_name(path.name), mapping, _hash(path)) for path in study.logs)
         _tell_of_compiling()

@@ -40,7 +40,8 @@ class Measured:
         OptionError
             If blocks are held out, but none of them has an instant to judge by.
         """
-        fitted, held = [], []
+        fitted: list[int] = []
+        held: list[int] = []
         for place, block in enumerate(observation.blocks):
             (held if (block.log, block.number) in self.held_out else fitted).append(place)
         if self.held_out and not any(one.rows for place in held for one in observation.blocks[place].factors):

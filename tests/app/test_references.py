@@ -128,7 +128,7 @@ def test_a_job_that_failed_is_no_reference(tmp_path):
 
 def test_whoever_compares_with_nothing_does_not_wait_for_the_solver_to_be_loaded():
     code = (
-        "import sys; from app.jobs import science; science.check_options('diagnose', {}); "
+        "import sys; from app.jobs import science; science.read_options('diagnose', {}); "
         "science.check_reference({}, {}, None); sys.exit('numba' in sys.modules or 'clarabel' in sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

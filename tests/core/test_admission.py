@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from core.admission import KnownLog, admit
+from core.dynamics.model import standard_model
 from core.errors import LogError, OptionError
 from core.options import parse_diagnose_options, parse_options
 from tests.core.estimate.worlds import planar_robot
@@ -37,15 +38,19 @@ DOES_NOT_FIT = [
 ]
 
 
+def judged(options, logs):
+    admit(options, standard_model(ROBOT, options.terms), logs)
+
+
 @pytest.mark.parametrize("options", FITS, ids=repr)
 def test_what_may_succeed_is_let_through(options):
-    admit(parse_options(options), ROBOT, [LOG])
+    judged(parse_options(options), [LOG])
 
 
 @pytest.mark.parametrize("options", DOES_NOT_FIT, ids=repr)
 def test_what_cannot_succeed_is_refused_with_the_numbers_that_show_it(options):
     with pytest.raises(OptionError) as refusal:
-        admit(parse_options(options), ROBOT, [LOG])
+        judged(parse_options(options), [LOG])
     assert refusal.value.evidence
     assert refusal.value.remedy
 
@@ -54,7 +59,7 @@ def test_every_log_is_held_against_the_options():
     slow = KnownLog("slow.csv", LOG.channels, rate_hz=20.0, duration=20.0, samples=401)
     asked = parse_options({"filter": {"cutoff_hz": 12.0}, "validation": {"logs": [2]}})
     with pytest.raises(OptionError) as refusal:
-        admit(asked, ROBOT, [LOG, slow])
+        judged(asked, [LOG, slow])
     assert (refusal.value.evidence["rate_hz"], refusal.value.evidence["log"]) == (20.0, "slow.csv")
 
 
@@ -64,23 +69,23 @@ def test_a_decimation_may_leave_one_instant_a_block_and_no_less(samples, stretch
     blocks = (samples - stretches) // fits + stretches
     log = KnownLog("s.csv", LOG.channels, 100.0 - 1e-9, 1.99, samples, stretches)
     wanted = {"validation": {"blocks": blocks}}
-    admit(parse_options(wanted | {"filter": {"decimation": fits}}), ROBOT, [log])
+    judged(parse_options(wanted | {"filter": {"decimation": fits}}), [log])
     with pytest.raises(OptionError, match="fewer instants"):
-        admit(parse_options(wanted | {"filter": {"decimation": 2 * fits}}), ROBOT, [log])
+        judged(parse_options(wanted | {"filter": {"decimation": 2 * fits}}), [log])
 
 
 def test_the_same_log_twice_is_refused_and_two_of_the_same_name_are_not():
     one, other = replace(LOG, sha256="a"), replace(LOG, sha256="b")
-    admit(parse_options({}), ROBOT, [one, other])
+    judged(parse_options({}), [one, other])
     with pytest.raises(LogError, match="more than once"):
-        admit(parse_options({}), ROBOT, [one, other, one])
+        judged(parse_options({}), [one, other, one])
 
 
 def test_bounds_on_a_model_that_a_reference_decides_are_left_to_it():
     asked = parse_diagnose_options({"reference": "job-1", "bounds": {"mass": [[3, 1.0, 2.0]]}})
-    admit(asked, ROBOT, [LOG])
+    judged(asked, [LOG])
 
 
 def test_currents_of_a_robot_whose_drives_are_not_described_are_refused():
     with pytest.raises(LogError, match="what torque a current gives"):
-        admit(parse_options({}), ROBOT, [replace(LOG, channels=("position", "current"))])
+        judged(parse_options({}), [replace(LOG, channels=("position", "current"))])
