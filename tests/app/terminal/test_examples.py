@@ -102,6 +102,7 @@ def test_a_study_leaves_it_to_the_tests_what_a_request_to_end_them_means():
     assert signal.getsignal(signal.SIGTERM) is before
 
 
+@pytest.mark.usefixtures("prepared")
 def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_is_closed(capsys):
     assert run("work").exit_code == 0
     logging.getLogger("app.jobs.worker").warning("computed")
