@@ -13,8 +13,8 @@ from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look
 from core.diagnosis.raw import RawCause, RawFinding
+from core.diagnosis.rise import log_p_of
 from core.diagnosis.rivals import Standing
-from core.diagnosis.selection import log_p_of
 
 
 def finding(

@@ -13,6 +13,7 @@ import numpy as np
 from core.diagnosis.bench import Bench
 from core.diagnosis.cause import Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+from core.diagnosis.rise import bounded_rise, log_p, merit, rise, weight
 from core.diagnosis.scalars import refined
 
 Key = tuple[str, Site]
@@ -40,8 +41,6 @@ UNLUCKY = 2.5
 """unless it is so small that luck, within so many of its deviations, can take it away."""
 EVENT_LEVEL = 1e-6
 """The same for an event, which is looked for where noise is largest."""
-MOST_OF_A_ROW = 16.0
-"""Squared deviations that a row may count for."""
 BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
 LEAST_SHARE = 0.004
@@ -203,62 +202,6 @@ def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
     """Add a candidate with refined scalars, and fit everything anew."""
     candidate = refined(bench, now, scored.candidate)
     return bench.added(now, candidate)
-
-
-def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf) -> float:
-    """Give the log of the last member's p-value, corrected for its grid; its statistic is `most` at most."""
-    added = len(trial.members) - 1
-    statistic = min(weight(trial, added), rise(now, trial), most)
-    return Scored(trial.members[added], statistic, trial.freedom(added), np.zeros(0), 1.0).log_p
-
-
-def bounded_rise(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise where no row counts for more than so many deviations; of an event, over its own rows.
-
-    A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
-    """
-    before = np.pad(now.fit.values, (0, len(trial.fit.values) - len(now.fit.values)))
-    own, event = trial.columns_of(len(trial.members) - 1), trial.members[-1].cause.event
-    total = 0.0
-    for part in trial.fit.joints:
-        rows = part.columns[:, own].any(axis=1) if event else slice(None)
-        old, new = (
-            np.minimum(part.left(one)[rows] ** 2, MOST_OF_A_ROW) for one in (before, trial.fit.values)
-        )
-        total += float(np.sum(old - new))
-    return total
-
-
-def rise(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise of twice the log-likelihood from one hypothesis to a larger one."""
-    return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
-
-
-def log_p_of(bench: Bench, chosen: Hypothesis, index: int, statistic: float) -> float:
-    """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned.
-
-    `statistic` is the rise that it brings by itself.
-    """
-    member = chosen.members[index]
-    size = min(weight(chosen, index), statistic)
-    scored = Scored(member, size, chosen.freedom(index), np.zeros(0), 1.0)
-    return min(scored.log_p + float(np.log(bench.kinds)), 0.0)
-
-
-def weight(hypothesis: Hypothesis, index: int) -> float:
-    """Give a member's squared size in units of its covariance, under the noise of the whole hypothesis."""
-    covariance = hypothesis.covariance(index)
-    scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-    values = hypothesis.fit.values[hypothesis.columns_of(index)] / scale
-    return float(values @ np.linalg.solve(covariance / np.outer(scale, scale), values))
-
-
-def merit(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
-    rows = max(len(one.torque) for one in trial.fit.joints)
-    added = len(trial.members) - 1
-    freedom = trial.freedom(added) + len(trial.members[added].scalars)
-    return rise(now, trial) - freedom * float(np.log(rows))
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:

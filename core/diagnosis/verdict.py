@@ -20,8 +20,9 @@ from core.diagnosis.look import Look, look_at
 from core.diagnosis.reference import Reference
 from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
+from core.diagnosis.rise import log_p, rise
 from core.diagnosis.rivals import Standing, weighed
-from core.diagnosis.selection import Selection, continued, log_p, rise, select
+from core.diagnosis.selection import Selection, continued, select
 from core.diagnosis.strangers import best_stranger, strangers
 from core.diagnosis.surprise import surprised, turned
 from core.dynamics.model import DynamicModel

@@ -35,7 +35,7 @@ def open_matlab7(path: Path) -> MemoryTable:
     """
     import h5py
 
-    with reading(FORM, path), h5py.File(path, "r") as file:
+    with reading(FORM, path), h5py.File(path, "r", locking=False) as file:
         datasets = dict(islice(_datasets(file, "", set()), MAX_COLUMNS + 1))
         check_columns(list(datasets))
         readable = {name: dataset for name, dataset in datasets.items() if dataset is not None}

@@ -9,8 +9,8 @@ from rich.table import Table
 
 from app.terminal import findings
 from app.terminal.findings import spoken
-from app.terminal.tables import LEFT, number
-from examples.yumi.summary import score
+from app.terminal.tables import number
+from examples.yumi.summary import LEFT, score
 
 Document = Mapping[str, Any]
 

@@ -13,11 +13,13 @@ from rich.table import Table
 from rich.text import Text
 
 from app.terminal import tables
-from app.terminal.tables import LEFT, number, parted, percent, score_table
+from app.terminal.columns import print_table
+from app.terminal.tables import number, parted, percent, score_columns
 
 Document = Mapping[str, Any]
 Truth = Mapping[str, float]
 
+LEFT: Final[dict[str, Any]] = {"title_justify": "left", "caption_justify": "left", "title_style": "bold"}
 FAR: Final = 3.0
 """Standard deviations from the truth beyond which a number is shown in red."""
 
@@ -27,7 +29,9 @@ def print_summary(console: Console, result: Document, truth: Truth | None = None
     friction, inertial = parted(result["base_parameters"])
     for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
         console.print(parameter_table(title, part, truth))
-    console.print(score_table(result))
+    print_table(
+        console, score_columns(result), title="Error of the predicted torque, % of its range and of its rms"
+    )
     for line in verdict(result, truth):
         console.print(line)
 

@@ -8,8 +8,9 @@ import pytest
 
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
+from core.diagnosis.rise import log_p, rise
 from core.diagnosis.rivals import standing
-from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, Selection, clear_enough, log_p, rise, select
+from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, Selection, clear_enough, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
