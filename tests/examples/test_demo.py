@@ -81,7 +81,7 @@ def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
         "Not told apart from torque gain on joint 1; this would separate them: run both directions." in page
     )
     assert "Refuted: torque ripple on joint 1: the reason about torque_ripple." in page
-    assert "1 0.2 0.1 50.00 40.0 to 60.0 50.00" in page
+    assert "1 0.2 N m 0.1 N m 50.00 40.0 to 60.0 50.00" in page
     assert "torque up to 9.5 Hz; simulated motion over 50, 200 ms" in page
     assert "Nothing predictable is left" in page
     assert "hidden" not in page
