@@ -35,6 +35,7 @@ def open_matlab7(path: Path) -> MemoryTable:
     """
     import h5py
 
+    # Whoever set the file aside may hold a lock on it, which the library would take for another writer's.
     with reading(FORM, path), h5py.File(path, "r", locking=False) as file:
         datasets = dict(islice(_datasets(file, "", set()), MAX_COLUMNS + 1))
         check_columns(list(datasets))
