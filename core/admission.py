@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from core.dynamics.model import DynamicModel
 from core.errors import OptionError, VeritorqueError
 from core.estimate.constraints import check_links
+from core.log.model import JointLog
 from core.options import IdentifyOptions
 from core.signals.condition import check_currents
 from core.signals.several import check_different
@@ -35,6 +36,12 @@ class KnownLog:
     samples: int
     stretches: int = 1
     sha256: str = ""
+
+
+def known_log(log: JointLog) -> KnownLog:
+    """Give what is known of a log that is open."""
+    stretches = len(log.segments)
+    return KnownLog(log.name, log.channels, log.rate_hz, log.duration, log.samples, stretches, log.sha256)
 
 
 def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog]) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from core.admission import admit, known_log
 from core.arrays import Parameters
 from core.diagnosis.belief import Belief
 from core.diagnosis.diagnosis import Diagnosis
@@ -188,13 +189,14 @@ def _prepared(
 ) -> tuple[Measured, BaseModel]:
     """Condition the logs, set blocks aside, and group the model's parameters; a reference has its own."""
     tell("condition", 0.02)
+    model = standard_model(request.robot, options.terms) if reference is None else reference.base.model
+    admit(options, model, [known_log(log) for log in request.logs])
     motions = condition_all(request.logs, request.robot, options.filter, blocks=options.validation.blocks)
     held_out = options.validation.chosen(len(motions))
     if reference is not None:
         return Measured(
             ColumnPlan(reference.base.model, reference.base.kept), motions, held_out
         ), reference.base
-    model = standard_model(request.robot, options.terms)
     if options.smooth_coulomb:
         model = smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
     base = base_model(model)

@@ -115,7 +115,7 @@ def rows_between(
     if not low < high or last <= 0 or first >= samples:
         raise OptionError(
             "nothing was measured in that stretch of time",
-            evidence={"from": low, "to": high, "first_s": ends[0], "last_s": ends[1]},
+            evidence={"from": low, "to": high, "first_s": round(ends[0], 6), "last_s": round(ends[1], 6)},
             remedy="ask for a stretch between the first and the last instant, from before to",
         )
     return max(first - 1, 0), min(last + 1, samples)

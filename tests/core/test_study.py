@@ -139,6 +139,13 @@ def _short() -> JointLog:
     return log_from_arrays("short", rows.time[:130], rows.position[:130], rows.torque[:130])
 
 
+def _interrupted(*gaps: int) -> JointLog:
+    """Leave five seconds out before each of these rows."""
+    rows = whole_rows(_log())
+    time = rows.time + 5.0 * np.searchsorted(gaps, np.arange(len(rows.time)), side="right")
+    return log_from_arrays("interrupted", time, rows.position, rows.torque)
+
+
 REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], str]] = {
     "three joints for seven": (
         lambda: _request(_log(wrist_robot()), robot=builtin_robot("yumi-left")),
@@ -159,10 +166,15 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
         OptionError,
         "nothing would be left",
     ),
-    "a hold-out between the kept instants": (
-        lambda: _request(filter={"decimation": 20}, validation={"blocks": 200, "fraction": 0.005}),
+    "a hold-out in a stretch that is too short": (
+        lambda: _request(_interrupted(990, 1020), validation={"blocks": 200, "fraction": 0.005}),
         OptionError,
         "no kept instant lies in the held-out blocks",
+    ),
+    "a decimation that leaves blocks without instants": (
+        lambda: _request(filter={"decimation": 20}, validation={"blocks": 200}),
+        OptionError,
+        "fewer instants of the log than there are blocks",
     ),
     "a cut-off above the log's rate": (
         lambda: _request(filter={"cutoff_hz": 80}),
