@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Annotated
 
 import anyio
@@ -78,7 +79,7 @@ class Services:
         built_in = built_in_robots()
         computing: Worker | Supervisor | None = supervisor
         if computing is None and settings.workers:
-            chosen = executor or executor_of(settings)
+            chosen = executor or executor_of(settings, store)
             computing = worker_of(store, settings, chosen, built_in, metrics.ended)
         if computing is not None:
             computing.start()
@@ -124,10 +125,10 @@ class Services:
         self.lock.release()
 
 
-def executor_of(settings: Settings) -> Executor:
-    """Make what computes as the settings limit it."""
+def executor_of(settings: Settings, store: Store) -> Executor:
+    """Make what computes as the settings limit it, and rehearses beside what the store takes in."""
     limits = Limits(settings.job_memory_bytes, settings.job_cpus)
-    return ProcessExecutor(limits=limits, rehearse=rehearse, at_once=settings.workers)
+    return ProcessExecutor(limits=limits, rehearse=partial(rehearse, store.blobs), at_once=settings.workers)
 
 
 def worker_of(

@@ -1,12 +1,15 @@
 """What the service adds to a computation: a job that is waited for, and the same by the library, in turns.
 
+Both read the log from its file, and write the result's traces beside it.
 Between them the service comes to rest, so that neither pays for the other. Beside it stand jobs that wait for
 each other, asked for all at once.
 """
 
 import statistics
+import tempfile
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 from benchmarks.demo_log import demo_robot
 from benchmarks.figures import Figure
@@ -58,7 +61,9 @@ def _options(cutoff_hz: float) -> dict[str, object]:
 
 
 def _by_library(cutoff_hz: float) -> None:
-    identify(IdentifyRequest(demo_robot(), (read_log(LOG),), _options(cutoff_hz)))
+    with tempfile.TemporaryDirectory() as folder:
+        traces = Path(folder) / "traces.parquet"
+        identify(IdentifyRequest(demo_robot(), (read_log(LOG),), _options(cutoff_hz), traces=traces))
 
 
 def _seconds(work: Callable[[], object]) -> float:

@@ -24,13 +24,15 @@ from core.errors import LogError, VeritorqueError
 
 Work = Callable[[], Document]
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
+NEEDED = ("app.jobs.science", *READERS)
+"""What the work and the libraries that read take long to load."""
 
 
 def inspect(pipe: Connection) -> None:
     """Wait for work on a file, do it and send what was made of it; the entry point of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service
     pa.set_memory_pool(pa.system_memory_pool())  # the others reserve far more than they use
-    for name in READERS:  # there already, unless the server ran before it could be told
+    for name in NEEDED:  # there already, unless the server ran before it could be told
         with suppress(ImportError):
             import_module(name)
     try:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import anyio
 
-from app.forks import READERS, Child, Standby, fork_server
+from app.forks import Child, Standby, fork_server
 from app.inspection import child
 from app.inspection.budget import Budget, budget_for
 from app.jobs import science
@@ -37,7 +37,7 @@ class Inspector:
     """
 
     def __init__(self) -> None:
-        self._context = fork_server("app.inspection.child", *READERS)
+        self._context = fork_server("app.inspection.child", *child.NEEDED)
         self._standby = Standby(lambda: Child(self._context, child.inspect))
         self._at_once = os.cpu_count() or 1
         self.limiter = anyio.CapacityLimiter(self._at_once)

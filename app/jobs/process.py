@@ -30,7 +30,7 @@ def work_until_told(store: Store, settings: Settings, *, beside: bool) -> None:
     if beside:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service, which then ends this
     tell = _tell if beside else None
-    worker = worker_of(store, settings, executor_of(settings), built_in_robots(), tell)
+    worker = worker_of(store, settings, executor_of(settings, store), built_in_robots(), tell)
     worker.start()
     if beside:
         threading.Thread(target=_hear, args=(worker, told), daemon=True).start()

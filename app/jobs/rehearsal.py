@@ -4,14 +4,12 @@ A process has to get every page of its memory from the system once, and librarie
 they are asked for the first time. Both together take a tenth of a second.
 """
 
-import tempfile
-from pathlib import Path
-
 import numpy as np
 import pyarrow as pa
 from pyarrow.csv import write_csv
 
 from app.jobs.computation import Progress
+from app.store.blobs import BlobStore
 from core.log.reader import read_log
 from core.robot.builtin import builtin_description
 from core.robot.description import robot_from_description
@@ -20,15 +18,19 @@ SAMPLES = 7500
 RATE_HZ = 250.0
 
 
-def rehearse(progress: Progress) -> None:
-    """Read the log from a file and identify the robot; whatever comes out is forgotten."""
+def rehearse(blobs: BlobStore, progress: Progress) -> None:
+    """Read the log from a file, identify the robot and write the traces; whatever comes out is forgotten.
+
+    Files stand among the blobs that are received, where those of a process that was killed are removed.
+    """
     from core import study
 
     robot = robot_from_description(builtin_description("yumi-left"))
-    with tempfile.NamedTemporaryFile(suffix=".csv") as file:
-        write_csv(_made_up(len(robot.joints)), file.name)
-        log = read_log(Path(file.name))
-    study.identify(study.IdentifyRequest(robot, (log,), {"bootstrap": {"draws": 0}}), progress)
+    with blobs.aside() as traces:
+        file = traces.with_name("log.csv")
+        write_csv(_made_up(len(robot.joints)), file)
+        request = study.IdentifyRequest(robot, (read_log(file),), {"bootstrap": {"draws": 0}}, traces=traces)
+        study.identify(request, progress)
 
 
 def _made_up(joints: int) -> pa.Table:

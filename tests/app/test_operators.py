@@ -161,7 +161,7 @@ def test_a_job_that_computes_when_the_service_is_told_to_end_is_handed_back(tmp_
     script = (
         "import sys; from app.jobs import process; from app.jobs.executor import ProcessExecutor\n"
         "from app.terminal.main import main; from tests.app import work\n"
-        "process.executor_of = lambda settings: ProcessExecutor(work.sleep, preload=())\n"
+        "process.executor_of = lambda settings, store: ProcessExecutor(work.sleep, preload=())\n"
         "if __name__ == '__main__': main()\n"
     )
     (tmp_path / "sleepy.py").write_text(script)

@@ -19,7 +19,7 @@ def main():
     command()
 
 
-def _executor(settings):
+def _executor(settings, _store):
     from app.jobs.executor import ProcessExecutor
     from app.jobs.limits import Limits
     from tests.chaos.work import compute

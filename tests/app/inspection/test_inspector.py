@@ -1,5 +1,7 @@
 import os
 import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -91,3 +93,24 @@ def test_what_a_file_may_cost_grows_with_its_size_and_stays_below_the_promise_fo
     assert budget_for(100 * MEGABYTE).memory_bytes > budget_for(MEGABYTE).memory_bytes
     assert budget_for(MEGABYTE).processor_s < 2.0
     assert budget_for(MEGABYTE).memory_bytes < 400 * MEGABYTE
+
+
+LATE = """
+import sys
+from importlib import import_module
+from pathlib import Path
+from app.inspection.child import NEEDED
+for name in NEEDED:
+    import_module(name)
+loaded = set(sys.modules)
+from app.jobs import science
+from app.jobs.computation import LogFile
+science.summarise_log(LogFile(Path(sys.argv[1]), "arm", None, "f" * 64), media_type=None)
+print(*(name for name in sys.modules if name not in loaded and not name.startswith("encodings.")))
+"""
+
+
+def test_whoever_waits_for_a_file_has_loaded_all_that_reading_it_takes(log):
+    """Loading it when the file is there took twenty times longer than reading a small one."""
+    command = [sys.executable, "-c", LATE, str(log.path)]
+    assert subprocess.run(command, check=True, capture_output=True, text=True).stdout.split() == []
