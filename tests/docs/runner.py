@@ -11,6 +11,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
+from tests.core.log.recordings import write_mcap
+from tests.core.log.writers import swing
 from tests.docs.blocks import ROOT, Block
 
 RUN = ("bash", "python", "c")
@@ -29,7 +33,7 @@ _LONGEST_S = 300.0
 
 
 def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
-    """Run the blocks of a page in a folder.
+    """Run the blocks of a page in a folder, in which lies what the reader's own robot has recorded.
 
     Raises
     ------
@@ -38,6 +42,7 @@ def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
     """
     for name in ("examples", "openapi.json", ".venv"):
         (folder / name).symlink_to(ROOT / name)
+    (folder / "run.mcap").symlink_to(_recorded(folder))
     steps = [PRELUDE, *(_step(number, block, folder, url) for number, block in enumerate(blocks))]
     done = subprocess.run(
         ["bash", "-c", "\n".join(steps)],
@@ -49,6 +54,13 @@ def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
         check=False,
     )
     assert done.returncode == 0, f"{done.stderr[-3000:]}\n{done.stdout[-1000:]}"
+
+
+def _recorded(folder: Path) -> Path:
+    """Record a motion of three joints as ROS does."""
+    columns = swing(seconds=4.0)
+    columns |= {f"qd_{j}": np.gradient(columns[f"q_{j}"], columns["time"]) for j in (1, 2, 3)}
+    return write_mcap(folder, columns, {"elbow": 3, "shoulder_lift": 2, "shoulder_pan": 1})
 
 
 def _environment(data: Path) -> dict[str, str]:
