@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, rounded
+from core.diagnosis.causes.common import OwnJointCause, rounded
 from core.diagnosis.causes.events import find_events
 from core.diagnosis.causes.sites import end_links
 from core.diagnosis.look import Look
@@ -87,29 +87,53 @@ class ExternalContact(OwnJointCause):
         return bool(np.all(force < STRONGEST) and np.all(moment < LONGEST_LEVER * force + doubt))
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report the strongest force in N, at its peak, and where each contact begins and ends."""
-        forces = solved.values.reshape(-1, len(WRENCH))[:, :3]
-        sizes = np.linalg.norm(forces, axis=1)
-        best = int(np.argmax(sizes))
-        found = [Quantity("force", solved.site[0], "N", float(sizes[best]), _deviation(solved, best))]
-        for number, span in enumerate(_spans(solved.scalars)):
+        """Report every contact's force at its peak, when it begins and ends, and first the force known best.
+
+        The largest is often that which is known least: what noise adds to a force makes it larger.
+        """
+        contacts = _contacts(solved)
+        best = min(contacts, key=lambda one: one.doubt)
+        found = [Quantity("force", solved.site[0], "N", best.force, best.deviation)]
+        for number, one in enumerate(contacts, start=1):
             # An edge of half a sine is known as well as its height, times a bit more than half its length.
-            share = _deviation(solved, number) / max(float(sizes[number]), 1e-12)
-            doubt = 0.6 * min(share, 1.0) * (span[1] - span[0])
+            edge = 0.6 * min(one.doubt, 1.0) * (one.span[1] - one.span[0])
             found += [
-                Quantity(f"{name}_{number + 1}", None, "s", value, doubt)
-                for name, value in zip(("start", "end"), span, strict=True)
+                Quantity(f"force_{number}", solved.site[0], "N", one.force, one.deviation),
+                Quantity(f"start_{number}", None, "s", one.span[0], edge),
+                Quantity(f"end_{number}", None, "s", one.span[1], edge),
             ]
         return tuple(found)
 
     def statement(self, solved: Solved) -> str:
         """Say when and how hard."""
-        found = named(self.quantities(solved))
-        when = ", ".join(f"{start:.3g} s to {end:.3g} s" for start, end in _spans(solved.scalars))
-        return (
-            f"Something pushed against joint {solved.site[0]}'s link with up to {found['force'].value:.3g} ± "
-            f"{rounded(found['force'].standard_deviation)} N, from {when}"
+        pushes = (
+            f"{rounded(one.force, 3)} ± {rounded(one.deviation)} N from {begin:.3g} s to {end:.3g} s"
+            for one in _contacts(solved)
+            for begin, end in [one.span]
         )
+        return f"Something pushed against joint {solved.site[0]}'s link: {', '.join(pushes)}"
+
+
+@dataclass(frozen=True)
+class _Contact:
+    """Hold one contact: when it was, its force at its peak and that force's deviation, N."""
+
+    span: Span
+    force: float
+    deviation: float
+
+    @property
+    def doubt(self) -> float:
+        """Give the deviation as a share of the force."""
+        return self.deviation / max(self.force, 1e-12)
+
+
+def _contacts(solved: Solved) -> list[_Contact]:
+    forces = np.linalg.norm(solved.values.reshape(-1, len(WRENCH))[:, :3], axis=1)
+    return [
+        _Contact(span, float(forces[number]), _deviation(solved, number))
+        for number, span in enumerate(_spans(solved.scalars))
+    ]
 
 
 def _spans(scalars: Scalars) -> tuple[Span, ...]:
