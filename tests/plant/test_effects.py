@@ -140,7 +140,7 @@ def test_the_effects_torque_is_what_the_drive_has_to_give_more():
     there = world()
     for effect, joint, law in (
         (SpringCompensator((2,), 3.0, 0.1), 1, lambda q, dq: 3.0 * (q - 0.1)),
-        (Asymmetric((1,), 0.4), 0, lambda q, dq: 0.4 * np.abs(dq)),
+        (Asymmetric((1,), 0.4, 3.0), 0, lambda q, dq: 0.4 * np.abs(dq)),
     ):
         signals = there.signals((effect,))
         moving = np.abs(signals.direction[:, joint]) > 0.999

@@ -1,4 +1,4 @@
-"""Hide effects of friction: each changes the level of the set-valued friction at the true state.
+"""Hide effects of friction: most change the level of the set-valued friction at the true state.
 
 A level of L means a drive torque of +L where the joint moves forwards, -L backwards, and anything between
 where it sticks.
@@ -72,9 +72,13 @@ class ViscousNonlinear(Effect):
 
 @dataclass(frozen=True)
 class Asymmetric(Effect):
-    """Demand delta_viscous |v| in both directions: half the difference of forward and backward viscosity."""
+    """Demand delta_viscous |v| in both directions: half the difference of forward and backward viscosity.
+
+    `mean_viscous` is what it is half the difference around: more would be friction that drives.
+    """
 
     delta_viscous: float
+    mean_viscous: float
     cause = "friction_asymmetric"
     units: ClassVar = {"delta_viscous": "N m s/rad"}
     sizes = ("delta_viscous",)
@@ -83,11 +87,16 @@ class Asymmetric(Effect):
     def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
         """Draw a share of the viscous friction, of either sign."""
         joints = any_joint(rng, arm)
-        return cls(joints, float(rng.choice([-0.3, 0.3])) * arm.viscous[joints[0] - 1])
+        mean = float(arm.viscous[joints[0] - 1])
+        return cls(joints, float(rng.choice([-0.3, 0.3])) * mean, mean)
 
-    def friction(self, state: State, level: np.ndarray) -> None:
-        """Raise the level forwards and lower it backwards."""
-        level[self.own] += self.delta_viscous * state.velocity[self.own]
+    def plausible(self) -> bool:
+        """Tell whether friction brakes in both directions."""
+        return abs(self.delta_viscous) <= self.mean_viscous
+
+    def torque(self, state: State, torque: np.ndarray) -> None:
+        """Brake more forwards and less backwards, or the other way round."""
+        torque[self.own] -= self.delta_viscous * abs(state.velocity[self.own])
 
 
 @dataclass(frozen=True)
@@ -116,13 +125,14 @@ class Temperature(Effect):
 
     With a sensor (`logged`) the warmth is the rise of the logged temperature in K above its first value,
     without one it is 1 - exp(-t / time_constant), so that the slopes are the change over the whole warm-up,
-    in N m and N m s/rad.
+    in N m and N m s/rad. Friction may fade to nothing, and no further: the `level` that there is bounds it.
     """
 
     coulomb_slope: float
     viscous_slope: float
     time_constant: float
     logged: bool
+    level: float
     cause = "friction_temperature"
     units: ClassVar = {"coulomb_slope": "N m", "viscous_slope": "N m s/rad", "time_constant": "s"}
     sizes = ("coulomb_slope", "viscous_slope")
@@ -135,7 +145,11 @@ class Temperature(Effect):
         own, logged = joints[0] - 1, bool(rng.integers(2))
         share = -0.25 / (cls.rise if logged else 1.0)
         slopes = share * arm.coulomb[own], share * arm.viscous[own] * rng.uniform(0.5, 1.0)
-        return cls(joints, *slopes, rng.uniform(5.0, 20.0), logged)
+        return cls(joints, *slopes, rng.uniform(5.0, 20.0), logged, float(arm.coulomb[own]))
+
+    def plausible(self) -> bool:
+        """Tell whether friction brakes however warm it is."""
+        return abs(self.coulomb_slope) * self._warmth(np.inf) <= self.level
 
     def truth(self) -> tuple[Hidden, ...]:
         """Give the slopes per kelvin where there is a sensor."""
@@ -145,9 +159,12 @@ class Temperature(Effect):
         return tuple(replace(one, unit=one.unit + "/K") for one in listed[:2])
 
     def friction(self, state: State, level: np.ndarray) -> None:
-        """Change both parts by the warmth."""
-        warmth = (1.0 - np.exp(-state.time / self.time_constant)) * (self.rise if self.logged else 1.0)
-        level[self.own] += (self.coulomb_slope + self.viscous_slope * abs(state.velocity[self.own])) * warmth
+        """Change the level by the warmth."""
+        level[self.own] += self.coulomb_slope * self._warmth(state.time)
+
+    def torque(self, state: State, torque: np.ndarray) -> None:
+        """Change viscous friction by the warmth."""
+        torque[self.own] -= self.viscous_slope * state.velocity[self.own] * self._warmth(state.time)
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
         """Log the temperatures of all joints, with a resolution of 0.05 K, where there is a sensor."""
@@ -158,14 +175,18 @@ class Temperature(Effect):
         noisy = temperature + rng.normal(scale=0.05, size=temperature.shape)
         return replace(signals, temperature=0.05 * np.round(noisy / 0.05))
 
+    def _warmth(self, time: float) -> float:
+        return (1.0 - float(np.exp(-time / self.time_constant))) * (self.rise if self.logged else 1.0)
+
 
 @dataclass(frozen=True)
 class PositionDependent(Effect):
-    """Add to the level amplitude cos(harmonic q + phase)."""
+    """Add to the level amplitude cos(harmonic q + phase); the wave is not deeper than the `level` itself."""
 
     amplitude: float
     harmonic: float
     phase: float
+    level: float
     cause = "friction_position_dependent"
     units: ClassVar = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
     sizes = ("amplitude",)
@@ -175,7 +196,12 @@ class PositionDependent(Effect):
         """Draw a low harmonic."""
         joints = any_joint(rng, arm)
         harmonic, phase = float(rng.integers(1, 7)), rng.uniform(-np.pi, np.pi)
-        return cls(joints, 0.3 * arm.coulomb[joints[0] - 1], harmonic, phase)
+        level = float(arm.coulomb[joints[0] - 1])
+        return cls(joints, 0.3 * level, harmonic, phase, level)
+
+    def plausible(self) -> bool:
+        """Tell whether friction brakes everywhere."""
+        return abs(self.amplitude) <= self.level
 
     def friction(self, state: State, level: np.ndarray) -> None:
         """Add the wave."""
