@@ -74,7 +74,7 @@ class ProcessExecutor:
         work: Work = science.compute,
         *,
         limits: Limits = Limits(),  # noqa: B008 - it never changes
-        preload: tuple[str, ...] = ("core.study", *READERS),
+        preload: tuple[str, ...] = ("core.study", "sklearn.ensemble", *READERS),
         rehearse: Rehearse = child.nothing,
         at_once: int = 1,
     ) -> None:
