@@ -91,7 +91,14 @@ def continued(
         if better is None:
             break
         steps.append(Step("added", better.members[-1], rise(now, better)))
-        now = _defended(bench, _settled(bench, better), steps, given_up)
+        settled = _settled(bench, better)
+        if now.members and now.possible and not settled.possible:
+            # Beside it nature would not allow what was found before.
+            steps.append(Step("dropped", better.members[-1], rise(now, better)))
+            given_up[better.members[-1].key] = np.inf
+            bench.believe(now)
+            continue
+        now = _defended(bench, settled, steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
 
 
@@ -114,7 +121,8 @@ def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     member, before = now.members[-1], bench.beneath(now)
     same = [one for one in bench.candidates if one.key == member.key]
     found = bench.scanned(before, [*same, member])[0]
-    return bench.tried((*before.members, refined(bench, before, found.candidate)), now)
+    settled = bench.tried((*before.members, refined(bench, before, found.candidate)), now)
+    return settled if settled.possible or not now.possible else now
 
 
 def best_addition(

@@ -11,7 +11,11 @@ from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.backlash import Backlash as BacklashTerm
 
-NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 7
+NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
+"""Half widths in rad, evenly spread on a logarithmic scale: half as wide again is another motion."""
+NARROWER, WIDER = 8.0, 5.0
+"""By how much the width may seem less or more than that which the crossings were computed for: a link that
+bounces as it lands is late, and adds less at each instant."""
 SMOOTHING_OVER_BAND = 1.5
 
 
@@ -55,9 +59,9 @@ class Backlash(OwnJointCause):
         return BacklashTerm(site[0], believed, scalars["around"], SMOOTHING_OVER_BAND * look.band_hz)
 
     def possible(self, solved: Solved) -> bool:
-        """Want a gap, and one of about the width that the crossings were computed for."""
+        """Want a gap of about the width that the crossings were computed for."""
         around = solved.scalars["around"]
-        return bool(around / 5.0 < solved.values[0] < 5.0 * around)
+        return bool(around / NARROWER < solved.values[0] < WIDER * around)
 
     def statement(self, solved: Solved) -> str:
         """Say how wide the gap is."""
