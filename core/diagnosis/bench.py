@@ -227,7 +227,7 @@ class Bench:
         for one in (now, trial):
             rows = extended(self.unseen, self.columns(one.members))
             white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
-            missed.append(sum(w.missed(one.fit.values) for w in white))
+            missed.append(sum(float(np.sum(w.left(one.fit.values) ** 2)) for w in white))
             if self.belief:
                 missed[-1] += share * self.belief.departure(one.fit.values)
         return missed[0] - missed[1]

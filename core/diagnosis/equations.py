@@ -111,12 +111,6 @@ class Whitened:
         """Give what the columns leave of the torque, less what free columns span."""
         return np.asarray(self.torque - self.free.cleared((self.columns @ values)[:, None])[:, 0])
 
-    def missed(self, values: Weights) -> float:
-        """Give the sum of squares of what `left` gives, at a quarter of its cost."""
-        left = self.torque - self.columns @ values
-        spanned = self.free.inside(left[:, None])[:, 0]
-        return float(left @ left - spanned @ spanned)
-
     def with_columns(self, kept: int, further: Matrix) -> "Whitened":
         """Keep the first columns and put others, not yet white, beside them."""
         white, inside = _white(self.whitening, self.free, further)
@@ -135,6 +129,8 @@ class Fit:
     ----------
     joints
         The whitened rows per joint.
+    left
+        What the columns leave of their torque, white.
     values
         Coefficient of every column.
     factor
@@ -146,16 +142,12 @@ class Fit:
     """
 
     joints: tuple[Whitened, ...]
+    left: tuple[Weights, ...]
     values: Vector
     factor: tuple[np.ndarray, bool]
     scale: Vector
     log_likelihood: float
     belief: Belief | None = None
-
-    @cached_property
-    def left(self) -> tuple[Vector, ...]:
-        """Give what the columns leave of every joint's torque, white."""
-        return tuple(one.left(self.values) for one in self.joints)
 
     def solve(self, right: Matrix) -> Matrix:
         """Give Gram^-1 times right-hand sides."""
@@ -301,6 +293,7 @@ def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor = cho_factor(scaled, lower=True)
     values = cho_solve(factor, right / scale) / scale
-    missed = sum(one.missed(values) for one in joints) + (belief.departure(values) if belief else 0.0)
+    left = tuple(one.left(values) for one in joints)
+    missed = sum(float(one @ one) for one in left) + (belief.departure(values) if belief else 0.0)
     logs = sum(one.log_deviations for one in joints)
-    return Fit(joints, values, factor, scale, -0.5 * missed - logs, belief)
+    return Fit(joints, left, values, factor, scale, -0.5 * missed - logs, belief)
