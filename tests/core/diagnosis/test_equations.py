@@ -1,10 +1,13 @@
 """Hold generalised least squares on whitened rows to the same fit written with dense matrices."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import cho_factor, cho_solve
+from scipy.sparse import csr_array
 
-from core.diagnosis.equations import fit, refit
+from core.diagnosis.equations import fit, joint_rows, refit
 from tests.core.diagnosis.equations_world import BASE, FREE, NOISE, Equations, smooth
 
 CLOSE = 1e-6
@@ -41,6 +44,20 @@ def test_what_free_columns_can_stand_for_does_not_reach_the_parameters(equations
     other.look.torque[:, 1] += other.free @ np.array([1e3, -1e3, 1e3])
     moved = fit(other.again(), NOISE, rounds=0)
     np.testing.assert_allclose(moved.values, fit(equations.joints, NOISE, rounds=0).values, rtol=1e-8)
+
+
+def test_what_a_model_has_at_rest_does_not_change_how_likely_it_is():
+    """However large it is, and however alike the columns are that stand for friction at rest."""
+    rows = Equations(free=2)
+    apart = 1e-3 * rows.free[:, 1]
+    rows.free[:, 1] = rows.free[:, 0] + apart
+    alike = replace(rows.look, sticking=(rows.look.sticking[0], csr_array(rows.free), rows.look.sticking[2]))
+    at_rest = 3e5 * apart[:, None] * np.random.default_rng(7).normal(size=len(BASE))
+    heavy = (rows.base[0], rows.base[1] + at_rest, rows.base[2])
+    plain, resting = (
+        fit(joint_rows(alike, base, rows.mask), NOISE, rounds=0) for base in (rows.base, heavy)
+    )
+    assert resting.log_likelihood == pytest.approx(plain.log_likelihood, abs=1.0)
 
 
 def test_a_candidate_fitted_on_top_is_the_dense_fit_with_its_column(equations):
