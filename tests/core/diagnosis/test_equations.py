@@ -54,9 +54,7 @@ def test_what_a_model_has_at_rest_does_not_change_how_likely_it_is():
     alike = replace(rows.look, sticking=(rows.look.sticking[0], csr_array(rows.free), rows.look.sticking[2]))
     at_rest = 3e5 * apart[:, None] * np.random.default_rng(7).normal(size=len(BASE))
     heavy = (rows.base[0], rows.base[1] + at_rest, rows.base[2])
-    plain, resting = (
-        fit(joint_rows(alike, base, rows.mask), NOISE, rounds=0) for base in (rows.base, heavy)
-    )
+    plain, resting = (fit(joint_rows(alike, base, rows.mask), NOISE, rounds=0) for base in (rows.base, heavy))
     assert resting.log_likelihood == pytest.approx(plain.log_likelihood, abs=1.0)
 
 
