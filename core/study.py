@@ -193,13 +193,9 @@ def _prepared(
     admit(options, model, [known_log(log) for log in request.logs])
     motions = condition_all(request.logs, request.robot, options.filter, blocks=options.validation.blocks)
     held_out = options.validation.chosen(len(motions))
-    if reference is not None:
-        return Measured(
-            ColumnPlan(reference.base.model, reference.base.kept), motions, held_out
-        ), reference.base
-    if options.smooth_coulomb:
+    if reference is None and options.smooth_coulomb:
         model = smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
-    base = base_model(model)
+    base = base_model(model) if reference is None else reference.base
     return Measured(ColumnPlan(model, base.kept), motions, held_out), base
 
 
