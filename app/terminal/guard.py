@@ -40,7 +40,7 @@ class Commands(TyperGroup):
         """List the commands in the order in which a reader meets them."""
         return list(self.homes)
 
-    def get_command(self, _ctx: Any, cmd_name: str) -> Any:  # noqa: ANN401
+    def get_command(self, _ctx: Any, cmd_name: str) -> Any:  # noqa: ANN401  # typer's own, private
         """Load a command; None where there is none of this name."""
         if cmd_name not in self.homes:
             return None
@@ -50,12 +50,12 @@ class Commands(TyperGroup):
         let_commands_hear()
         return found
 
-    def make_context(self, *arguments: Any, **more: Any) -> Any:  # noqa: ANN401
+    def make_context(self, *arguments: Any, **more: Any) -> Any:  # noqa: ANN401  # typer's own, private
         """Read the command line; whatever stops that becomes words and an exit code."""
         with guarded():
             return super().make_context(*arguments, **more)
 
-    def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
+    def invoke(self, ctx: Any) -> Any:  # noqa: ANN401  # typer's own, private
         """Run a command; whatever stops it becomes words and an exit code."""
         with guarded():
             return super().invoke(ctx)

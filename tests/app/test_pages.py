@@ -38,7 +38,7 @@ PAGES = ["/", "/new", "/studies/job-1", "/compare", "/docs"]
 @pytest.fixture(scope="module")
 def guarded(tmp_path_factory):
     """A service that other machines can reach: whoever wants data needs a key."""
-    with service(tmp_path_factory.mktemp("guarded"), host="0.0.0.0") as client:  # noqa: S104
+    with service(tmp_path_factory.mktemp("guarded"), host="0.0.0.0") as client:  # noqa: S104 - with keys
         yield client
 
 
