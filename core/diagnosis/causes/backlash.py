@@ -14,8 +14,10 @@ from core.dynamics.terms.backlash import Backlash as BacklashTerm
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, evenly spread on a logarithmic scale: half as wide again is another motion."""
 NARROWER, WIDER = 8.0, 5.0
-"""By how much the width may seem less or more than that which the crossings were computed for. Both are set by
-hand: in simulated play the best crossings are those of a wider gap, and seem too small a gap."""
+"""By how much the width may seem less or more than that which the crossings were computed for.
+
+Both are set by hand: in simulated play the best crossings are those of a wider gap, and seem too small a one.
+"""
 SMOOTHING_OVER_BAND = 1.5
 
 
