@@ -109,15 +109,8 @@ class Catalogue:
             )
         self._store.robots.remove(robot.id)
 
-    def base_parameters(self, identity: str) -> Document:
-        """Say what motion of a robot can tell apart; computed once and remembered.
-
-        Raises
-        ------
-        Problem
-            If there is no such robot (404).
-        """
-        robot = self.robot(identity)
+    def base_parameters(self, robot: RobotRecord) -> Document:
+        """Say what motion of a robot can tell apart; computed once and remembered."""
         if robot.id not in self._base_parameters:
             self._base_parameters[robot.id] = science.base_parameters(robot.description)
         return {"robot": robot.id} | self._base_parameters[robot.id]

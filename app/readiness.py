@@ -8,6 +8,8 @@ import threading
 import time
 from collections.abc import Callable
 
+import anyio
+
 from app.problems import Problem
 from app.settings import Settings
 from app.store.errors import Unavailable
@@ -16,6 +18,9 @@ from app.store.store import Store
 FRESH_S = 1.0
 PATIENCE_S = 1.0
 """How long a probe waits for the one before it."""
+LOADING_S = 60.0
+"""How long a request waits that cannot be answered without the solver."""
+GLANCE_S = 0.1
 
 
 class Readiness:
@@ -54,6 +59,22 @@ class Readiness:
         for problem in (self._database(), self._disk(), self._worker()):
             if problem is not None:
                 raise problem
+
+    async def let_the_solver_load(self) -> None:
+        """Return once whoever computes has loaded the solver.
+
+        To compile it here as well would hold up every other request.
+
+        Raises
+        ------
+        Problem
+            If it takes longer than a client waits (503).
+        """
+        with anyio.move_on_after(LOADING_S):
+            while not self._worker_ready():  # noqa: ASYNC110  # it gets ready in a thread or process of its own
+                await anyio.sleep(GLANCE_S)
+            return
+        raise _loading()
 
     def _database(self) -> Problem | None:
         refused = self._refusal()
@@ -96,11 +117,7 @@ class Readiness:
 
     def _worker(self) -> Problem | None:
         if not self._worker_ready():
-            return _not_ready(
-                "the solver is being loaded; at the very first start it is compiled",
-                {},
-                "jobs may be sent and will wait; ask again in a few seconds",
-            )
+            return _loading()
         if not self._worker_alive():
             return _not_ready(
                 "the worker is not heard; another is started in its place",
@@ -108,6 +125,14 @@ class Readiness:
                 "jobs may be sent and will wait; the service's own log says why it ended",
             )
         return None
+
+
+def _loading() -> Problem:
+    return _not_ready(
+        "the solver is being loaded; at the very first start it is compiled",
+        {},
+        "jobs may be sent and will wait; ask again in a few seconds",
+    )
 
 
 def _not_ready(cause: str, evidence: dict[str, object], remedy: str) -> Problem:

@@ -13,7 +13,7 @@ from app.reading import parse_json, require_media_type
 from app.routing import chapter
 from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
 from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
-from app.services import DeskOf
+from app.services import DeskOf, ServicesOf
 from app.views import robot_document, robot_summary
 
 ROUTER = chapter("/v1/robots", tag="robots")
@@ -82,9 +82,15 @@ def read_robot(desk: DeskOf, robot_id: str) -> Response:
     summary="Read what can be told apart",
     responses=problems(404, 422),
 )
-def read_base_parameters(desk: DeskOf, robot_id: str) -> Response:
-    """Read the combinations of parameters that some motion can tell apart, with their groupings."""
-    return JSONResponse(desk.catalogue.base_parameters(robot_id))
+async def read_base_parameters(services: ServicesOf, desk: DeskOf, robot_id: str) -> Response:
+    """Read the combinations of parameters that some motion can tell apart, with their groupings.
+
+    Right after the very first start the answer waits until the solver is compiled.
+    """
+    robot = await anyio.to_thread.run_sync(desk.catalogue.robot, robot_id)
+    await services.readiness.let_the_solver_load()
+    document = await anyio.to_thread.run_sync(desk.catalogue.base_parameters, robot)
+    return JSONResponse(document)
 
 
 @ROUTER.delete("/{robot_id}", status_code=204, summary="Delete a robot", responses=problems(404, 409))

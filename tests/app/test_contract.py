@@ -3,11 +3,14 @@
 import json
 import threading
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from starlette.testclient import TestClient
 
+from app import readiness
+from app.jobs import science
 from app.main import create_app
 from app.problems import KINDS, Problem
 from app.schemas import examples
@@ -213,17 +216,46 @@ def test_the_version_is_the_one_of_the_project(client):
     assert VERSION == project["version"] == client.get("/version").json()["version"]
 
 
+class Loading(StubExecutor):
+    """Has not loaded the solver until somebody opens the gate."""
+
+    def __init__(self):
+        super().__init__()
+        self.gate = threading.Event()
+
+    def prepare(self):
+        self.gate.wait(20.0)
+
+
 def test_a_service_that_still_loads_the_solver_is_alive_but_not_ready(tmp_path):
-    class Loading(StubExecutor):
-        gate = threading.Event()
-
-        def prepare(self):
-            self.gate.wait(10.0)
-
-    with service(tmp_path, Loading()) as client:
+    loading = Loading()
+    with service(tmp_path, loading) as client:
         assert client.get("/healthz").status_code == 200
         assert_problem(client.get("/readyz"), 503, "not-ready")
         assert client.post("/v1/robots", json=description()).status_code == 201
-        Loading.gate.set()
+        loading.gate.set()
         client.app.state.services.computing.ready.wait(5.0)
         assert client.get("/readyz").json() == {"status": "ready"}
+
+
+def test_what_needs_the_solver_waits_until_it_is_loaded(tmp_path, monkeypatch):
+    loading = Loading()
+    monkeypatch.setattr(science, "base_parameters", lambda _robot: {"counts": {"base": 5}})
+    with service(tmp_path, loading) as client, ThreadPoolExecutor() as others:
+        robot = client.post("/v1/robots", json=description()).json()["id"]
+        assert_problem(client.get("/v1/robots/none/base-parameters"), 404, "not-found")
+        asked = others.submit(client.get, f"/v1/robots/{robot}/base-parameters")
+        with pytest.raises(TimeoutError):
+            asked.result(0.5)
+        loading.gate.set()
+        assert asked.result(20.0).json() == {"robot": robot, "counts": {"base": 5}}
+
+
+def test_who_waits_too_long_for_the_solver_is_told(tmp_path, monkeypatch):
+    loading = Loading()
+    monkeypatch.setattr(readiness, "LOADING_S", 0.3)
+    with service(tmp_path, loading) as client:
+        answer = client.get("/v1/robots/yumi/base-parameters")
+        assert_problem(answer, 503, "not-ready")
+        assert answer.headers["retry-after"]
+        loading.gate.set()
