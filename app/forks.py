@@ -5,12 +5,15 @@ first fork. A child does one task, which it is sent over its pipe; so it can be 
 """
 
 import multiprocessing
+import os
+import signal
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
+from multiprocessing import forkserver
 from multiprocessing.context import ForkServerContext
 from queue import Empty, SimpleQueue
-from threading import Lock
+from threading import Event, Lock
 
 READERS = (
     "h5py",
@@ -23,6 +26,9 @@ READERS = (
     "scipy.io.matlab",
 )
 """What reads logs; what is not installed is passed over. Where pandas is installed, Arrow loads it."""
+LOOK_EVERY_S = 0.05
+PATIENCE_S = 1.0
+"""How long a child that is being made may still take when nobody needs it any more."""
 _PRELOAD: list[str] = []
 
 
@@ -32,6 +38,10 @@ def fork_server(*preload: str) -> ForkServerContext:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(_PRELOAD))
     return context
+
+
+class NotWanted(Exception):  # noqa: N818 - no error: nothing went wrong
+    """Say that nobody waits any more for the child that was asked for."""
 
 
 class Child:
@@ -102,24 +112,26 @@ class Standby:
         return coming
 
     @contextmanager
-    def child(self) -> Iterator[Child]:
+    def child(self, stop: Event | None = None) -> Iterator[Child]:
         """Give a child, and end it afterwards.
 
         Raises
         ------
         OSError, EOFError
             If there is none to be had.
+        NotWanted
+            If none had come yet when `stop` was set.
         """
         try:
-            coming = self._coming.get_nowait()
+            coming, kept = self._coming.get_nowait(), True
         except Empty:  # nobody prepared for this
-            child = self._make()
-            try:
-                yield child
-            finally:
-                child.end()
-            return
-        used = []
+            coming, kept = self._keeper.submit(self._make), False
+        while stop is not None and not coming.done():
+            if stop.is_set():
+                self._coming.put(coming)
+                raise NotWanted
+            wait([coming], LOOK_EVERY_S)
+        used: list[Child] = []
         try:
             used.append(coming.result())
             if not used[0].alive:
@@ -128,23 +140,51 @@ class Standby:
         finally:
             for child in used:
                 child.kill()
-            self._coming.put(self._keeper.submit(self._successor, used))
+            if kept:
+                self._coming.put(self._keeper.submit(self._successor, used))
+            else:
+                self._keeper.submit(_end, used)
 
     def close(self) -> None:
         """End all that wait; nobody may be in use any more.
 
-        A child that stayed would keep this process from ending: it heeds no request to end.
+        A child that stayed would keep this process from ending: it heeds no request to end. So would a server
+        that is still loading; at the very first start that takes as long as compiling does.
         """
         with self._parting:
             self._closed = True
+        self._keeper.shutdown(wait=False, cancel_futures=True)
         with suppress(Empty):
             while True:
                 coming = self._coming.get_nowait()
-                with suppress(OSError, EOFError):
-                    coming.result().end()
+                with suppress(OSError, EOFError, CancelledError):
+                    _soon(coming).end()
         self._keeper.shutdown()
 
     def _successor(self, used: list[Child]) -> Child:
-        for child in used:
-            child.end()
+        _end(used)
         return self._make()
+
+
+def _end(used: list[Child]) -> None:
+    for child in used:
+        child.end()
+
+
+def _soon(coming: "Future[Child]") -> Child:
+    """Give the child, or end the server that is still loading what it would have been forked with."""
+    while True:
+        try:
+            return coming.result(PATIENCE_S)
+        except TimeoutError:
+            if coming.done():
+                raise
+            _end_server()
+
+
+def _end_server() -> None:
+    """Kill the server process; whoever needs one again has it started anew."""
+    server = forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]  # noqa: SLF001  # no name else
+    if server is not None:
+        with suppress(ProcessLookupError):
+            os.kill(server, signal.SIGKILL)

@@ -14,7 +14,7 @@ from multiprocessing.connection import wait
 from threading import Event
 from typing import Protocol
 
-from app.forks import READERS, Child, Standby, fork_server
+from app.forks import READERS, Child, NotWanted, Standby, fork_server
 from app.jobs import child, science
 from app.jobs.computation import (
     Computation,
@@ -90,9 +90,11 @@ class ProcessExecutor:
     def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
         """Run a computation in a process of its own; see `Executor`."""
         try:
-            with self._standby.child() as process:
+            with self._standby.child(stop) as process:
                 process.pipe.send((computation, timeout_s))
                 return _follow(process, progress=progress, stop=stop, timeout_s=timeout_s)
+        except NotWanted:
+            return Stopped()
         except (EOFError, OSError) as error:  # the server that forks is gone; it is started again by itself
             LOGGER.warning("no process could be had: %r", error)
             return Died(_vanished(None).document())

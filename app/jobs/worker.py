@@ -128,6 +128,8 @@ class Worker:
         try:
             self._executor.prepare()
         except Exception:
+            if self._closing.is_set():
+                return
             LOGGER.exception("the solver could not be loaded ahead; the first job will try again")
         self.ready.set()
 

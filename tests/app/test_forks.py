@@ -3,9 +3,11 @@
 import json
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
@@ -16,6 +18,7 @@ from tests.app import work
 from tests.app.test_executor import COMPUTATION
 
 CONTEXT = fork_server()
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -125,3 +128,41 @@ def test_a_rehearsal_that_fails_does_no_harm():
     outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=60.0)
     executor.close()
     assert isinstance(outcome, Finished)
+
+
+STOPPED_EARLY = """
+import threading
+from app.jobs.executor import ProcessExecutor
+from tests.app import work
+from tests.app.test_executor import COMPUTATION
+
+def asked():
+    print(executor.run(COMPUTATION, progress=print, stop=stop, timeout_s=60.0))
+
+stop = threading.Event()
+executor = ProcessExecutor(work.echo, preload=("tests.app.slow_to_load",))
+threading.excepthook = lambda _: None
+preparing = threading.Thread(target=executor.prepare)
+preparing.start()
+asking = threading.Thread(target=asked)
+asking.start()
+stop.wait(1.0)
+stop.set()
+asking.join()
+executor.close()
+preparing.join()
+"""
+
+
+def test_nobody_waits_for_a_solver_that_is_still_loading_when_all_is_to_end():
+    begun = time.monotonic()
+    done = subprocess.run(
+        [sys.executable, "-c", STOPPED_EARLY],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    )
+    assert done.stdout == "Stopped()\n"
+    assert time.monotonic() - begun < 60.0

@@ -1,7 +1,8 @@
 """Take the fenced blocks out of the documents, with what a comment right above says about running them.
 
-`<!-- not run: REASON -->` says why a block cannot run here, `<!-- answers 422 -->` that its last request is
-meant to be refused. A reader of the page sees neither.
+`<!-- not run: REASON -->` says why a block cannot run here, `<!-- as in docs/operating.md -->` that the same
+runs there, `<!-- answers 422 -->` that its last request is meant to be refused, `<!-- goes on; it is up when:
+COMMAND -->` that its last line runs until it is stopped. A reader of the page sees none of them.
 """
 
 import re
@@ -13,8 +14,9 @@ PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docker/README.md")),
     *sorted((ROOT / "docs").glob("*.md")),
 ]
+GOES_ON = "goes on; it is up when: "
 _FENCE = re.compile(
-    r"(?:^<!-- (?P<mark>.+) -->\n)?^```(?P<language>\w*)\n(?P<body>.*?)^```$", re.DOTALL | re.MULTILINE
+    r"(?:^<!-- (?P<mark>[^\n]+) -->\n)?^```(?P<language>\w*)\n(?P<body>.*?)^```$", re.DOTALL | re.MULTILINE
 )
 
 
@@ -32,6 +34,16 @@ class Block:
     def reason(self) -> str:
         """Say why it is not run; empty where it is."""
         return self.mark.removeprefix("not run: ") if self.mark.startswith("not run: ") else ""
+
+    @property
+    def elsewhere(self) -> str:
+        """Name the page where the same runs; empty where it runs here."""
+        return self.mark.removeprefix("as in ") if self.mark.startswith("as in ") else ""
+
+    @property
+    def is_up(self) -> str:
+        """Give the command that succeeds once its last line does what it is for; empty where that ends."""
+        return self.mark.removeprefix(GOES_ON) if self.mark.startswith(GOES_ON) else ""
 
     @property
     def status(self) -> int | None:

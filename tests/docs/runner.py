@@ -1,12 +1,14 @@
 """Run a page as its reader would: block after block in one shell, against a service that is running.
 
 Shell, Python and C follow each other in one folder, so that a block may use what the one before saved. Every
-request has to succeed, unless the page says that it is refused.
+request has to succeed, unless the page says that it is refused. A service that a page starts runs until the page
+starts another one, or ends.
 """
 
 import os
 import shlex
 import shutil
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -18,10 +20,26 @@ from tests.core.log.writers import swing
 from tests.docs.blocks import ROOT, Block
 
 RUN = ("bash", "python", "c")
-WRITTEN = "http://127.0.0.1:8000"
+WRITTEN = ("http://127.0.0.1:8000", "http://robotics.example:8000")
 """Where the pages say that the service is."""
+DATABASE = "postgresql://veritorque:password@db.example/veritorque"
 PRELUDE = """\
 set -euo pipefail
+running=()
+ended() {
+  for one in ${running[@]+"${running[@]}"}; do kill -TERM -- "-$one" 2> /dev/null && wait "$one" || true; done
+  running=()
+}
+trap ended EXIT
+is_up() {
+  for _ in $(seq 600); do
+    if bash -c "$1" > /dev/null 2>&1; then return; fi
+    kill -0 "${running[-1]}" 2> /dev/null || { echo 'it ended' >&2; return 1; }
+    sleep 0.1
+  done
+  echo "a minute later it is not up: $1" >&2
+  return 1
+}
 curl() { command curl --silent --show-error --write-out '%{stderr}%{http_code}\\n' "$@" 2>> statuses; }
 judged() {
   local last; last=$(tail -n 1 statuses)
@@ -29,7 +47,7 @@ judged() {
     { echo "the requests were answered $(tr '\\n' ' ' < statuses)" >&2; exit 1; }
 }
 """
-_LONGEST_S = 300.0
+_LONGEST_S = 600.0
 
 
 def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
@@ -40,14 +58,33 @@ def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
     AssertionError
         If one fails, with where it stands and what it said.
     """
-    for name in ("examples", "openapi.json", ".venv"):
+    _run(blocks, folder, dict.fromkeys(WRITTEN, url), {"VERITORQUE_DATA_DIR": str(data)})
+
+
+def run_page_that_serves(blocks: list[Block], folder: Path, database: str) -> None:
+    """Run the blocks of a page that starts its own service, with a database in the place of the one it names.
+
+    Raises
+    ------
+    AssertionError
+        If one fails, with where it stands and what it said.
+    """
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = str(free.getsockname()[1])
+    places = dict.fromkeys(WRITTEN, f"http://127.0.0.1:{port}") | {DATABASE: database}
+    _run(blocks, folder, places, {"VERITORQUE_PORT": port})
+
+
+def _run(blocks: list[Block], folder: Path, places: dict[str, str], environment: dict[str, str]) -> None:
+    for name in ("examples", "openapi.json", ".venv", "Makefile", "docker"):
         (folder / name).symlink_to(ROOT / name)
     (folder / "run.mcap").symlink_to(_recorded(folder))
-    steps = [PRELUDE, *(_step(number, block, folder, url) for number, block in enumerate(blocks))]
+    steps = [PRELUDE, *(_step(number, block, folder, places) for number, block in enumerate(blocks))]
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
         ["bash", "-c", "\n".join(steps)],
         cwd=folder,
-        env=os.environ | _environment(data),
+        env=os.environ | {"PATH": path, "PYTHONPATH": str(ROOT)} | environment,
         capture_output=True,
         text=True,
         timeout=_LONGEST_S,
@@ -63,19 +100,26 @@ def _recorded(folder: Path) -> Path:
     return write_mcap(folder, columns, {"elbow": 3, "shoulder_lift": 2, "shoulder_pan": 1})
 
 
-def _environment(data: Path) -> dict[str, str]:
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    return {"PATH": path, "PYTHONPATH": str(ROOT), "VERITORQUE_DATA_DIR": str(data)}
-
-
-def _step(number: int, block: Block, folder: Path, url: str) -> str:
+def _step(number: int, block: Block, folder: Path, places: dict[str, str]) -> str:
     """Write a block as commands of the shell, between the line that names it and the one that judges it."""
-    body = block.body.replace(WRITTEN, url)
+    body, up = block.body, block.is_up
+    for written, meant in places.items():
+        body, up = body.replace(written, meant), up.replace(written, meant)
     if block.language != "bash":
         file = folder / f"block_{number}.{'py' if block.language == 'python' else 'c'}"
         file.write_text(body, encoding="utf-8")
         body = _started(file)
+    if up:
+        body = _left_running(body, up, f"said_{number}")
     return f"echo {shlex.quote(f'in {block}:')} >&2\n: > statuses\n{body}\njudged '{block.status or ''}'"
+
+
+def _left_running(body: str, is_up: str, said: str) -> str:
+    """Leave its last line running; a service takes the place of the one before, and of what computes for it."""
+    *before, last = body.strip().split("\n")
+    stop = ["ended"] if "serve" in last else []
+    start = f"setsid {last} > {said} 2>&1 &\nrunning+=($!)\nis_up {shlex.quote(is_up)} || {{ cat {said} >&2; exit 1; }}"
+    return "\n".join([*before, *stop, start])
 
 
 def _started(file: Path) -> str:

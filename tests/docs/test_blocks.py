@@ -1,5 +1,6 @@
 """Every block of every page: what can run runs, what cannot says why, examples follow the contract."""
 
+import contextlib
 import json
 import subprocess
 import threading
@@ -13,17 +14,22 @@ from app.schemas.robots import RobotDescription
 from app.server import Server
 from app.settings import Settings
 from core.options import parse_options
-from tests.docs.blocks import BLOCKS, blocks_of
-from tests.docs.runner import RUN, run_page
+from tests.app.postgres import binaries, cluster, new_database
+from tests.docs.blocks import BLOCKS, ROOT, blocks_of
+from tests.docs.runner import DATABASE, RUN, run_page, run_page_that_serves
 
 LANGUAGES = {"bash", "sh", "python", "c", "json", "xml", "text", ""}
 RUN_ELSEWHERE = ("client.md", "terminal.md")
 """Their tests in tests/app run them from the first block to the last, in one session."""
 RUNNABLE = [block for block in BLOCKS if block.language in RUN]
 LEFT_OUT = [block for block in RUNNABLE if block.reason]
+SERVING = list(dict.fromkeys(block.page for block in RUNNABLE if block.is_up))
+"""Pages that start a service of their own."""
 TYPED = sorted(
     dict.fromkeys(
-        block.page for block in RUNNABLE if not block.reason and block.page.name not in RUN_ELSEWHERE
+        block.page
+        for block in RUNNABLE
+        if not block.reason and block.page not in SERVING and block.page.name not in RUN_ELSEWHERE
     ),
     key=lambda page: page.name == "diagnosis.md",
 )
@@ -52,8 +58,28 @@ def test_what_the_pages_tell_their_readers_to_type_runs(served, tmp_path):
     for page in TYPED:
         folder = tmp_path / page.stem
         folder.mkdir()
-        typed = [block for block in blocks_of(page) if block.language in RUN and not block.reason]
-        run_page(typed, folder, url, data)
+        run_page(_typed(page), folder, url, data)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", SERVING, ids=lambda page: page.name)
+def test_a_service_that_a_page_starts_runs_until_it_is_stopped(page, tmp_path):
+    with contextlib.ExitStack() as stack:
+        database = new_database(stack.enter_context(cluster())) if binaries() else ""
+        wanted = [block for block in _typed(page) if database or DATABASE not in block.body]
+        run_page_that_serves(wanted, tmp_path, database)
+    if not database:
+        pytest.skip("SKIPPED FOR WANT OF POSTGRESQL: all blocks ran but those that name a database of it")
+
+
+def _typed(page):
+    return [one for one in blocks_of(page) if one.language in RUN and not one.reason and not one.elsewhere]
+
+
+def test_what_runs_on_another_page_is_there():
+    for block in BLOCKS:
+        if block.elsewhere:
+            assert block.body in [other.body for other in _typed(ROOT / block.elsewhere)]
 
 
 @pytest.mark.parametrize("block", LEFT_OUT, ids=str)
@@ -72,7 +98,7 @@ def test_few_blocks_are_left_out():
 @pytest.mark.parametrize("block", BLOCKS, ids=str)
 def test_a_block_names_its_language_and_its_remark_is_understood(block):
     assert block.language in LANGUAGES
-    assert not block.mark or block.reason or block.status
+    assert not block.mark or block.reason or block.status or block.elsewhere or block.is_up
 
 
 @pytest.mark.parametrize("block", [one for one in BLOCKS if one.language == "json"], ids=str)
