@@ -1,8 +1,8 @@
 """Run a page as its reader would: block after block in one shell, against a service that is running.
 
 Shell, Python and C follow each other in one folder, so that a block may use what the one before saved. Every
-request has to succeed, unless the page says that it is refused. A service that a page starts runs until the page
-starts another one, or ends.
+request has to succeed, unless the page says that it is refused. A service that a page starts runs until the
+page starts another one, or ends.
 """
 
 import os
@@ -115,11 +115,12 @@ def _step(number: int, block: Block, folder: Path, places: dict[str, str]) -> st
 
 
 def _left_running(body: str, is_up: str, said: str) -> str:
-    """Leave its last line running; a service takes the place of the one before, and of what computes for it."""
+    """Leave its last line running; a service takes the place of what ran before."""
     *before, last = body.strip().split("\n")
     stop = ["ended"] if "serve" in last else []
-    start = f"setsid {last} > {said} 2>&1 &\nrunning+=($!)\nis_up {shlex.quote(is_up)} || {{ cat {said} >&2; exit 1; }}"
-    return "\n".join([*before, *stop, start])
+    start = [f"setsid {last} > {said} 2>&1 &", "running+=($!)"]
+    look = f"is_up {shlex.quote(is_up)} || {{ cat {said} >&2; exit 1; }}"
+    return "\n".join([*before, *stop, *start, look])
 
 
 def _started(file: Path) -> str:
