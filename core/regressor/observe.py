@@ -194,22 +194,21 @@ class _OpenBlock:
         return Block(log, number, self.start, self.end, tuple(self.factors), ranges)
 
 
-def joint_residuals(plan: ColumnPlan, pairs: list[Rows], parameters: BaseParameters) -> JointSeries:
-    """Give measured minus predicted torque of a tile's rows, N m."""
-    return np.column_stack(
-        [
-            rows[:, -1] - rows[:, :-1] @ parameters[columns]
-            for (rows, _), columns in zip(pairs, plan.columns_of, strict=True)
-        ]
-    )
+def compare(plan: ColumnPlan, tile: Tile, parameters: BaseParameters) -> tuple[JointSeries, JointSeries]:
+    """Give a tile's filtered torque, and what parameters over the plan's columns leave of it, N m.
+
+    The filter is linear: one prediction per joint is filtered in the place of all its columns.
+    """
+    series = plan.series(tile.state)
+    parts = zip(plan.rows_of, plan.columns_of, strict=True)
+    predicted = np.stack([parameters[columns] @ series[rows] for rows, columns in parts])
+    torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
+    return torque.T, (torque - tile.filtered(predicted)).T
 
 
 @dataclass(frozen=True, eq=False)
 class ResidualTile:
-    """Carry filtered torque and residual (measured minus predicted.
-
-    N m) of all joints at the kept instants.
-    """
+    """Carry filtered torque and residual (measured minus predicted), N m, of all joints at kept instants."""
 
     time: Samples
     torque: JointSeries
@@ -220,9 +219,8 @@ class ResidualTile:
 def residuals(plan: ColumnPlan, motion: Motion, parameters: BaseParameters) -> Iterator[ResidualTile]:
     """Recompute the residuals from parameters over the plan's columns, tile after tile."""
     for tile in motion.tiles():
-        pairs = list(equations(plan, tile))
-        torque = np.column_stack([rows[:, -1] for rows, _ in pairs])
-        yield ResidualTile(tile.time, torque, joint_residuals(plan, pairs, parameters), tile.usable)
+        torque, residual = compare(plan, tile, parameters)
+        yield ResidualTile(tile.time, torque, residual, tile.usable)
 
 
 def torque_scales(observation: Observation, chosen: tuple[int, ...] | None = None) -> JointVector:

@@ -14,9 +14,9 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from core.arrays import BaseParameters, JointSeries
+from core.arrays import BaseParameters
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import equations, joint_residuals
+from core.regressor.observe import compare
 from core.report.diagnosed import Diagnosed
 from core.report.identification import Identification
 from core.report.traces.layout import (
@@ -92,7 +92,7 @@ def _table(parts: list[Rows], schema: pa.Schema) -> pa.Table:
 def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: bool) -> Rows:
     kept = len(tile.time)
     at = slice(tile.first, None, tile.parallel.decimation)
-    torque, residual = _compared(tile, models[0])
+    torque, residual = compare(models[0].plan, tile, models[0].parameters)
     series = {
         "position": tile.state.position[at][:kept],
         "velocity": tile.state.velocity[at][:kept],
@@ -102,7 +102,7 @@ def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: bool) -
         "residual": residual,
     }
     for extended in models[1:]:
-        _, after = _compared(tile, extended)
+        _, after = compare(extended.plan, tile, extended.parameters)
         series |= {"torque_estimated_after": torque - after, "residual_after": after}
     return {
         LOG: np.full(kept, log + 1, dtype=np.int32),
@@ -115,13 +115,6 @@ def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: bool) -
         },
         **{column(USED, joint): used for joint, used in enumerate(tile.usable.T, start=1)},
     }
-
-
-def _compared(tile: Tile, model: _Model) -> tuple[JointSeries, JointSeries]:
-    """Give filtered torque, and what the model leaves of it."""
-    pairs = list(equations(model.plan, tile))
-    torque = np.column_stack([rows[:, -1] for rows, _ in pairs])
-    return torque, joint_residuals(model.plan, pairs, model.parameters)
 
 
 def _schema(robot: RobotModel, *, extended: bool) -> pa.Schema:
