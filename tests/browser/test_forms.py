@@ -140,6 +140,37 @@ def test_columns_that_say_nothing_are_mapped_in_a_form(look, service, odd_log):
     assert f"from {low:.4g} to {high:.4g}".replace("-", MINUS) in summary
 
 
+def test_joints_that_differ_have_a_unit_each(look, service, odd_log):
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", odd_log)
+    page.get_by_label("What clock_ms is").select_option("time")
+    for channel, unit in {"time": "ms", "position": "each", "torque": "mN m"}.items():
+        page.get_by_label(f"Unit of {channel}", exact=True).select_option(unit)
+    page.get_by_label("Unit of pos_a").focus()
+    page.get_by_label("Unit of pos_a").select_option("counts")
+    assert page.evaluate("document.activeElement.getAttribute('aria-label')") == "Unit of pos_a"
+    again = page.get_by_role("button", name="Read the log so")
+    again.click()
+    page.get_by_text("Choose the unit of pos_b").wait_for()
+    page.get_by_label("Unit of pos_b").select_option("deg")
+    again.click()
+    page.get_by_text("Say what one count of pos_a is").wait_for()
+    page.get_by_label("One count of pos_a").fill("pi/180")
+    assert seen.barriers() == []
+    again.click()
+    page.get_by_role("article", name="Log odd.csv").wait_for()
+    page.locator(".plot").nth(3).wait_for()
+    _, position, _ = columns(seconds=4.0)
+    for joint, values in ((1, position[:, 1]), (2, position[:, 0])):
+        summary = page.get_by_role("img", name=f"Plot of Position of joint {joint}").get_attribute(
+            "aria-label"
+        )
+        low, high = (f"{value:.4g}".replace("-", MINUS) for value in (values.min(), values.max()))
+        assert f"from {low} to {high}" in summary
+
+
 def test_currents_are_offered_as_such_with_what_makes_torques_of_them(look, service, tmp_path):
     path = tmp_path / "amperes.csv"
     path.write_bytes(csv_log(seconds=4.0).replace(b"time,q_1,q_2,tau_1,tau_2", b"time,q_1,q_2,i_1,i_2"))

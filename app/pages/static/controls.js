@@ -86,6 +86,17 @@ export function dropZone(label, hint, accept, taken) {
   }
 }
 
+/** Ask for a number; what is typed stays as it is typed. */
+export function figure(value, typed, more = {}) {
+  return element("input", {
+    ...more,
+    type: "text",
+    inputmode: "decimal",
+    value: value ?? "",
+    on: { input: (event) => typed(event.target.value) },
+  });
+}
+
 /** Read a number as people write it: 1.5, 1,5, -pi/2, 2e-3; NaN where it is none. */
 export function readNumber(text) {
   const written = text.trim().replace(",", ".").replaceAll("−", "-");

@@ -1,9 +1,10 @@
 // Choose logs: upload files or take what was uploaded before, and look at each: rate, columns, defects, every channel.
 import { get, upload } from "./api.js";
 import { showChannels } from "./channels.js";
+import { columnsOf } from "./columns.js";
 import { dropZone, field, menu } from "./controls.js";
-import { columnsOf, mappingForm } from "./mapping.js";
 import { element, fill } from "./dom.js";
+import { mappingForm } from "./mapping.js";
 import { showError } from "./problem.js";
 import { bytes, count, duration, number, percent, plain, plural } from "./words.js";
 

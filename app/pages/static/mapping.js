@@ -1,16 +1,9 @@
 // The form that says which column is what, and in which unit. It guesses by names what a column is, never its unit.
-import { field, menu, readNumber } from "./controls.js";
+import { CHANNELS, likelyRoles, oneCount, UNITS, unitChoices } from "./columns.js";
+import { field, figure, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
 
-const CHANNELS = ["time", "position", "velocity", "torque", "current", "temperature"];
-const UNITS = {
-  time: ["s", "ms", "us", "ns"],
-  position: ["rad", "deg", "m", "mm", "counts"],
-  velocity: ["rad/s", "deg/s", "rpm", "m/s", "mm/s"],
-  torque: ["N m", "mN m", "N", "counts"],
-  current: ["A", "mA"],
-  temperature: ["degC", "K"],
-};
+const EACH = "each";
 const PROFILES = {
   "ur-rtde": "Universal Robots, RTDE",
   franka: "Franka, libfranka",
@@ -18,47 +11,22 @@ const PROFILES = {
   lerobot: "LeRobot",
   "abb-test-signal-viewer": "ABB, Test Signal Viewer",
 };
-const LIKELY = [
-  ["time", /^t$|time|stamp|^sec/i],
-  ["temperature", /temp/i],
-  ["velocity", /vel|speed|^qd|^dq|qdot/i],
-  ["current", /cur|amp|^i_?[dqm]?_?\d+$/i],
-  ["torque", /tau|torq|effort|moment|force/i],
-  ["", /acc|^qdd|^ddq/i],
-  ["position", /pos|angle|^q_?\d*$|theta|joint/i],
-];
 const DRIVE_GAIN =
   "A motor's current becomes torque at its joint by the drive gain: torque constant (N m/A) times gear ratio. Both belong to each joint of the robot: in its table, under “more columns”. Where torque is logged as well, torque is used.";
-const HEAD_BYTES = 1 << 16;
-
-/** Read the columns of a text file from its first line; null for other files. */
-export async function columnsOf(file) {
-  const head = await file.slice(0, HEAD_BYTES).text();
-  if (/[\u0000-\u0008]/.test(head)) return null;
-  const line = head.split(/\r?\n/).find((one) => one.trim() && !one.startsWith("#") && !one.startsWith("%"));
-  if (!line) return null;
-  const separator = [",", ";", "\t"].find((one) => line.includes(one)) ?? /\s+/;
-  return line
-    .trim()
-    .split(separator)
-    .map((name) => name.trim().replace(/^"(.*)"$/, "$1"));
-}
-
 /**
  * Show the form.
  * @param {HTMLElement} container
  * @param {Object} options `columns` of the file; `readings`: what units are plausible by column; `finished(mapping)`
  */
 export function mappingForm(container, { columns, readings, finished }) {
-  const roles = columns.map((name) => (LIKELY.find(([, pattern]) => pattern.test(name)) ?? [""])[0]);
-  const time = roles.indexOf("time");
-  roles.forEach((role, index) => {
-    if (role === "time" && index !== time) roles[index] = "";
-  });
+  const roles = likelyRoles(columns);
   const joints = columns.map(() => null);
   const units = {};
   const scales = {};
+  const unitsOf = columns.map(() => "");
+  const scalesOf = columns.map(() => "");
   let rate = "";
+  const head = element("tr", {});
   const body = element("tbody", {});
   const declared = element("div", { class: "fields" });
   const wrong = element("p", { class: "hint wrong", role: "status" });
@@ -81,15 +49,7 @@ export function mappingForm(container, { columns, readings, finished }) {
         element(
           "table",
           {},
-          element(
-            "thead",
-            {},
-            element(
-              "tr",
-              {},
-              ["column", "is", "of joint"].map((name) => element("th", { scope: "col" }, name)),
-            ),
-          ),
+          element("thead", {}, head),
           body,
         ),
       ),
@@ -105,7 +65,15 @@ export function mappingForm(container, { columns, readings, finished }) {
   show();
 
   function show() {
+    const focused = document.activeElement?.name;
     number();
+    const anyOfItsOwn = columns.some((_, index) => ofItsOwn(index));
+    fill(
+      head,
+      ["column", "is", "of joint", ...(anyOfItsOwn ? ["in"] : [])].map((name) =>
+        element("th", { scope: "col" }, name),
+      ),
+    );
     fill(
       body,
       columns.map((name, index) =>
@@ -122,9 +90,10 @@ export function mappingForm(container, { columns, readings, finished }) {
               (role) => {
                 roles[index] = role;
                 joints[index] = null;
+                unitsOf[index] = "";
                 show();
               },
-              { "aria-label": `What ${name} is` },
+              { "aria-label": `What ${name} is`, name: `role-${index}` },
             ),
           ),
           element(
@@ -145,6 +114,7 @@ export function mappingForm(container, { columns, readings, finished }) {
                 })
               : null,
           ),
+          anyOfItsOwn ? element("td", {}, ofItsOwn(index) ? ownUnit(index) : null) : null,
         ),
       ),
     );
@@ -156,30 +126,30 @@ export function mappingForm(container, { columns, readings, finished }) {
         ? null
         : field(
             "Rate, Hz",
-            element("input", {
-              type: "text",
-              inputmode: "decimal",
-              value: rate,
-              on: {
-                input: (event) => {
-                  rate = event.target.value;
-                },
-              },
+            figure(rate, (text) => {
+              rate = text;
             }),
             "of uniform samples, where no column holds the time",
           ),
     );
+    if (focused) container.querySelector(`[name="${focused}"]`)?.focus();
   }
 
   function unitField(channel) {
     const hints = [
       ...new Set(columns.filter((_, index) => roles[index] === channel).flatMap((name) => readings[name] ?? [])),
     ].filter((hint) => UNITS[channel].includes(hint.split(":")[0]));
-    const list = menu([["", "choose"], ...UNITS[channel].map((unit) => [unit, unit])], units[channel] ?? "", (unit) => {
-      units[channel] = unit;
-      wrong.textContent = "";
-      show();
-    });
+    const differ = channel === "time" ? [] : [[EACH, "differs by joint"]];
+    const list = menu(
+      [...unitChoices(channel), ...differ],
+      units[channel] ?? "",
+      (unit) => {
+        units[channel] = unit;
+        wrong.textContent = "";
+        show();
+      },
+      { name: `unit-of-${channel}` },
+    );
     const made = [
       field(`Unit of ${channel}`, list, hints.length ? `plausible: ${hints.slice(0, 2).join("; ")}` : null),
       channel === "current" ? element("p", { class: "hint" }, DRIVE_GAIN) : null,
@@ -188,21 +158,42 @@ export function mappingForm(container, { columns, readings, finished }) {
       made.push(
         field(
           `One count of ${channel}`,
-          element("input", {
-            type: "text",
-            inputmode: "decimal",
-            value: scales[channel] ?? "",
-            on: {
-              input: (event) => {
-                scales[channel] = event.target.value;
-              },
-            },
+          figure(scales[channel], (text) => {
+            scales[channel] = text;
           }),
-          channel === "position" ? "in rad or m" : "in N m or N",
+          oneCount(channel),
         ),
       );
     }
     return made;
+  }
+
+  /** Tell whether a column has a unit of its own, because the joints of its channel differ. */
+  function ofItsOwn(index) {
+    return Boolean(roles[index]) && units[roles[index]] === EACH;
+  }
+
+  function ownUnit(index) {
+    const name = columns[index];
+    const list = menu(
+      unitChoices(roles[index]),
+      unitsOf[index],
+      (unit) => {
+        unitsOf[index] = unit;
+        wrong.textContent = "";
+        show();
+      },
+      { "aria-label": `Unit of ${name}`, name: `unit-${index}` },
+    );
+    if (unitsOf[index] !== "counts") return list;
+    const count = figure(
+      scalesOf[index],
+      (text) => {
+        scalesOf[index] = text;
+      },
+      { "aria-label": `One count of ${name}`, placeholder: oneCount(roles[index]) },
+    );
+    return [list, count];
   }
 
   /** Number the joints of each channel by the order of their columns, where nothing else was said. */
@@ -221,11 +212,19 @@ export function mappingForm(container, { columns, readings, finished }) {
     const mapping = {};
     for (const channel of CHANNELS) {
       const own = columns
-        .map((name, index) => ({ name, joint: joints[index], role: roles[index] }))
+        .map((name, index) => ({
+          name,
+          joint: joints[index],
+          role: roles[index],
+          unit: ofItsOwn(index) ? unitsOf[index] : units[roles[index]],
+          count: ofItsOwn(index) ? scalesOf[index] : scales[roles[index]],
+        }))
         .filter((one) => one.role === channel);
       if (!own.length) continue;
-      if (!units[channel]) {
-        wrong.textContent = `Choose the unit of ${channel}: a wrong guess would be a wrong robot.`;
+      const unsaid = own.find((one) => !one.unit);
+      if (unsaid) {
+        const which = units[channel] === EACH ? unsaid.name : channel;
+        wrong.textContent = `Choose the unit of ${which}: a wrong guess would be a wrong robot.`;
         return;
       }
       if (channel === "time" && own.length > 1) {
@@ -241,13 +240,19 @@ export function mappingForm(container, { columns, readings, finished }) {
         wrong.textContent = `Number the joints of ${channel} from 1 to ${own.length}, each once.`;
         return;
       }
-      mapping[channel] = { columns: own.map((one) => one.name), unit: units[channel] };
-      if (units[channel] === "counts") {
-        mapping[channel].scale = readNumber(scales[channel] ?? "");
-        if (!Number.isFinite(mapping[channel].scale)) {
-          wrong.textContent = `Say what one count of ${channel} is.`;
+      const each = units[channel] === EACH;
+      mapping[channel] = {
+        columns: own.map((one) => one.name),
+        unit: each ? own.map((one) => one.unit) : units[channel],
+      };
+      if (own.some((one) => one.unit === "counts")) {
+        const counts = own.map((one) => (one.unit === "counts" ? readNumber(one.count ?? "") : 1));
+        const unclear = own.find((_, index) => !Number.isFinite(counts[index]));
+        if (unclear) {
+          wrong.textContent = `Say what one count of ${each ? unclear.name : channel} is.`;
           return;
         }
+        mapping[channel].scale = each ? counts : counts[0];
       }
     }
     if (!mapping.time) {
