@@ -84,11 +84,30 @@ def _unseen(found: Identification) -> list[str]:
     seen, unseen = found.fit_total_percent, found.validation_total_percent
     if not found.validation or unseen <= UNSEEN_OVER_SEEN * seen:
         return []
+    spiked = _spiked_where_held_out(found)
+    reason = (
+        f"outliers of the torque, which count in full, lie in the held-out motion (joint {spiked})"
+        if spiked
+        else "the held-out motion may visit what the fitted motion does not excite"
+    )
     sentence = (
         f"The error on held-out data ({unseen:.3g} %) is {unseen / seen:.3g} times that on fitted data "
-        f"({seen:.3g} %): the held-out motion may visit what the fitted motion does not excite"
+        f"({seen:.3g} %): {reason}"
     )
     return [sentence]
+
+
+def _spiked_where_held_out(found: Identification) -> str:
+    """Name the joints whose torque has outliers in blocks that were held out."""
+    joints = {
+        defect.joint
+        for block in found.observation.blocks
+        if (block.log, block.number) in found.held_out
+        for defect in found.logs[block.log].defects
+        if (defect.kind, defect.channel) == ("outliers", "torque") and defect.joint is not None
+        if any(start <= block.end and end >= block.start for start, end in defect.intervals)
+    }
+    return ", ".join(str(joint) for joint in sorted(joints))
 
 
 def _left_open(found: Identification) -> list[str]:

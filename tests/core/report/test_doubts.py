@@ -46,6 +46,21 @@ def test_torque_of_the_opposite_sign_is_doubted(world):
     assert any("opposite sign" in one and "joint 1" in one for one in found)
 
 
+def test_outliers_are_named_where_they_are_why_held_out_motion_is_predicted_worse(world):
+    robot, rows = world
+    for place in np.linspace(0.05, 0.95, 30):  # some part of the log is held out, the rest is fitted
+        torque = rows.torque.copy()
+        torque[int(place * len(torque)), 1] += 50.0 * np.abs(torque[:, 1]).max()
+        unseen = [one for one in _doubts(robot, rows, torque=torque) if "held-out" in one]
+        if unseen:
+            assert (
+                "outliers of the torque, which count in full, lie in the held-out motion (joint 2)"
+                in unseen[0]
+            )
+            return
+    raise AssertionError("no spike fell into the motion that is held out")
+
+
 def test_a_joint_that_stands_is_named_as_not_excited(world):
     robot, rows = world
     still = rows.position.copy()
