@@ -27,7 +27,7 @@ READERS = (
 )
 """What reads logs; what is not installed is passed over. Where pandas is installed, Arrow loads it."""
 LOOK_EVERY_S = 0.05
-PATIENCE_S = 1.0
+PATIENCE_S = 3.0
 """How long a child that is being made may still take when nobody needs it any more."""
 _PRELOAD: list[str] = []
 
@@ -101,12 +101,13 @@ class Standby:
         self._make = make
         self._coming: SimpleQueue[Future[Child]] = SimpleQueue()
         self._keeper = ThreadPoolExecutor(1, thread_name_prefix="standby")
+        self._making: set[Future[Child]] = set()
         self._closed, self._parting = False, Lock()
 
     def prepare(self, count: int) -> list["Future[Child]"]:
         """Have so many children made, none after `close`; as many tasks at the same time wait for none."""
         with self._parting:
-            coming = [self._keeper.submit(self._make) for _ in range(0 if self._closed else count)]
+            coming = [self._made(self._make) for _ in range(0 if self._closed else count)]
             for child in coming:
                 self._coming.put(child)
         return coming
@@ -125,10 +126,13 @@ class Standby:
         try:
             coming, kept = self._coming.get_nowait(), True
         except Empty:  # nobody prepared for this
-            coming, kept = self._keeper.submit(self._make), False
+            coming, kept = self._made(self._make), False
         while stop is not None and not coming.done():
             if stop.is_set():
-                self._coming.put(coming)
+                if kept:
+                    self._coming.put(coming)
+                elif not coming.cancel():
+                    coming.add_done_callback(_end_unwanted)
                 raise NotWanted
             wait([coming], LOOK_EVERY_S)
         used: list[Child] = []
@@ -140,10 +144,7 @@ class Standby:
         finally:
             for child in used:
                 child.kill()
-            if kept:
-                self._coming.put(self._keeper.submit(self._successor, used))
-            else:
-                self._keeper.submit(_end, used)
+            self._clear_away(used, followed=kept)
 
     def close(self) -> None:
         """End all that wait; nobody may be in use any more.
@@ -154,12 +155,30 @@ class Standby:
         with self._parting:
             self._closed = True
         self._keeper.shutdown(wait=False, cancel_futures=True)
+        for coming in list(self._making):
+            with suppress(OSError, EOFError, CancelledError):
+                _soon(coming)
         with suppress(Empty):
             while True:
                 coming = self._coming.get_nowait()
                 with suppress(OSError, EOFError, CancelledError):
-                    _soon(coming).end()
+                    coming.result().end()
         self._keeper.shutdown()
+
+    def _made(self, make: Callable[..., Child], *given: object) -> "Future[Child]":
+        coming = self._keeper.submit(make, *given)
+        self._making.add(coming)
+        coming.add_done_callback(self._making.discard)
+        return coming
+
+    def _clear_away(self, used: list[Child], *, followed: bool) -> None:
+        try:
+            if followed:
+                self._coming.put(self._made(self._successor, used))
+            else:
+                self._keeper.submit(_end, used)
+        except RuntimeError:  # closed meanwhile
+            _end(used)
 
     def _successor(self, used: list[Child]) -> Child:
         _end(used)
@@ -171,6 +190,11 @@ def _end(used: list[Child]) -> None:
         child.end()
 
 
+def _end_unwanted(made: "Future[Child]") -> None:
+    if not made.cancelled() and made.exception() is None:
+        made.result().end()
+
+
 def _soon(coming: "Future[Child]") -> Child:
     """Give the child, or end the server that is still loading what it would have been forked with."""
     while True:
@@ -178,7 +202,7 @@ def _soon(coming: "Future[Child]") -> Child:
             return coming.result(PATIENCE_S)
         except TimeoutError:
             if coming.done():
-                raise
+                return coming.result()
             _end_server()
 
 

@@ -133,7 +133,10 @@ class Cause(Protocol):
 
     @property
     def leaves(self) -> tuple[str, ...]:
-        """List causes that what it leaves looks like: beside it, they have to be nearly as clear."""
+        """List causes that what it leaves looks like: beside it, they have to be nearly as clear.
+
+        Of events only those count that happen while it acts.
+        """
         ...
 
     @property

@@ -14,8 +14,9 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.leftovers import keeps_beside
 from core.diagnosis.rise import merit, rise
-from core.diagnosis.selection import Key, Selection, Step, keeps_beside, with_candidate
+from core.diagnosis.selection import Key, Selection, Step, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0

@@ -13,6 +13,7 @@ import numpy as np
 from core.diagnosis.bench import Bench
 from core.diagnosis.cause import Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
+from core.diagnosis.leftovers import BESIDE_SHARE, left_over
 from core.diagnosis.rise import bounded_rise, log_p, merit, rise, weight
 from core.diagnosis.scalars import refined
 
@@ -40,9 +41,9 @@ UNSEEN_SHARE = 0.25
 UNLUCKY = 2.5
 """unless it is so small that luck, within so many of its deviations, can take it away."""
 EVENT_LEVEL = 1e-6
-"""The same for an event, which is looked for where noise is largest."""
-BESIDE_SHARE = 0.5
-"""What keeps this share of its rise beside a finding is no rival to it."""
+"""The same for an event, which is looked for where noise is largest,"""
+RARE = 0.1
+"""and for what acts in less than this share of a joint's rows, as one burst of noise does."""
 LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
@@ -159,21 +160,12 @@ def best_addition(
     return next(deserves, None)
 
 
-def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> bool:
-    """Tell whether a member looks like what another one leaves, and brings too little for a cause."""
-    name = whole.members[index].cause.id
-    for place, other in enumerate(whole.members):
-        if place != index and name in other.cause.leaves:
-            without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
-            if own_rise < BESIDE_SHARE * rise(without, whole):
-                return True
-    return False
-
-
 def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
     """Tell whether a last member is as clear as a first one has to be, and owes nothing to the others."""
     member, others = trial.members[-1], [set(one.site) for one in now.members]
-    if not others or member.cause.event or not all(one and one.isdisjoint(member.site) for one in others):
+    if not others or _at_picked_instants(trial):
+        return False
+    if not all(one and one.isdisjoint(member.site) for one in others):
         return False
     if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL):
         return False
@@ -187,11 +179,19 @@ def clear_enough(
 ) -> bool:
     """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
     if level is None:
-        event = trial.members[-1].cause.event
-        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if event else LEVEL
+        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if _at_picked_instants(trial) else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_rise(now, trial))
     return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
+
+
+def _at_picked_instants(trial: Hypothesis) -> bool:
+    """Tell whether a last member acts now and then only, so that one burst of noise may look like it."""
+    if trial.members[-1].cause.event:
+        return True
+    own = trial.columns_of(len(trial.members) - 1)
+    acting = [part.columns[:, own].any(axis=1) for part in trial.fit.joints]
+    return all(float(rows.mean()) < RARE for rows in acting if rows.any())
 
 
 def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
@@ -253,11 +253,6 @@ def _challenged(
             given_up[member.key] = BESIDE_SHARE * own_rise
             return rival
     return None
-
-
-def keeps_beside(bench: Bench, own: Hypothesis, rival: Candidate, alone: float) -> bool:
-    """Tell whether a candidate keeps its rise beside a hypothesis: then it is no rival."""
-    return bench.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
 
 
 def _last(now: Hypothesis, index: int) -> Hypothesis:

@@ -85,14 +85,12 @@ def _unseen(found: Identification) -> list[str]:
     if not found.validation or unseen <= UNSEEN_OVER_SEEN * seen:
         return []
     spiked = _spiked_where_held_out(found)
-    reason = (
-        f"outliers of the torque, which count in full, lie in the held-out motion (joint {spiked})"
-        if spiked
-        else "the held-out motion may visit what the fitted motion does not excite"
+    outliers = (
+        f"outliers of the torque, which count in full, lie there (joint {spiked}), or " if spiked else ""
     )
     sentence = (
         f"The error on held-out data ({unseen:.3g} %) is {unseen / seen:.3g} times that on fitted data "
-        f"({seen:.3g} %): {reason}"
+        f"({seen:.3g} %): {outliers}the held-out motion may visit what the fitted motion does not excite"
     )
     return [sentence]
 

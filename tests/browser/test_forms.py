@@ -157,7 +157,7 @@ def test_joints_that_differ_have_a_unit_each(look, service, odd_log):
     page.get_by_label("Unit of pos_b").select_option("deg")
     again.click()
     page.get_by_text("Say what one count of pos_a is").wait_for()
-    page.get_by_label("One count of pos_a").fill("pi/180")
+    page.get_by_label("One count of pos_a, in rad or m").fill("pi/180")
     assert seen.barriers() == []
     again.click()
     page.get_by_role("article", name="Log odd.csv").wait_for()

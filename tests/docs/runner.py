@@ -48,6 +48,8 @@ judged() {
 }
 """
 _LONGEST_S = 600.0
+_OURS = {name: value for name, value in os.environ.items() if not name.startswith("VERITORQUE_")}
+"""What is set already, but for the service's own settings, which would lead to somebody's data."""
 
 
 def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
@@ -84,7 +86,7 @@ def _run(blocks: list[Block], folder: Path, places: dict[str, str], environment:
     done = subprocess.run(
         ["bash", "-c", "\n".join(steps)],
         cwd=folder,
-        env=os.environ | {"PATH": path, "PYTHONPATH": str(ROOT)} | environment,
+        env=_OURS | {"PATH": path, "PYTHONPATH": str(ROOT)} | environment,
         capture_output=True,
         text=True,
         timeout=_LONGEST_S,

@@ -36,6 +36,18 @@ def test_nothing_is_named_on_a_clean_log(noise):
 
 
 @pytest.mark.slow
+def test_a_burst_of_heavy_tailed_noise_is_no_clipped_torque():
+    assert scored(Order("clean", 5301072, noise="heavy")).extra == ()
+
+
+@pytest.mark.slow
+def test_what_a_clipped_torque_leaves_is_no_push():
+    score = scored(Order("single", 5300508, "torque_saturation"))
+    assert [answer.exact for answer in score.answers] == [True]
+    assert score.extra == ()
+
+
+@pytest.mark.slow
 def test_two_effects_are_both_named():
     score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2"))
     assert [answer.named for answer in score.answers] == [True, True]

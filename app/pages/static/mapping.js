@@ -91,6 +91,7 @@ export function mappingForm(container, { columns, readings, finished }) {
                 roles[index] = role;
                 joints[index] = null;
                 unitsOf[index] = "";
+                scalesOf[index] = "";
                 show();
               },
               { "aria-label": `What ${name} is`, name: `role-${index}` },
@@ -191,7 +192,7 @@ export function mappingForm(container, { columns, readings, finished }) {
       (text) => {
         scalesOf[index] = text;
       },
-      { "aria-label": `One count of ${name}`, placeholder: oneCount(roles[index]) },
+      { "aria-label": `One count of ${name}, ${oneCount(roles[index])}`, placeholder: oneCount(roles[index]) },
     );
     return [list, count];
   }
