@@ -12,6 +12,7 @@ from app.problems import Problem
 from app.store.blobs import Incoming
 from app.store.records import Document, LogRecord, RobotRecord
 from app.store.store import TenantStore
+from core.log.content import recognise
 from core.robot.model import RobotModel
 
 LONGEST_NAME = 200
@@ -120,12 +121,15 @@ class Catalogue:
     ) -> LogRecord:
         """Read an uploaded log once, and keep it if it can be used.
 
+        What begins as no log does is refused without a process that would read it.
+
         Raises
         ------
-        Problem
+        LogError, Problem
             If the log cannot be used; nothing is kept then.
         """
         incoming.flush()  # what is refused need never be on the disk
+        recognise(incoming.path, media_type)
         log = LogFile(incoming.path, log_name(name), mapping, incoming.sha256)
         summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
         return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})

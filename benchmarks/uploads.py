@@ -1,8 +1,8 @@
 """An upload of 20 MB against bare streaming endpoints in the same run, and the memory of eight at once.
 
-The bytes are refused as no log, so that receiving is measured: streaming, hashing, writing, and the process
-that refuses. What a client waits for a sound log until it is kept depends on the log, which is read and then
-synced to the disk, and stands below.
+The bytes are refused as no log once all are there, by the first of them, so that receiving is measured:
+streaming, hashing and writing. What a client waits for a sound log until it is kept depends on the log, which
+is read by a process of its own and then synced to the disk, and stands below.
 """
 
 import http.client
