@@ -208,7 +208,7 @@ def _soon(coming: "Future[Child]") -> Child:
 
 def _end_server() -> None:
     """Kill the server process; whoever needs one again has it started anew."""
-    server = forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]  # noqa: SLF001  # no name else
+    server = forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]  # noqa: SLF001  # it has no public name
     if server is not None:
         with suppress(ProcessLookupError):
             os.kill(server, signal.SIGKILL)
