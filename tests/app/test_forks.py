@@ -140,7 +140,7 @@ def asked():
     print(executor.run(COMPUTATION, progress=print, stop=stop, timeout_s=60.0))
 
 stop = threading.Event()
-executor = ProcessExecutor(work.echo, preload=("tests.app.slow_to_load",))
+executor = ProcessExecutor(work.echo, preload=("slow_to_load",))
 threading.excepthook = lambda _: None
 preparing = threading.Thread(target=executor.prepare)
 preparing.start()
@@ -154,11 +154,13 @@ preparing.join()
 """
 
 
-def test_nobody_waits_for_a_solver_that_is_still_loading_when_all_is_to_end():
+def test_nobody_waits_for_a_solver_that_is_still_loading_when_all_is_to_end(tmp_path):
+    (tmp_path / "slow_to_load.py").write_text("import time\ntime.sleep(300.0)\n")
     begun = time.monotonic()
     done = subprocess.run(
         [sys.executable, "-c", STOPPED_EARLY],
         cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
         capture_output=True,
         text=True,
         timeout=120,
