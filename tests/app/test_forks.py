@@ -130,6 +130,12 @@ def test_a_rehearsal_that_fails_does_no_harm():
     assert isinstance(outcome, Finished)
 
 
+SLOW_TO_LOAD = """
+import pathlib, time
+pathlib.Path(__file__).with_name("begun").touch()
+time.sleep(300.0)
+"""
+
 STOPPED_EARLY = """
 import threading
 from app.jobs.executor import ProcessExecutor
@@ -155,7 +161,7 @@ preparing.join()
 
 
 def test_nobody_waits_for_a_solver_that_is_still_loading_when_all_is_to_end(tmp_path):
-    (tmp_path / "slow_to_load.py").write_text("import time\ntime.sleep(300.0)\n")
+    (tmp_path / "slow_to_load.py").write_text(SLOW_TO_LOAD)
     begun = time.monotonic()
     done = subprocess.run(
         [sys.executable, "-c", STOPPED_EARLY],
@@ -168,3 +174,4 @@ def test_nobody_waits_for_a_solver_that_is_still_loading_when_all_is_to_end(tmp_
     )
     assert done.stdout == "Stopped()\n"
     assert time.monotonic() - begun < 60.0
+    assert (tmp_path / "begun").exists()
