@@ -2,6 +2,7 @@
 
 import os
 import threading
+from types import SimpleNamespace
 
 import pytest
 
@@ -26,7 +27,7 @@ def test_a_computation_that_takes_too_much_memory_fails_with_the_limit_as_eviden
 
 def test_a_computation_whose_worker_is_frozen_ends_when_its_cpu_time_is_up(monkeypatch):
     """The worker looks at its clock; this one does not, and the system ends the process all the same."""
-    monkeypatch.setattr("app.jobs.executor.time.monotonic", lambda: 0.0)
+    monkeypatch.setattr("app.jobs.executor.time", SimpleNamespace(monotonic=lambda: 0.0))
     executor = ProcessExecutor(work.spin, limits=SMALL)
     outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=0.5)
     assert isinstance(outcome, Failed)
