@@ -1,9 +1,12 @@
 """Set the stage for every test: shapes are checked at run time, and a random law is the same law tomorrow.
 
 The import hook has to be in place before core is imported, so nothing in this file imports core. Packages
-with kernels compiled by numba are left out, because a wrapped function cannot be compiled.
+with kernels compiled by numba are left out, because a wrapped function cannot be compiled. Slow tests go
+without: half of their time would go into checking the same few functions a hundred thousand times.
 """
 
+import jaxtyping
+import pytest
 from hypothesis import HealthCheck, settings
 from jaxtyping import install_import_hook
 
@@ -34,3 +37,9 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],  # speed is measured in benchmarks, not on a shared machine
 )
 settings.load_profile("veritorque")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Check shapes unless the test is slow."""
+    jaxtyping.config.update("jaxtyping_disable", item.get_closest_marker("slow") is not None)
