@@ -1,7 +1,9 @@
 """Receive files: streamed to the disk while they are hashed, never in memory as a whole."""
 
 import asyncio
+from collections import deque
 from collections.abc import AsyncIterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 
 import anyio
@@ -17,7 +19,9 @@ from core.log.content import FORMS, NO_CLAIM
 MULTIPART = "multipart/form-data"
 LOG_MEDIA_TYPES = (*sorted({kind for form in FORMS for kind in form.media_types}), "application/octet-stream")
 MOST_PARTS = 32
-PIECE = 1 << 19
+PIECE = 1 << 20
+AHEAD = 2
+"""Pieces that may wait to be written, for each upload."""
 
 
 async def receive_body(request: Request, incoming: Incoming) -> None:
@@ -28,22 +32,29 @@ async def receive_body(request: Request, incoming: Incoming) -> None:
     Problem
         If the client went away meanwhile (400).
     """
-    waiting = bytearray()
-    writing: asyncio.Task[None] | None = None  # one piece is hashed and written while the next one arrives
-    try:
-        async for piece in request.stream():
-            waiting += piece
-            if len(waiting) >= PIECE:
-                if writing is not None:
-                    await writing
-                writing = asyncio.create_task(asyncio.to_thread(incoming.write, bytes(waiting)))
-                waiting.clear()
-    except ClientDisconnect:
-        raise Problem("bad-request", "the upload ended early", remedy="send it again") from None
-    finally:
-        if writing is not None:
-            await writing
-    await anyio.to_thread.run_sync(incoming.write, bytes(waiting))
+    waiting, size = list[bytes](), 0
+    writing: deque[asyncio.Future[None]] = deque()  # pieces are hashed and written while the next ones arrive
+    with ThreadPoolExecutor(1, thread_name_prefix="upload") as writer:
+        try:
+            async for piece in request.stream():
+                waiting.append(piece)
+                size += len(piece)
+                if size >= PIECE:
+                    writing.append(asyncio.wrap_future(writer.submit(_write, incoming, waiting)))
+                    waiting, size = [], 0
+                if len(writing) > AHEAD:
+                    await writing.popleft()
+            writing.append(asyncio.wrap_future(writer.submit(_write, incoming, waiting)))
+            while writing:
+                await writing.popleft()
+        except ClientDisconnect:
+            raise Problem("bad-request", "the upload ended early", remedy="send it again") from None
+        finally:
+            await asyncio.gather(*writing, return_exceptions=True)
+
+
+def _write(incoming: Incoming, pieces: list[bytes]) -> None:
+    incoming.write(b"".join(pieces))
 
 
 async def receive_part(part: UploadFile, incoming: Incoming) -> None:
