@@ -22,8 +22,6 @@ RUBBED = {"delta_viscous": 0.13, "delta_coulomb": 0.4}
 TILT = {"tilt_x": -0.03, "tilt_y": 0.02}
 FEW = {"bootstrap": {"draws": 0}}
 
-pytestmark = pytest.mark.slow
-
 
 @cache
 def log_with(change: str, name: str = NAME):
@@ -110,6 +108,7 @@ def test_all_channels_whose_scale_has_changed_alike_are_one_thing():
     assert_sizes(found, {"relative_error": 0.05})
 
 
+@pytest.mark.slow
 def test_a_base_that_was_tilted_is_named_with_its_two_angles():
     found = the_finding(compared("tilt", "yumi-left"))
     assert found["cause"] == "gravity_misalignment"

@@ -30,8 +30,6 @@ BETTER = {
 """By how much motion errs less, %, on the joint that gains most; 3 to 20 below what was measured first."""
 CHANNEL = {"time_delay", "torque_filter_lag"}
 
-pytestmark = pytest.mark.slow
-
 
 @cache
 def found(cause: str):
