@@ -14,6 +14,7 @@ from core.log.reader import read_log
 from core.study import IdentifyRequest, identify_in_full
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in ("hour", "coverage", "nelder_mead")])
 def test_a_benchmark_gives_named_figures(name):
     figures = importlib.import_module(f"benchmarks.{name}").run(quick=True)

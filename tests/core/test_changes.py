@@ -82,6 +82,7 @@ def test_nothing_has_changed_where_nothing_has():
     assert (diagnosis["verdict"], diagnosis["findings"]) == ("nothing_found", [])
 
 
+@pytest.mark.slow
 def test_a_body_on_the_last_link_is_named_with_its_mass_and_centre():
     found = the_finding(compared("payload"))
     assert (found["cause"], found["joints"], found["cure"]) == ("payload_change", [3], "robot")
@@ -90,6 +91,7 @@ def test_a_body_on_the_last_link_is_named_with_its_mass_and_centre():
     assert "time" not in {one["name"] for one in found["parameters"]}
 
 
+@pytest.mark.slow
 def test_friction_that_has_grown_on_one_joint_is_named_with_its_two_parts():
     found = the_finding(compared("friction"))
     assert (found["cause"], found["joints"]) == ("friction_change", [2])
@@ -102,6 +104,7 @@ def test_a_channel_whose_scale_has_changed_is_named_with_its_error():
     assert_sizes(found, {"relative_error": 0.05})
 
 
+@pytest.mark.slow
 def test_all_channels_whose_scale_has_changed_alike_are_one_thing():
     found = the_finding(compared("all gains"))
     assert (found["cause"], found["joints"]) == ("torque_gain", [1, 2, 3])
@@ -159,6 +162,7 @@ def test_a_description_with_true_bodies_is_compared_with_and_its_friction_is_fil
     assert max(row["nrmse_of_rms_percent"] for row in diagnosis["before"]["validation"]) < 5.0
 
 
+@pytest.mark.slow
 def test_a_description_with_one_wrong_link_has_that_link_named():
     bodies = arm_of(NAME, SEED).bodies.copy()
     bodies[1, 6:9] *= 1.3
@@ -167,6 +171,7 @@ def test_a_description_with_one_wrong_link_has_that_link_named():
     assert_sizes(found, {"delta_MX": arm_of(NAME, SEED).bodies[1, 6] - bodies[1, 6]})
 
 
+@pytest.mark.slow
 def test_a_reference_that_does_not_fit_at_all_is_doubted_and_not_refused():
     bodies = 4.0 * arm_of(NAME, SEED).bodies
     document = study.diagnose(

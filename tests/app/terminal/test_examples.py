@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
+from app.documents import json_bytes
 from app.jobs import process
+from app.jobs.computation import Finished
 from app.terminal import serve
 from app.terminal.exits import Exit
 from app.terminal.local import LocalBench
@@ -58,9 +60,11 @@ class _Recording(StubExecutor):
     """Leave what a computation leaves instant by instant, where a log is diagnosed; it is not looked into."""
 
     def run(self, computation, **more):
-        if computation.kind == "diagnose":
-            computation.traces.write_bytes(b"PAR1")
-        return super().run(computation, **more)
+        ended = super().run(computation, **more)
+        if computation.kind != "diagnose":
+            return ended
+        computation.traces.write_bytes(b"PAR1")
+        return Finished(json_bytes(diagnosed()))
 
 
 @pytest.fixture(scope="module")
@@ -73,6 +77,7 @@ def names(tmp_path_factory):
         jobs = []
         for study in ("identify", "diagnose"):
             asked = run(study, "yumi-left", str(ROOT / "examples/yumi/log.csv"), "--url", url)
+            assert asked.exit_code == Exit.DONE, asked.output
             jobs += re.findall(r"^job (\S+)$", asked.stderr, re.MULTILINE)
         yield {
             "http://127.0.0.1:8000": url,
@@ -118,8 +123,6 @@ def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_
 @pytest.mark.usefixtures("prepared")
 def test_the_examples_of_a_diagnosis_find_what_is_hidden_in_its_log(monkeypatch):
     """The science of it is tested elsewhere and takes its time; here it is what the command does with it."""
-    from app.documents import json_bytes
-
     asked = []
     monkeypatch.setattr(LocalBench, "run", lambda _, *given: asked.append(given) or json_bytes(diagnosed()))
     ends = [called(line, {}).exit_code for line in examples(EVERY["diagnose"])]
