@@ -26,7 +26,8 @@ def consolidated(bench: Bench, found: Selection) -> Selection:
         if len(several) < SEVERAL or cause.id in {one.cause.id for one in members}:
             continue
         bench.believe(found.chosen)
-        without = bench.tried(tuple(one for one in members if one not in several))
+        gone = {*cause.leaves, *cause.excludes}
+        without = bench.tried(tuple(one for one in members if one.cause.id not in gone))
         start = begun_with(bench, without, cause.id)
         if start is None:
             continue
@@ -34,7 +35,7 @@ def consolidated(bench: Bench, found: Selection) -> Selection:
         other = continued(bench, Selection(found.none, start, steps), {})
         if criterion(other.chosen) > criterion(best.chosen) + INDIFFERENCE:
             best = other
-        bench.believe(best.chosen)
+    bench.believe(best.chosen)
     return best
 
 

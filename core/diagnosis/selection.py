@@ -170,6 +170,13 @@ def _deserves(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, inde
     return clear_enough(bench, now, trial, kinds, index=index) or _apart(bench, now, trial, kinds, index)
 
 
+def _stays(bench: Bench, without: Hypothesis, now: Hypothesis, index: int) -> bool:
+    """Tell whether a member still stands out; beside others it has to be clear enough to join them again."""
+    if not without.members:
+        return bool(weight(now, index) > -2.0 * np.log(LEVEL))
+    return _deserves(bench, without, now, bench.kinds, index)
+
+
 def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
     """Tell whether a member is as clear as a first one has to be, and owes nothing to the others."""
     member, others = trial.members[index], [set(one.site) for one in now.members]
@@ -241,7 +248,7 @@ def _least_share(bench: Bench, member: Candidate) -> float:
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
     """Let every member defend its place against being dropped and against its rivals."""
-    for _ in range(len(now.members)):
+    for _ in range(2 * MOST):
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
@@ -260,8 +267,7 @@ def _challenged(
     weak = [
         index
         for index, without in enumerate(less)
-        if not _deserves(bench, without, now, bench.kinds, index)
-        or left_over(bench, now, index, brings[index])
+        if not _stays(bench, without, now, index) or left_over(bench, now, index, brings[index])
     ]
     if weak:
         least = min(weak, key=lambda index: brings[index])

@@ -14,11 +14,11 @@ RATES = (7.0, 11.0, 4.0)
 SIZES = (0.6, 0.3, 0.4)
 
 
-def found_one_by_one(sizes=SIZES, *, leaves=PARTS, first=PARTS, further=()):
+def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, further=()):
     """Give a bench, and what a search has found on it: the causes of these names."""
     parts = [wave_cause(name, {rate: 1.0}) for name, rate in zip(PARTS, RATES, strict=True)]
     whole = wave_cause("whole", dict(zip(RATES, SIZES, strict=True)))
-    type(whole).leaves = leaves
+    type(whole).leaves, type(whole).excludes = leaves, excludes
     type(whole).sites = lambda *_: [()]
     type(whole).term = lambda self, look, believed, _, scalars: super(type(whole), self).term(
         look, believed, (2,), scalars
@@ -56,3 +56,8 @@ def test_otherwise_what_was_found_stays(case):
 def test_a_search_that_begins_with_the_whole_goes_on_from_there():
     bench, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
     assert named(consolidated(bench, found)) == ["whole", "quickest"]
+
+
+def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
+    bench, found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
+    assert named(consolidated(bench, found)) == ["whole"]
