@@ -100,6 +100,9 @@ def continued(
             bench.believe(now)
             continue
         now = _defended(bench, settled, steps, given_up)
+    if len(now.members) > 1:
+        # Under the last one's belief the others' columns are better than those that let them in.
+        now = _defended(bench, _settled(bench, now), steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
 
 
