@@ -102,7 +102,8 @@ def continued(
         now = _defended(bench, settled, steps, given_up)
     if len(now.members) > 1:
         # Under the last one's belief the others' columns are better than those that let them in.
-        now = _defended(bench, _settled(bench, now), steps, given_up)
+        settled = _settled(bench, now)
+        now = _defended(bench, settled if settled.possible else now, steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
 
 
