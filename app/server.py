@@ -9,7 +9,7 @@ client pays for a time in which the service itself was suspended. Source: RFC 91
 import asyncio
 import gc
 import socket
-from typing import Literal
+from typing import Literal, Self
 
 import uvicorn
 from fastapi import FastAPI
@@ -31,6 +31,28 @@ BODY_BYTES = 17 * 512
 ANSWER_LOOKS = 120
 """Looks at a client that takes nothing of its answer before it is given up: a minute."""
 LARGEST_HEAD = 128 * 1024
+
+
+class Pieces:
+    """Hold a body as it came, piece by piece: uvicorn copies each into an array, and out of it again."""
+
+    def __init__(self) -> None:
+        self._pieces: list[bytes] = []
+        self._size = 0
+
+    def __iadd__(self, piece: bytes) -> Self:
+        """Take a piece."""
+        self._pieces.append(piece)
+        self._size += len(piece)
+        return self
+
+    def __len__(self) -> int:
+        """Count the bytes."""
+        return self._size
+
+    def __bytes__(self) -> bytes:
+        """Give all pieces; one alone as it is."""
+        return self._pieces[0] if len(self._pieces) == 1 else b"".join(self._pieces)
 
 
 class PatientConnection(HttpToolsProtocol):
@@ -68,8 +90,10 @@ class PatientConnection(HttpToolsProtocol):
         self._enter("body")
 
     def on_body(self, body: bytes) -> None:
-        """Count the bytes of a body."""
+        """Count the bytes of a body, and keep them as they came."""
         self._bytes += len(body)
+        if not self.cycle.body:
+            self.cycle.body = Pieces()  # type: ignore[assignment]  # as much of an array as uvicorn asks for
         super().on_body(body)
 
     def on_message_complete(self) -> None:

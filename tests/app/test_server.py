@@ -7,10 +7,12 @@ import time
 from contextlib import contextmanager
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app import server as listening
 from app.main import create_app
-from app.server import Server
+from app.server import Pieces, Server
 from app.settings import Settings
 from tests.app.stubs import StubExecutor
 
@@ -176,3 +178,17 @@ def test_many_that_stop_in_the_middle_do_not_hold_up_the_others(port):
     finally:
         for link in links:
             link.close()
+
+
+@given(st.lists(st.binary(max_size=9)))
+def test_a_body_in_pieces_is_the_body(pieces):
+    body = Pieces()
+    for piece in pieces:
+        body += piece
+    assert (len(body), bytes(body)) == (len(b"".join(pieces)), b"".join(pieces))
+
+
+def test_a_body_in_one_piece_is_not_copied():
+    body, piece = Pieces(), bytes(1000)
+    body += piece
+    assert bytes(body) is piece
