@@ -100,6 +100,19 @@ def test_a_cell_that_is_no_number_is_named_and_one_that_is_refused_is_marked(loo
     assert page.evaluate("document.activeElement.getAttribute('aria-label')").startswith("Joint 3: lowest q")
 
 
+def test_a_table_that_is_changed_has_to_be_taken_again(look, service):
+    page = look(service).open("/new")
+    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_label("Name", exact=True).fill("edited arm")
+    page.get_by_role("button", name="Use this robot").click()
+    page.locator(".chosen", has_text="edited arm").wait_for()
+    assert page.get_by_text("choose a robot").count() == 0
+    for written in ("0.7", "1/0"):
+        page.get_by_label("Joint 2: d, m", exact=True).fill(written)
+        page.get_by_text("choose a robot").wait_for()
+        assert page.locator(".chosen").count() == 0
+
+
 def test_a_urdf_is_read_and_drawn(look, service, tmp_path):
     from app.schemas.examples import PENDULUM_URDF
 

@@ -60,6 +60,7 @@ export function chooseRobot(container, { wanted, chosen }) {
     try {
       use(await get(`/v1/robots/${encodeURIComponent(id)}`));
     } catch (error) {
+      use(null);
       showError(said, error);
     }
   }
@@ -68,7 +69,7 @@ export function chooseRobot(container, { wanted, chosen }) {
     use(null);
     robotTable(form, {
       known: robots,
-      changed: draw,
+      changed: edited,
       finished: async (description, refused) => {
         try {
           use(await post("/v1/robots", description));
@@ -78,6 +79,13 @@ export function chooseRobot(container, { wanted, chosen }) {
         }
       },
     });
+  }
+
+  // What was taken is not what the table says any more.
+  function edited(description) {
+    fill(said);
+    chosen(null);
+    if (description !== null) draw(description);
   }
 
   function showUrdf() {
@@ -131,6 +139,7 @@ export function chooseRobot(container, { wanted, chosen }) {
         });
         use(await response.json());
       } catch (error) {
+        use(null);
         showError(said, error);
       }
     }

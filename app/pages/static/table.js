@@ -8,7 +8,7 @@ import { COLUMNS, EMPTY, factorOf, faultOf, jointOf, pointerOf, rowsOf, unitOf, 
 /**
  * Show the form.
  * @param {HTMLElement} container
- * @param {Object} options `known`: robots to start from; `changed(description)` hears of every change that can be drawn;
+ * @param {Object} options `known`: robots to start from; `changed(description)` hears of every change, of null where it says no robot;
  *   `finished(description, refused)` is asked to keep it, and calls `refused(pointer)` if the service refuses it
  */
 export function robotTable(container, { known, changed, finished }) {
@@ -200,8 +200,7 @@ export function robotTable(container, { known, changed, finished }) {
   }
 
   function tell() {
-    const description = describe();
-    if (description !== null) changed(description);
+    changed(describe());
   }
 
   function describe() {
