@@ -100,20 +100,7 @@ def continued(
             bench.believe(now)
             continue
         now = _defended(bench, settled, steps, given_up)
-    if len(now.members) > 1:
-        # Under the last one's belief the others' columns are better than those that let them in.
-        settled = _settled(bench, now)
-        now = _defended(bench, settled if settled.possible else now, steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
-
-
-def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
-    """Give a hypothesis with one cause of the whole robot besides; None where it is not clear enough."""
-    scans = [one for one in bench.scanned(now) if one.candidate.key == (cause, ())]
-    trials = [with_candidate(bench, now, one) for one in scans]
-    clear = (one for one in trials if one.possible and clear_enough(bench, now, one, bench.kinds))
-    first = next(clear, None)
-    return None if first is None else _settled(bench, first)
 
 
 def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
@@ -151,7 +138,11 @@ def best_addition(
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
     likely = sorted(
-        (trial for trial in trials if _deserves(bench, now, trial, count)),
+        (
+            trial
+            for trial in trials
+            if clear_enough(bench, now, trial, count) or _apart(bench, now, trial, count)
+        ),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
@@ -169,26 +160,14 @@ def best_addition(
     return next(deserves, None)
 
 
-def _deserves(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int = -1) -> bool:
-    """Tell whether a member is clear enough to join (the last one unless said otherwise; so below)."""
-    return clear_enough(bench, now, trial, kinds, index=index) or _apart(bench, now, trial, kinds, index)
-
-
-def _stays(bench: Bench, without: Hypothesis, now: Hypothesis, index: int) -> bool:
-    """Tell whether a member still stands out; beside others it has to be clear enough to join them again."""
-    if not without.members:
-        return bool(weight(now, index) > -2.0 * np.log(LEVEL))
-    return _deserves(bench, without, now, bench.kinds, index)
-
-
-def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
-    """Tell whether a member is as clear as a first one has to be, and owes nothing to the others."""
-    member, others = trial.members[index], [set(one.site) for one in now.members]
-    if not others or _at_picked_instants(trial, index):
+def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
+    """Tell whether a last member is as clear as a first one has to be, and owes nothing to the others."""
+    member, others = trial.members[-1], [set(one.site) for one in now.members]
+    if not others or _at_picked_instants(trial):
         return False
     if not all(one and one.isdisjoint(member.site) for one in others):
         return False
-    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL, index):
+    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL):
         return False
     none = bench.tried(())
     alone, beside = rise(none, bench.added(none, member)), rise(now, trial)
@@ -196,27 +175,21 @@ def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: 
 
 
 def clear_enough(
-    bench: Bench,
-    now: Hypothesis,
-    trial: Hypothesis,
-    kinds: int,
-    level: float | None = None,
-    index: int = -1,
+    bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, level: float | None = None
 ) -> bool:
-    """Tell whether a member is beyond luck among so many kinds, and large enough to matter."""
+    """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
     if level is None:
-        rare = _at_picked_instants(trial, index)
-        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if rare else LEVEL
+        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if _at_picked_instants(trial) else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
-    chance = log_p(now, trial, bounded_rise(now, trial, index), index)
-    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial.members[index]))
+    chance = log_p(now, trial, bounded_rise(now, trial))
+    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
 
 
-def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
-    """Tell whether a member acts now and then only, so that one burst of noise may look like it."""
-    if trial.members[index].cause.event:
+def _at_picked_instants(trial: Hypothesis) -> bool:
+    """Tell whether a last member acts now and then only, so that one burst of noise may look like it."""
+    if trial.members[-1].cause.event:
         return True
-    own = trial.columns_of(index)
+    own = trial.columns_of(len(trial.members) - 1)
     acting = [part.columns[:, own].any(axis=1) for part in trial.fit.joints]
     return all(float(rows.mean()) < RARE for rows in acting if rows.any())
 
@@ -244,7 +217,8 @@ def _share(now: Hypothesis, trial: Hypothesis) -> float:
     return rise(now, trial) / rows
 
 
-def _least_share(bench: Bench, member: Candidate) -> float:
+def _least_share(bench: Bench, trial: Hypothesis) -> float:
+    member = trial.members[-1]
     if not member.cause.like_position_noise:
         return LEAST_SHARE
     return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in member.site))
@@ -252,7 +226,7 @@ def _least_share(bench: Bench, member: Candidate) -> float:
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
     """Let every member defend its place against being dropped and against its rivals."""
-    for _ in range(2 * MOST):
+    for _ in range(len(now.members)):
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
@@ -264,26 +238,29 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[K
 def _challenged(
     bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
 ) -> Hypothesis | None:
-    less = [
-        bench.tried((*now.members[:one], *now.members[one + 1 :]), now) for one in range(len(now.members))
-    ]
-    brings = [rise(without, now) for without in less]
-    weak = [
-        index
-        for index, without in enumerate(less)
-        if not _stays(bench, without, now, index) or left_over(bench, now, index, brings[index])
-    ]
-    if weak:
-        least = min(weak, key=lambda index: brings[index])
-        steps.append(Step("dropped", now.members[least], brings[least]))
-        given_up[now.members[least].key] = np.inf
-        return less[least]
     for index, member in enumerate(now.members):
-        rival = best_addition(bench, less[index], given_up, RIVALS)
+        without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
+        own_rise = rise(without, now)
+        if weight(now, index) < -2.0 * np.log(LEVEL) or left_over(bench, now, index, own_rise):
+            steps.append(Step("dropped", member, own_rise))
+            given_up[member.key] = np.inf
+            return without
+        rival = best_addition(bench, without, given_up, RIVALS)
         if rival is None or rival.members[-1].key == member.key:
             continue
-        if merit(less[index], rival) > merit(less[index], now, index) + 6.0:
+        if merit(without, rival) > merit(without, _last(now, index)) + 6.0:
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
-            given_up[member.key] = BESIDE_SHARE * brings[index]
+            given_up[member.key] = BESIDE_SHARE * own_rise
             return rival
     return None
+
+
+def _last(now: Hypothesis, index: int) -> Hypothesis:
+    """Give the same hypothesis as if one member had come last."""
+    order = [*range(index), *range(index + 1, len(now.members)), index]
+    return Hypothesis(
+        tuple(now.members[place] for place in order),
+        now.fit,
+        tuple(now.widths[place] for place in order),
+        now.base,
+    )

@@ -6,11 +6,11 @@ from tests.hidden.plan import Order, run
 
 SINGLES = (
     Order("single", 7001, "friction_stribeck", 3.0, robot="planar-3"),
-    Order("single", 7002, "friction_load_dependent", 3.0, robot="planar-3"),
+    Order("single", 7002, "friction_load_dependent", 3.0),
     Order("single", 7003, "time_delay", 3.0, robot="planar-2"),
     Order("single", 7004, "torque_gain", 3.0, robot="planar-3"),
     Order("single", 7005, "torque_ripple", 3.0, robot="planar-2"),
-    Order("single", 7006, "joint_elasticity", 3.0, robot="planar-3"),
+    Order("single", 7006, "joint_elasticity", 3.0),
 )
 
 
