@@ -52,7 +52,7 @@ def export(
         raise OptionError(
             f"there is no format {name}",
             evidence={"known": [*FORMATS, TRACES_FILE]},
-            remedy="name one of the known formats",
+            remedy="name one of the known formats; --out says where to write it",
         )
     target = out or Path(name)
     if str(target) != "-":

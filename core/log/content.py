@@ -89,7 +89,7 @@ def recognise(path: Path, media_type: str | None = None) -> Form:
         raise LogError(
             f"{path.name} cannot be read",
             evidence={"reason": "it is no file" if path.exists() else "it is not there"},
-            remedy="name the file of a log",
+            remedy="name the file of a log; a pipe is not read, so write it to a file first",
         )
     if path.stat().st_size == 0:
         raise LogError(

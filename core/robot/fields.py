@@ -106,6 +106,8 @@ class Fields:
         value = default if name not in self.value and default is not None else self.required(name)
         if not isinstance(value, str) or not value.isprintable() or not 1 <= len(value) <= LONGEST_NAME:
             self.refuse(name, f"is not a printable text of 1 to {LONGEST_NAME} characters")
+        if value.isspace():
+            self.refuse(name, "holds nothing but blanks")
         return value
 
     def choice(self, name: str, options: Sequence[str], default: str | None = None) -> str:
@@ -149,7 +151,7 @@ class Fields:
         if not np.isfinite(number):
             self.refuse(name, "is not finite")
         if abs(number) > LARGEST_NUMBER:
-            self.refuse(name, f"is larger than {LARGEST_NUMBER:g}")
+            self.refuse(name, f"is beyond {LARGEST_NUMBER:g} in size")
         return number
 
 

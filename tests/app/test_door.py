@@ -15,9 +15,20 @@ def test_the_service_answers_to_its_names_and_to_addresses(client, host):
 
 @pytest.mark.parametrize(
     "host",
-    ["evil.example", "localhost.evil.example", "127.0.0.1.evil.example", "localhost@evil.example", "", ":80",
-     "localhost:port", "[::1", "localhost/path", "evil.example#localhost", "local host"],
-)  # fmt: skip
+    [
+        "evil.example",
+        "localhost.evil.example",
+        "127.0.0.1.evil.example",
+        "localhost@evil.example",
+        "",
+        ":80",
+        "localhost:port",
+        "[::1",
+        "localhost/path",
+        "evil.example#localhost",
+        "local host",
+    ],
+)
 def test_a_name_that_is_not_the_services_is_refused(client, host):
     assert_problem(client.get("/healthz", headers={"Host": host}), 421, "wrong-host")
 

@@ -5,7 +5,7 @@ import { dropZone, field, menu, readNumber, segments } from "./controls.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
 import { robotTable } from "./table.js";
-import { number, plural } from "./words.js";
+import { ago, number, plural, short } from "./words.js";
 
 const WAYS = { list: "From the list", table: "Describe it", urdf: "URDF" };
 
@@ -42,10 +42,7 @@ export function chooseRobot(container, { wanted, chosen }) {
   }
 
   function showList(robots) {
-    const entries = robots.map((one) => [
-      one.id,
-      `${one.name} (${plural("joint", one.joints)})${one.built_in ? ", built in" : ""}`,
-    ]);
+    const entries = robots.map((one) => [one.id, `${one.name} (${plural("joint", one.joints)}), ${origin(one)}`]);
     const first = robots.some((one) => one.id === wanted) ? wanted : "";
     const list = menu([["", "Choose a robot"], ...entries], first, read);
     fill(form, field("Robot", list, "Built-in robots first, then those that were described here."));
@@ -161,6 +158,11 @@ export function chooseRobot(container, { wanted, chosen }) {
       drawn.update(description);
     }
   }
+}
+
+/** Where a robot comes from, which tells it from another of its name. */
+function origin(robot) {
+  return robot.built_in ? "built in" : `described ${ago(robot.created_at)}, ${short(robot.id)}`;
 }
 
 /** The rows of a robot as they are read, in degrees and metres; what is given by frames has no row. */

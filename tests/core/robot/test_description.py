@@ -173,6 +173,7 @@ BAD_ROWS = {
     "a gear of ratio zero": ({"gear_ratio": 0}, "gear_ratio", "motor turns"),
     "a name taken": ({"name": "joint_1"}, "name", "a text"),
     "an empty name": ({"name": ""}, "name", "a text"),
+    "a name of blanks": ({"name": "  "}, "name", "a text"),
     "a name with a line break": ({"name": "a\nb"}, "name", "a text"),
     "limits upside down": ({"limits": {"position": [1, -1]}}, "position", "[lower, upper]"),
     "a limit too few": ({"limits": {"position": [1]}}, "position", "[lower, upper]"),
