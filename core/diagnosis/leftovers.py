@@ -33,6 +33,14 @@ def keeps_beside(bench: Bench, own: Hypothesis, rival: Candidate, alone: float) 
     return bench.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
 
 
+def left_by_last(bench: Bench, own: Hypothesis, rival: Candidate) -> bool:
+    """Tell whether a candidate is an event that the last member leaves, as by its own torque at its limit."""
+    if not rival.cause.event or rival.cause.id not in own.members[-1].cause.leaves:
+        return False
+    both = bench.added(own, rival)
+    return _acts_within(both, len(own.members), len(own.members) - 1)
+
+
 def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
     """Tell whether one member acts hardly ever but while another does, on the joints of the other."""
     together = alone = 0

@@ -60,9 +60,11 @@ def weight(hypothesis: Hypothesis, index: int) -> float:
     return float(values @ np.linalg.solve(covariance / np.outer(scale, scale), values))
 
 
-def merit(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
+def merit(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
+    """Give the rise less what its parameters would gain by themselves (Bayesian criterion).
+
+    `trial` is `now` and one more member, which is the last one unless said otherwise.
+    """
     rows = max(len(one.torque) for one in trial.fit.joints)
-    added = len(trial.members) - 1
-    freedom = trial.freedom(added) + len(trial.members[added].scalars)
+    freedom = trial.freedom(index) + len(trial.members[index].scalars)
     return rise(now, trial) - freedom * float(np.log(rows))

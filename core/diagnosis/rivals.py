@@ -14,7 +14,7 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.leftovers import keeps_beside
+from core.diagnosis.leftovers import keeps_beside, left_by_last
 from core.diagnosis.rise import merit, rise
 from core.diagnosis.selection import Key, Selection, Step, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
@@ -146,13 +146,13 @@ def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[
     ambiguous, refuted, margin = [], [], np.inf
     own_merit, own_rise = merit(without, own), rise(without, own)
     for trial in sorted(trials, key=lambda one: -merit(without, one)):
-        if keeps_beside(bench, own, trial.members[-1], rise(without, trial)):
+        rival = trial.members[-1]
+        if keeps_beside(bench, own, rival, rise(without, trial)) or left_by_last(bench, own, rival):
             continue
         behind = own_merit - merit(without, trial)
         if trial.possible:
             margin = min(margin, behind)
-        rival = trial.members[-1]
-        if trial.possible and behind < _indifference(member, trial.members[-1], own_rise):
+        if trial.possible and behind < _indifference(member, rival, own_rise):
             ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
             refuted.append(_refuted(rival, rise(without, trial), own_rise, possible=trial.possible))

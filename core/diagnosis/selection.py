@@ -103,6 +103,15 @@ def continued(
     return Selection(so_far.none, now, tuple(steps))
 
 
+def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
+    """Give a hypothesis with one cause of the whole robot besides; None where it is not clear enough."""
+    scans = [one for one in bench.scanned(now) if one.candidate.key == (cause, ())]
+    trials = [with_candidate(bench, now, one) for one in scans]
+    clear = (one for one in trials if one.possible and clear_enough(bench, now, one, bench.kinds))
+    first = next(clear, None)
+    return None if first is None else _settled(bench, first)
+
+
 def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first.
 
@@ -248,19 +257,8 @@ def _challenged(
         rival = best_addition(bench, without, given_up, RIVALS)
         if rival is None or rival.members[-1].key == member.key:
             continue
-        if merit(without, rival) > merit(without, _last(now, index)) + 6.0:
+        if merit(without, rival) > merit(without, now, index) + 6.0:
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
             given_up[member.key] = BESIDE_SHARE * own_rise
             return rival
     return None
-
-
-def _last(now: Hypothesis, index: int) -> Hypothesis:
-    """Give the same hypothesis as if one member had come last."""
-    order = [*range(index), *range(index + 1, len(now.members)), index]
-    return Hypothesis(
-        tuple(now.members[place] for place in order),
-        now.fit,
-        tuple(now.widths[place] for place in order),
-        now.base,
-    )

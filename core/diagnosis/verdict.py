@@ -13,6 +13,7 @@ from core.arrays import BlockKey, JointSeries
 from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
+from core.diagnosis.consolidation import consolidated
 from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.findings import finding, raw_finding
 from core.diagnosis.levels import level_keeper
@@ -112,11 +113,11 @@ def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Se
 
     progress(0.0)
     bench = _bench(question, look)
-    found = select(bench, progress)
+    bench, found = consolidated(bench, select(bench, progress))
     other_look = turned(look) if surprised(bench, found.chosen) else None
     if other_look is not None:
         other = _bench(question, other_look)
-        more = select(other, progress, found.chosen.members)
+        other, more = consolidated(other, select(other, progress, found.chosen.members))
         if more.chosen.members and not surprised(other, more.chosen):
             return other, more
     return bench, found

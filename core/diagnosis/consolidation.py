@@ -1,0 +1,53 @@
+"""Ask whether one cause that acts on the whole robot stands behind several that were found joint by joint.
+
+A search adds one cause at a time. Where every torque is late, the first joint's share of that may pass for a
+spring and the next one's for bristles, until nothing is left for the delay to explain; no single swap leads
+back. So the search is made again from the whole robot's cause, and the better of the two ends is kept.
+Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
+"""
+
+from copy import copy
+
+import numpy as np
+
+from core.diagnosis.bench import Bench
+from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.rise import rise
+from core.diagnosis.rivals import INDIFFERENCE
+from core.diagnosis.selection import Selection, Step, begun_with, continued
+
+SEVERAL = 2
+"""Findings that may be one."""
+
+
+def consolidated(bench: Bench, found: Selection) -> tuple[Bench, Selection]:
+    """Give the better of what was found and what a search finds that begins with one cause for several.
+
+    The bench that comes with it believes what it was found under.
+    """
+    best, members = (bench, found), found.chosen.members
+    for cause in bench.causes:
+        several = [one for one in members if one.cause.id in cause.leaves]
+        if len(several) < SEVERAL or cause.id in {one.cause.id for one in members}:
+            continue
+        other = copy(bench)
+        other.believe(found.chosen)
+        gone = {*cause.leaves, *cause.excludes}
+        without = other.tried(tuple(one for one in members if one.cause.id not in gone))
+        start = begun_with(other, without, cause.id)
+        if start is None:
+            continue
+        steps = (*found.steps, Step("swapped", start.members[-1], rise(without, start)))
+        more = continued(other, Selection(found.none, start, steps), {})
+        if criterion(more.chosen) > criterion(best[1].chosen) + INDIFFERENCE:
+            best = other, more
+    return best
+
+
+def criterion(hypothesis: Hypothesis) -> float:
+    """Give twice the log-likelihood less what as many parameters would gain by themselves (Bayesian)."""
+    rows = max(len(one.torque) for one in hypothesis.fit.joints)
+    freedom = sum(
+        hypothesis.freedom(index) + len(one.scalars) for index, one in enumerate(hypothesis.members)
+    )
+    return 2.0 * hypothesis.fit.log_likelihood - freedom * float(np.log(rows))

@@ -1,0 +1,65 @@
+"""One cause of the whole robot takes the place of several found joint by joint where it explains better."""
+
+import pytest
+
+from core.diagnosis.consolidation import consolidated, criterion
+from core.diagnosis.rivals import INDIFFERENCE
+from core.diagnosis.selection import Selection
+from tests.core.diagnosis.made_up import nothing_found
+from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+PARTS = ("first", "second", "third")
+RATES = (7.0, 11.0, 4.0)
+SIZES = (0.6, 0.3, 0.4)
+
+
+def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, further=()):
+    """Give a bench, and what a search has found on it: the causes of these names."""
+    parts = [wave_cause(name, {rate: 1.0}) for name, rate in zip(PARTS, RATES, strict=True)]
+    whole = wave_cause("whole", dict(zip(RATES, SIZES, strict=True)))
+    type(whole).leaves, type(whole).excludes = leaves, excludes
+    type(whole).sites = lambda *_: [()]
+    type(whole).term = lambda self, look, believed, _, scalars: super(type(whole), self).term(
+        look, believed, (2,), scalars
+    )
+    bench = bench_of(
+        measured_arm(wave_effect(dict(zip((*RATES, 15.0), sizes, strict=False)))), [*parts, whole, *further]
+    )
+    none = nothing_found(bench)
+    members = tuple(one for name in first for one in bench.candidates if one.cause.id == name)
+    return bench, Selection(none, bench.tried(members), ())
+
+
+def named(selection):
+    return [one.cause.id for one in selection.chosen.members]
+
+
+def test_what_one_cause_explains_with_fewer_numbers_is_that_cause():
+    bench, found = found_one_by_one()
+    _, better = consolidated(bench, found)
+    assert named(better) == ["whole"]
+    assert criterion(better.chosen) > criterion(found.chosen) + INDIFFERENCE
+    assert [(step.action, step.candidate.cause.id) for step in better.steps] == [("swapped", "whole")]
+
+
+@pytest.mark.parametrize(
+    "case",
+    [{"sizes": (0.6, 0.6, 0.6)}, {"leaves": PARTS[:1]}, {"first": PARTS[1:2]}],
+    ids=["it explains less", "it leaves but one of them", "there are not several"],
+)
+def test_otherwise_what_was_found_stays(case):
+    bench, found = found_one_by_one(**case)
+    assert consolidated(bench, found) == (bench, found)
+
+
+def test_a_search_that_begins_with_the_whole_goes_on_from_there():
+    bench, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
+    _, better = consolidated(bench, found)
+    assert named(better) == ["whole", "quickest"]
+
+
+def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
+    bench, found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
+    _, better = consolidated(bench, found)
+    assert named(better) == ["whole"]
