@@ -36,7 +36,7 @@ def read_result(given: str) -> dict[str, Any]:
         first = error.errors(include_url=False, include_input=False)[0]
         raise OptionError(
             f"{given} is not a result document",
-            evidence={"at": "/".join(map(str, first["loc"])), "reason": first["msg"]},
+            evidence={"at": "/".join(map(str, first["loc"])) or "the whole file", "reason": first["msg"]},
             remedy="name a file that `veritorque identify --out` wrote, and leave it as it is",
         ) from error
     return document

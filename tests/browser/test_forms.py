@@ -320,3 +320,8 @@ def test_a_plot_zooms_by_keys_with_its_neighbours_and_comes_back(look, service, 
     text = saved.value.path().read_text()
     assert text.startswith("time [s],position [rad]\n")
     assert len(text.splitlines()) <= 4001
+
+
+def test_a_link_to_a_robot_that_is_not_there_says_so(look, service):
+    page = look(service).open("/new?robot=nobody")
+    page.get_by_text("There is no robot nobody here: choose another one.").wait_for()

@@ -47,6 +47,8 @@ export function chooseRobot(container, { wanted, chosen }) {
     const list = menu([["", "Choose a robot"], ...entries], first, read);
     fill(form, field("Robot", list, "Built-in robots first, then those that were described here."));
     read(first);
+    if (wanted && !first)
+      fill(said, element("p", { class: "notice" }, `There is no robot ${wanted} here: choose another one.`));
   }
 
   async function read(id) {
