@@ -140,14 +140,17 @@ class Bench:
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
         """Fit a hypothesis with one more member, learning its noise anew where the member acts.
 
-        Where nature does not allow what is found, all noise is learned from the beginning (see `tried`).
+        Where it leaves the others what nature does not allow, all noise is learned from the beginning (see
+        `tried`). Where nature does not allow the new one itself, other noise hardly ever mends that.
         """
         members = (*start.members, candidate)
         columns = self.columns(members)
         rows = extended(self.base, columns)
         kept, touched = len(start.fit.values), frozenset(columns[-1])
         found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
-        return found if found.possible else self.tried(members)
+        if found.possible or not candidate.cause.possible(found.solved(len(start.members))):
+            return found
+        return self.tried(members)
 
     def beneath(self, trial: Hypothesis) -> Hypothesis:
         """Fit a hypothesis without its last member, at the noise that it has with it.

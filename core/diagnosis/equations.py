@@ -27,7 +27,7 @@ ROUNDING = 1e-12
 OPEN_SHARE = 1e-6
 """A column of which the others already span all but this share is no evidence for anything."""
 ROUNDS, TRIAL_ROUNDS = 3, 2
-SETTLED = 0.01
+SETTLED = 0.1
 """What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
 
 Columns = Mapping[int, EquationRows]

@@ -12,20 +12,22 @@ MOST_OF_A_ROW = 16.0
 """Squared deviations that a row may count for."""
 
 
-def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf) -> float:
-    """Give the log of the last member's p-value, corrected for its grid; its statistic is `most` at most."""
-    added = len(trial.members) - 1
-    statistic = min(weight(trial, added), rise(now, trial), most)
-    return Scored(trial.members[added], statistic, trial.freedom(added), np.zeros(0), 1.0).log_p
+def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf, index: int = -1) -> float:
+    """Give the log of a member's p-value, corrected for its grid; its statistic is `most` at most.
+
+    `trial` is `now` and this member, which is the last one unless said otherwise; so below.
+    """
+    statistic = min(weight(trial, index), rise(now, trial), most)
+    return Scored(trial.members[index], statistic, trial.freedom(index), np.zeros(0), 1.0).log_p
 
 
-def bounded_rise(now: Hypothesis, trial: Hypothesis) -> float:
+def bounded_rise(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     """Give the rise where no row counts for more than so many deviations; of an event, over its own rows.
 
     A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
     """
-    before = np.pad(now.fit.values, (0, len(trial.fit.values) - len(now.fit.values)))
-    own, event = trial.columns_of(len(trial.members) - 1), trial.members[-1].cause.event
+    own, event = trial.columns_of(index), trial.members[index].cause.event
+    before = np.insert(now.fit.values, own.start, np.zeros(trial.widths[index]))
     total = 0.0
     for part in trial.fit.joints:
         rows = part.columns[:, own].any(axis=1) if event else slice(None)
@@ -61,10 +63,7 @@ def weight(hypothesis: Hypothesis, index: int) -> float:
 
 
 def merit(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
-    """Give the rise less what its parameters would gain by themselves (Bayesian criterion).
-
-    `trial` is `now` and one more member, which is the last one unless said otherwise.
-    """
+    """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
     rows = max(len(one.torque) for one in trial.fit.joints)
     freedom = trial.freedom(index) + len(trial.members[index].scalars)
     return rise(now, trial) - freedom * float(np.log(rows))

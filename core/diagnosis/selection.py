@@ -147,11 +147,7 @@ def best_addition(
     trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
     count = len({one.candidate.key for one in scans})
     likely = sorted(
-        (
-            trial
-            for trial in trials
-            if clear_enough(bench, now, trial, count) or _apart(bench, now, trial, count)
-        ),
+        (trial for trial in trials if _deserves(bench, now, trial, count)),
         key=lambda trial: -merit(now, trial),
     )
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
@@ -169,14 +165,26 @@ def best_addition(
     return next(deserves, None)
 
 
-def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool:
-    """Tell whether a last member is as clear as a first one has to be, and owes nothing to the others."""
-    member, others = trial.members[-1], [set(one.site) for one in now.members]
-    if not others or _at_picked_instants(trial):
+def _deserves(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int = -1) -> bool:
+    """Tell whether a member is clear enough to join (the last one unless said otherwise; so below)."""
+    return clear_enough(bench, now, trial, kinds, index=index) or _apart(bench, now, trial, kinds, index)
+
+
+def _stays(bench: Bench, without: Hypothesis, now: Hypothesis, index: int) -> bool:
+    """Tell whether a member still stands out; beside others it has to be clear enough to join them again."""
+    if not without.members:
+        return bool(weight(now, index) > -2.0 * np.log(LEVEL))
+    return _deserves(bench, without, now, bench.kinds, index)
+
+
+def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
+    """Tell whether a member is as clear as a first one has to be, and owes nothing to the others."""
+    member, others = trial.members[index], [set(one.site) for one in now.members]
+    if not others or _at_picked_instants(trial, index):
         return False
     if not all(one and one.isdisjoint(member.site) for one in others):
         return False
-    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL):
+    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL, index):
         return False
     none = bench.tried(())
     alone, beside = rise(none, bench.added(none, member)), rise(now, trial)
@@ -184,21 +192,27 @@ def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int) -> bool
 
 
 def clear_enough(
-    bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, level: float | None = None
+    bench: Bench,
+    now: Hypothesis,
+    trial: Hypothesis,
+    kinds: int,
+    level: float | None = None,
+    index: int = -1,
 ) -> bool:
-    """Tell whether a last member is beyond luck among so many kinds, and large enough to matter."""
+    """Tell whether a member is beyond luck among so many kinds, and large enough to matter."""
     if level is None:
-        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if _at_picked_instants(trial) else LEVEL
+        rare = _at_picked_instants(trial, index)
+        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if rare else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
-    chance = log_p(now, trial, bounded_rise(now, trial))
-    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial))
+    chance = log_p(now, trial, bounded_rise(now, trial, index), index)
+    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial.members[index]))
 
 
-def _at_picked_instants(trial: Hypothesis) -> bool:
-    """Tell whether a last member acts now and then only, so that one burst of noise may look like it."""
-    if trial.members[-1].cause.event:
+def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
+    """Tell whether a member acts now and then only, so that one burst of noise may look like it."""
+    if trial.members[index].cause.event:
         return True
-    own = trial.columns_of(len(trial.members) - 1)
+    own = trial.columns_of(index)
     acting = [part.columns[:, own].any(axis=1) for part in trial.fit.joints]
     return all(float(rows.mean()) < RARE for rows in acting if rows.any())
 
@@ -226,8 +240,7 @@ def _share(now: Hypothesis, trial: Hypothesis) -> float:
     return rise(now, trial) / rows
 
 
-def _least_share(bench: Bench, trial: Hypothesis) -> float:
-    member = trial.members[-1]
+def _least_share(bench: Bench, member: Candidate) -> float:
     if not member.cause.like_position_noise:
         return LEAST_SHARE
     return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in member.site))
@@ -235,7 +248,7 @@ def _least_share(bench: Bench, trial: Hypothesis) -> float:
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
     """Let every member defend its place against being dropped and against its rivals."""
-    for _ in range(len(now.members)):
+    for _ in range(2 * MOST):
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
@@ -247,18 +260,26 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[K
 def _challenged(
     bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
 ) -> Hypothesis | None:
+    less = [
+        bench.tried((*now.members[:one], *now.members[one + 1 :]), now) for one in range(len(now.members))
+    ]
+    brings = [rise(without, now) for without in less]
+    weak = [
+        index
+        for index, without in enumerate(less)
+        if not _stays(bench, without, now, index) or left_over(bench, now, index, brings[index])
+    ]
+    if weak:
+        least = min(weak, key=lambda index: brings[index])
+        steps.append(Step("dropped", now.members[least], brings[least]))
+        given_up[now.members[least].key] = np.inf
+        return less[least]
     for index, member in enumerate(now.members):
-        without = bench.tried((*now.members[:index], *now.members[index + 1 :]), now)
-        own_rise = rise(without, now)
-        if weight(now, index) < -2.0 * np.log(LEVEL) or left_over(bench, now, index, own_rise):
-            steps.append(Step("dropped", member, own_rise))
-            given_up[member.key] = np.inf
-            return without
-        rival = best_addition(bench, without, given_up, RIVALS)
+        rival = best_addition(bench, less[index], given_up, RIVALS)
         if rival is None or rival.members[-1].key == member.key:
             continue
-        if merit(without, rival) > merit(without, now, index) + 6.0:
+        if merit(less[index], rival) > merit(less[index], now, index) + 6.0:
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
-            given_up[member.key] = BESIDE_SHARE * own_rise
+            given_up[member.key] = BESIDE_SHARE * brings[index]
             return rival
     return None
