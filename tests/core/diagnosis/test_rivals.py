@@ -56,6 +56,19 @@ def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
     assert standing.margin < -6.0
 
 
+@pytest.mark.parametrize(
+    ("leaves", "rival"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
+)
+def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, rival):
+    now_and_then = lambda state, _: [np.abs(np.sin(state.position[:, 1])) > 0.9]  # noqa: E731  (a formula)
+    clip, push = made_up("clip", now_and_then), made_up("push", now_and_then)
+    type(clip).leaves, type(push).event = leaves, True
+    scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))
+    bench = bench_of(scene, (clip, push))
+    *_, (found,) = weighed_from((bench, nothing_found(bench)), candidate(clip))
+    assert ["push" for _ in range(rival)] == [one.cause for one in found.ambiguous]
+
+
 def product(state):
     return 0.3 * state.velocity[:, 0] * state.velocity[:, 2]
 

@@ -8,7 +8,7 @@ import pytest
 
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
-from core.diagnosis.rise import log_p, rise
+from core.diagnosis.rise import log_p, merit, rise
 from core.diagnosis.rivals import standing
 from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, Selection, clear_enough, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
@@ -132,6 +132,32 @@ def test_one_that_shares_what_it_explains_with_the_first_has_to_be_clearer():
     bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, NEARLY_QUICK: 0.034})), causes)
     assert names(select(bench)) == [("quick", (2,))]
     assert weakly(bench, *bench.candidates)
+
+
+def test_one_that_would_not_join_any_more_is_dropped_when_another_one_joins():
+    waves = {QUICK: 0.6, NEARLY_QUICK: 0.034, QUICKER: 0.3}
+    causes = [
+        wave_cause(name, {rate: 1.0}) for name, rate in zip(("quick", "nearly", "new"), waves, strict=True)
+    ]
+    bench = bench_of(measured_arm(wave_effect(waves)), causes)
+    nothing_found(bench)
+    first, second, _ = bench.candidates
+    found = select(bench, start=(first, second))
+    assert names(found) == [("new", (2,)), ("quick", (2,))]
+    assert ("dropped", "nearly") in {(step.action, step.candidate.cause.id) for step in found.steps}
+
+
+def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
+    causes = (
+        made_up("one", lambda state, _: [np.sin(QUICK * state.position[:, 1])]),
+        made_up("two", lambda state, _: [wave(QUICKER * state.position[:, 1]) for wave in (np.sin, np.cos)]),
+    )
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), causes)
+    nothing_found(bench)
+    one, two = map(candidate, causes)
+    both, turned = bench.tried((two, one)), bench.tried((one, two))
+    assert merit(bench.tried((one,)), both, 0) == pytest.approx(merit(bench.tried((one,)), turned), abs=0.5)
+    assert merit(bench.tried((two,)), turned, 0) == pytest.approx(merit(bench.tried((two,)), both), abs=0.5)
 
 
 @pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
