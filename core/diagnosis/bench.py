@@ -4,7 +4,7 @@ Columns are computed once per candidate and belief; a scan over all causes, join
 matrix products.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -88,6 +88,15 @@ class Bench:
             for grid in [tuple(cause.grid(look, self.believed, site))]
             for scalars in grid
         )
+
+    def remembered(self) -> Callable[[], None]:
+        """Give what brings back what is believed now, after something else was."""
+        believed, believing, candidates = self.believed, self._believing, self._candidates
+
+        def believe_again() -> None:
+            self.believed, self._believing, self._candidates = believed, believing, candidates
+
+        return believe_again
 
     def _without_lasting(self, found: Hypothesis) -> Look:
         """Take from the torque what a hypothesis's members explain of it, all but events."""

@@ -6,8 +6,6 @@ back. So the search is made again from the whole robot's cause, and the better o
 Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 """
 
-from copy import copy
-
 import numpy as np
 
 from core.diagnosis.bench import Bench
@@ -20,27 +18,24 @@ SEVERAL = 2
 """Findings that may be one."""
 
 
-def consolidated(bench: Bench, found: Selection) -> tuple[Bench, Selection]:
-    """Give the better of what was found and what a search finds that begins with one cause for several.
-
-    The bench that comes with it believes what it was found under.
-    """
-    best, members = (bench, found), found.chosen.members
+def consolidated(bench: Bench, found: Selection) -> Selection:
+    """Give the better of what was found and what a search finds that begins with one cause for several."""
+    best, members, believe_best = found, found.chosen.members, bench.remembered()
     for cause in bench.causes:
         several = [one for one in members if one.cause.id in cause.leaves]
         if len(several) < SEVERAL or cause.id in {one.cause.id for one in members}:
             continue
-        other = copy(bench)
-        other.believe(found.chosen)
+        bench.believe(found.chosen)
         gone = {*cause.leaves, *cause.excludes}
-        without = other.tried(tuple(one for one in members if one.cause.id not in gone))
-        start = begun_with(other, without, cause.id)
+        without = bench.tried(tuple(one for one in members if one.cause.id not in gone))
+        start = begun_with(bench, without, cause.id)
         if start is None:
             continue
         steps = (*found.steps, Step("swapped", start.members[-1], rise(without, start)))
-        more = continued(other, Selection(found.none, start, steps), {})
-        if criterion(more.chosen) > criterion(best[1].chosen) + INDIFFERENCE:
-            best = other, more
+        other = continued(bench, Selection(found.none, start, steps), {})
+        if criterion(other.chosen) > criterion(best.chosen) + INDIFFERENCE:
+            best, believe_best = other, bench.remembered()
+    believe_best()
     return best
 
 

@@ -36,6 +36,10 @@ FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 MOST = 5
 """Causes looked for at most."""
+SETTLINGS = 8
+"""Times that what is believed and what is found are settled on each other at most,"""
+WORTH_SETTLING = 6.0
+"""as long as that raises twice the log-likelihood by as much."""
 UNSEEN_SHARE = 0.25
 """Share of the rise to be expected on held-out rows that has to be seen there,"""
 UNLUCKY = 2.5
@@ -113,11 +117,24 @@ def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
 
 
 def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first.
+    """Believe what a hypothesis found and settle it under that, again and again as long as that helps.
 
     A cause that joins changes what the others look like: the torque at which another joint's amplifier clips
     is another one once a scale is known to be wrong.
     """
+    now = _settled_once(bench, better)
+    for _ in range(SETTLINGS - 1):
+        believe_before = bench.remembered()
+        again = _settled_once(bench, now)
+        if rise(now, again) < WORTH_SETTLING or (now.possible and not again.possible):
+            believe_before()
+            break
+        now = again
+    return now
+
+
+def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
+    """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first."""
     bench.believe(better)
     now = bench.tried(better.members, better)
     for turn in range(len(now.members)):

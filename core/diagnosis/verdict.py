@@ -113,11 +113,11 @@ def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Se
 
     progress(0.0)
     bench = _bench(question, look)
-    bench, found = consolidated(bench, select(bench, progress))
+    found = consolidated(bench, select(bench, progress))
     other_look = turned(look) if surprised(bench, found.chosen) else None
     if other_look is not None:
         other = _bench(question, other_look)
-        other, more = consolidated(other, select(other, progress, found.chosen.members))
+        more = consolidated(other, select(other, progress, found.chosen.members))
         if more.chosen.members and not surprised(other, more.chosen):
             return other, more
     return bench, found
