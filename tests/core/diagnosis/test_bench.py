@@ -1,8 +1,11 @@
 """Hold a scan to giving what nature allows, and a hypothesis to counting only what its rows tell."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.hypothesis import Scored
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
@@ -101,3 +104,15 @@ def test_what_is_missed_only_while_a_joint_turns_round_is_friction_at_rest():
 
 def test_what_is_missed_all_along_the_motion_is_not():
     assert at_rest(lambda state: 3.0 * np.sin(TRUE * state.position[:, 1])) < 0.2
+
+
+def test_what_was_believed_comes_back_with_everything_that_was_built_on_it():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    suspected, found = bench.candidates, bench.scanned(none)
+    believe_before = bench.remembered()
+    bench.believe(replace(none, fit=replace(none.fit, values=2.0 * none.fit.values)))
+    assert not np.allclose(bench.scanned(none)[0].values, found[0].values)
+    believe_before()
+    assert bench.candidates is suspected
+    assert np.array_equal(bench.scanned(none)[0].values, found[0].values)
