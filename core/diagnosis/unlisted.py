@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from core.arrays import Vector
 from core.diagnosis.cause import Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause
 from core.diagnosis.look import Look
@@ -51,6 +52,10 @@ class Unlisted(OwnJointCause):
             return [scalars]
         step = STEP / _seconds(look) / FINER
         return [_scalars(name, (numbers[0] + step * place,)) for place in range(-FINER, FINER + 1)]
+
+    def switching(self, instants: Vector) -> Scalars:
+        """Say that the torque switches between two levels at these instants, s: no grid could list them."""
+        return _scalars("levels", tuple(instants.tolist()))
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
@@ -125,4 +130,6 @@ def _words(pattern: str, numbers: Numbers) -> str:
         )
     if pattern == "clock":
         return f"a rhythm of {1.0 / numbers[0]:.3g} s, whatever the robot does"
+    if pattern == "levels":
+        return "two levels between which it switches by itself"
     return f"something that swings by itself at about {numbers[0]:.2g} Hz"

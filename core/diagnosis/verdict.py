@@ -16,6 +16,7 @@ from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
 from core.diagnosis.consolidation import consolidated
 from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.findings import finding, raw_finding
+from core.diagnosis.hypothesis import Candidate
 from core.diagnosis.levels import level_keeper
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.reference import Reference
@@ -26,6 +27,7 @@ from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, continued, select
 from core.diagnosis.strangers import best_stranger, strangers
 from core.diagnosis.surprise import surprised, turned
+from core.diagnosis.switching import switchings
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
@@ -182,12 +184,13 @@ def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiab
 
 def _stranger(bench: Bench, selection: Selection, left: JointSeries) -> Stranger | None:
     """Give the clearest of what the residual follows though no listed cause would."""
-    found = [one for one in (_pattern(bench, selection), level_keeper(bench.look, left)) if one is not None]
-    return max(found, key=lambda one: one.statistic, default=None)
+    ways = (strangers(bench), switchings(bench, selection.chosen, left))
+    told = (*(_pattern(bench, selection, one) for one in ways), level_keeper(bench.look, left))
+    return max((one for one in told if one is not None), key=lambda one: one.statistic, default=None)
 
 
-def _pattern(bench: Bench, selection: Selection) -> Stranger | None:
-    found = best_stranger(bench, selection.chosen, strangers(bench))
+def _pattern(bench: Bench, selection: Selection, suspects: tuple[Candidate, ...]) -> Stranger | None:
+    found = best_stranger(bench, selection.chosen, suspects)
     if found is None:
         return None
     last = found.members[-1]

@@ -1,6 +1,6 @@
 """Give traces that no physics here stands for: what a residual follows when no listed effect explains it.
 
-Products of speeds, waves over another joint's angle, waves in time, and a swing at its own rate:
+Products of speeds, waves over another joint's angle, waves in time, a swing at its own rate, and two levels:
 a family wide enough to show that something is left, and where, without saying what it is. Source: Kennedy &
 O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
 """
@@ -32,7 +32,8 @@ class Trace(OneJointTerm):
     pattern
         ``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
         angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
-        ``swing``: deflection and rate of a swing at f Hz, driven by the own acceleration.
+        ``swing``: deflection and rate of a swing at f Hz, driven by the own acceleration. ``levels``: plus
+        and minus one by turns, the side changed at every one of the instants, s.
     """
 
     pattern: str
@@ -43,7 +44,7 @@ class Trace(OneJointTerm):
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List a number per column."""
         del robot
-        count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2}[self.pattern]
+        count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2, "levels": 1}[self.pattern]
         return tuple(
             Parameter(f"trace_{place}", self.joint, self.joint, "N m", None) for place in range(count)
         )
@@ -94,6 +95,12 @@ def _swing(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     return [np.asarray(deflection), np.gradient(deflection, step)]
 
 
+def _levels(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    del own
+    changes = np.searchsorted(np.sort(numbers), _time(state))
+    return [np.where(changes % 2, -1.0, 1.0)]
+
+
 def _time(state: MotionState) -> Samples:
     return np.arange(len(state.position), dtype=float) if state.time is None else state.time
 
@@ -103,4 +110,5 @@ PATTERNS: Mapping[str, Callable[[int, Numbers, MotionState], list[Samples]]] = {
     "angle": _angle,
     "clock": _clock,
     "swing": _swing,
+    "levels": _levels,
 }

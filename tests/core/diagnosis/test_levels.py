@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from core.diagnosis.levels import kurtosis, level_keeper
+from core.diagnosis.strangers import best_stranger
+from core.diagnosis.switching import switchings
 from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 
@@ -33,6 +35,26 @@ def test_a_torque_that_switches_by_itself_keeps_to_levels(seed):
 @pytest.mark.parametrize("seed", [6, 7, 8])
 def test_noise_keeps_to_no_levels(seed):
     assert kept(None, seed) is None
+
+
+def switched(effect, seed):
+    bench = bench_of(measured_arm(effect, seed=seed), ())
+    none = nothing_found(bench)
+    return best_stranger(bench, none, switchings(bench, none, bench.residual(none)))
+
+
+@pytest.mark.parametrize("share", [1.0, 0.25])
+def test_what_switches_is_told_with_its_joint_and_its_size(share):
+    found = switched(on_joint(lambda state: share * switching(state)), 6)
+    (member,), (value,) = found.members, found.fit.values[found.columns_of(0)]
+    assert member.site == (JOINT,)
+    assert abs(value) == pytest.approx(share * SIZE, rel=0.1)
+    assert "two levels between which it switches by itself" in member.cause.statement(found.solved(0))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_noise_does_not_switch(seed):
+    assert switched(None, seed) is None
 
 
 @pytest.mark.parametrize(("draw", "size"), [("normal", 3.0), ("laplace", 6.0), ("uniform", 1.8)])

@@ -61,7 +61,7 @@ def traces() -> tuple[Term, ...]:
     """Give every pattern that has no cause, each with the last numbers that a search would try."""
     scene, suspect = eventful_scene(), Unlisted()
     site = suspect.sites(scene.look, scene.believed)[-1]
-    grid = suspect.grid(scene.look, scene.believed, site)
+    grid = (*suspect.grid(scene.look, scene.believed, site), suspect.switching(np.array([0.5, 1.5, 2.0])))
     terms = [suspect.term(scene.look, scene.believed, site, one) for one in grid]
     return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
 
