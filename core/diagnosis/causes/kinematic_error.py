@@ -27,6 +27,8 @@ class KinematicError(OwnJointCause, MendsRobot):
     cure = "robot"
     units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
     settled = ("entry",)
+    # Its columns are those of a small error; what they miss of a larger one is a torque over the angle.
+    leaves = ("spring_compensator", "cable_force")
     confusions = (
         Confusion(
             "encoder_offset",
