@@ -16,6 +16,7 @@ from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 from core.diagnosis.leftovers import BESIDE_SHARE, left_over
 from core.diagnosis.rise import bounded_rise, log_p, merit, rise, weight
 from core.diagnosis.scalars import refined
+from core.diagnosis.settling import settled
 
 Key = tuple[str, Site]
 GivenUp = Mapping[Key, float]
@@ -36,10 +37,6 @@ FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 MOST = 5
 """Causes looked for at most."""
-SETTLINGS = 8
-"""Times that what is believed and what is found are settled on each other at most,"""
-WORTH_SETTLING = 6.0
-"""as long as that raises twice the log-likelihood by as much."""
 UNSEEN_SHARE = 0.25
 """Share of the rise to be expected on held-out rows that has to be seen there,"""
 UNLUCKY = 2.5
@@ -76,7 +73,7 @@ def select(
     """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
     none = bench.tried(())
     bench.believe(none)
-    now = _settled(bench, bench.tried(tuple(start))) if start else none
+    now = settled(bench, bench.tried(tuple(start))) if start else none
     kept = tuple(Step("kept", one, 0.0) for one in start)
     return continued(bench, Selection(none, now, kept), {}, progress)
 
@@ -96,14 +93,14 @@ def continued(
         if better is None:
             break
         steps.append(Step("added", better.members[-1], rise(now, better)))
-        settled = _settled(bench, better)
-        if now.members and now.possible and not settled.possible:
+        larger = settled(bench, better)
+        if now.members and now.possible and not larger.possible:
             # Beside it nature would not allow what was found before.
             steps.append(Step("dropped", better.members[-1], rise(now, better)))
             given_up[better.members[-1].key] = np.inf
             bench.believe(now)
             continue
-        now = _defended(bench, settled, steps, given_up)
+        now = _defended(bench, larger, steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
 
 
@@ -113,43 +110,7 @@ def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
     trials = [with_candidate(bench, now, one) for one in scans]
     clear = (one for one in trials if one.possible and clear_enough(bench, now, one, bench.kinds))
     first = next(clear, None)
-    return None if first is None else _settled(bench, first)
-
-
-def _settled(bench: Bench, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found and settle it under that, again and again as long as that helps.
-
-    A cause that joins changes what the others look like: the torque at which another joint's amplifier clips
-    is another one once a scale is known to be wrong.
-    """
-    now = _settled_once(bench, better)
-    for _ in range(SETTLINGS - 1):
-        believe_before = bench.remembered()
-        again = _settled_once(bench, now)
-        if rise(now, again) < WORTH_SETTLING or (now.possible and not again.possible):
-            believe_before()
-            break
-        now = again
-    return now
-
-
-def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first."""
-    bench.believe(better)
-    now = bench.tried(better.members, better)
-    for turn in range(len(now.members)):
-        if turn:
-            now = bench.tried((*now.members[1:], now.members[0]), now)
-        now = _last_settled(bench, now)
-    return now if len(now.members) < 2 else bench.tried((*now.members[1:], now.members[0]), now)
-
-
-def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
-    member, before = now.members[-1], bench.beneath(now)
-    same = [one for one in bench.candidates if one.key == member.key]
-    found = bench.scanned(before, [*same, member])[0]
-    settled = bench.tried((*before.members, refined(bench, before, found.candidate)), now)
-    return settled if settled.possible or not now.possible else now
+    return None if first is None else settled(bench, first)
 
 
 def best_addition(

@@ -1,0 +1,48 @@
+"""Settle a hypothesis: what is believed, the scalars of all members, and their sizes, each on the others.
+
+A cause that joins changes what the others look like: the torque at which another joint's amplifier clips is
+another one once a scale is known to be wrong, and a lag moves an elasticity found beside it, and is moved by
+it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on settling nonlinear parameters by turns.
+"""
+
+from core.diagnosis.bench import Bench
+from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.rise import rise
+from core.diagnosis.scalars import refined
+
+SETTLINGS = 8
+"""Times that what is believed and what is found are settled on each other at most,"""
+WORTH_SETTLING = 6.0
+"""as long as that raises twice the log-likelihood by as much."""
+
+
+def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
+    """Believe what a hypothesis found and settle it under that, again and again as long as that helps."""
+    now = _settled_once(bench, better)
+    for _ in range(SETTLINGS - 1):
+        believe_before = bench.remembered()
+        again = _settled_once(bench, now)
+        if rise(now, again) < WORTH_SETTLING or (now.possible and not again.possible):
+            believe_before()
+            break
+        now = again
+    return now
+
+
+def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
+    """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first."""
+    bench.believe(better)
+    now = bench.tried(better.members, better)
+    for turn in range(len(now.members)):
+        if turn:
+            now = bench.tried((*now.members[1:], now.members[0]), now)
+        now = _last_settled(bench, now)
+    return now if len(now.members) < 2 else bench.tried((*now.members[1:], now.members[0]), now)
+
+
+def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
+    member, before = now.members[-1], bench.beneath(now)
+    same = [one for one in bench.candidates if one.key == member.key]
+    found = bench.scanned(before, [*same, member])[0]
+    moved = bench.tried((*before.members, refined(bench, before, found.candidate)), now)
+    return moved if moved.possible or not now.possible else now
