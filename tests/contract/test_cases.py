@@ -6,7 +6,7 @@ import pytest
 
 from tests.contract.__main__ import examine
 
-CASES = 2000
+CASES = 5000
 
 
 @pytest.mark.slow
