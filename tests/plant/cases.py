@@ -14,7 +14,7 @@ import numpy as np
 from core.log.model import JointLog
 from core.robot.model import RobotModel
 from tests.plant.controller import Steering, steer
-from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot
+from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot, overriding
 from tests.plant.effects.registry import EFFECTS, FOREIGN
 from tests.plant.engine import Recording, simulate
 from tests.plant.excitation import draw_excitation
@@ -94,7 +94,8 @@ class World:
         arm = reduce(lambda whole, one: one.true(whole), moving, self.arm)
         seen = simulate(arm, moving, self.steering, rate_hz=self.rate_hz) if moving else self.clean
         rng = np.random.default_rng([self.seed, 1])
-        return reduce(lambda signals, one: one.sense(signals, rng), effects, seen.sampled(smooth=smooth))
+        sensing = overriding(effects, "sense")
+        return reduce(lambda signals, one: one.sense(signals, rng), sensing, seen.sampled(smooth=smooth))
 
     def believed(self, effects: tuple[Effect, ...]) -> RobotModel:
         """Give the robot as its user describes it."""

@@ -136,6 +136,23 @@ def rigid_torque(there: World, signals: object) -> np.ndarray:
     return inverse(build(arm), state) + drives
 
 
+@pytest.mark.parametrize("cause", ["torque_gain", "torque_gain_nonlinear", "torque_offset_drift"])
+@pytest.mark.parametrize("late", ["time_delay", "torque_filter_lag", "timestamp_jitter"])
+def test_a_wrong_channel_and_a_late_one_are_both_logged_in_whatever_order_they_are_hidden(cause, late):
+    one, other = (
+        EVERY[name].draw(np.random.default_rng(5), world().arm, world().steering) for name in (cause, late)
+    )
+    seen = {
+        effects: world().signals(effects).torque
+        for effects in [(), (one,), (other,), (one, other), (other, one)]
+    }
+    apart = (seen[one,] - seen[()]) + (seen[other,] - seen[()])
+    for both in ((one, other), (other, one)):
+        missed = seen[both] - seen[()] - apart
+        for single in ((one,), (other,)):
+            assert np.linalg.norm(missed) < 0.2 * np.linalg.norm(seen[single] - seen[()])
+
+
 def test_the_effects_torque_is_what_the_drive_has_to_give_more():
     there = world()
     for effect, joint, law in (

@@ -15,10 +15,10 @@ from tests.plant.robots import Arm
 
 
 def on_channel(signals: Signals, joint: int, change: np.ndarray) -> Signals:
-    """Add a torque (N m) to one logged channel."""
-    torque = signals.torque.copy()
+    """Add a torque (N m), given at every step of the simulation, to one logged channel."""
+    torque = signals.fine_torque.copy()
     torque[:, joint] += change
-    return replace(signals, torque=torque)
+    return signals.with_torque(torque)
 
 
 def torque_rms(steering: Steering, joint: int) -> float:
@@ -43,7 +43,7 @@ class TorqueGain(Effect):
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
         """Scale the channel."""
-        return on_channel(signals, self.own, self.relative_error * signals.torque[:, self.own])
+        return on_channel(signals, self.own, self.relative_error * signals.fine_torque[:, self.own])
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class TorqueGainNonlinear(Effect):
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
         """Bend the channel."""
-        return on_channel(signals, self.own, self.cubic_coefficient * signals.torque[:, self.own] ** 3)
+        return on_channel(signals, self.own, self.cubic_coefficient * signals.fine_torque[:, self.own] ** 3)
 
 
 @dataclass(frozen=True)
@@ -96,10 +96,10 @@ class TorqueOffsetDrift(Effect):
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
         """Add the drift."""
-        course = signals.time
+        end, course = signals.time[-1], signals.fine_time
         if self.time_constant > 0.0:
-            course = 1.0 - np.exp(-signals.time / self.time_constant)
-        return on_channel(signals, self.own, self.total_drift * course / course[-1])
+            end, course = (1.0 - np.exp(-time / self.time_constant) for time in (end, course))
+        return on_channel(signals, self.own, self.total_drift * course / end)
 
 
 @dataclass(frozen=True)

@@ -67,6 +67,15 @@ class Signals:
     kept: np.ndarray
     temperature: np.ndarray | None = None
 
+    @property
+    def fine_time(self) -> np.ndarray:
+        """Give the instants of the simulation's steps, s."""
+        return (self.time[1] - self.time[0]) / self.steps * np.arange(len(self.fine_torque))
+
+    def with_torque(self, fine: np.ndarray) -> Self:
+        """Log another torque (N m), given at every step, so that whatever acts next acts on it."""
+        return replace(self, torque=fine[:: self.steps], fine_torque=fine)
+
 
 @dataclass(frozen=True)
 class Effect:
@@ -88,6 +97,8 @@ class Effect:
         How near to the wanted strength its size can be brought.
     local
         Whether it belongs to particular joints; if not, a finding need not name them.
+    last
+        Whether it acts on what the others made.
     """
 
     joints: tuple[int, ...]

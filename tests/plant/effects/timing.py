@@ -35,11 +35,11 @@ class TimeDelay(Effect):
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
         """Shift the torque, interpolating between the simulation's steps."""
-        fine = np.arange(len(signals.fine_torque)) / STEPS_PER_SECOND
+        fine = signals.fine_time
         shifted = np.column_stack(
             [np.interp(fine - self.delay, fine, column) for column in signals.fine_torque.T]
         )
-        return replace(signals, torque=shifted[:: signals.steps], fine_torque=shifted)
+        return signals.with_torque(shifted)
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class TorqueFilterLag(Effect):
         pole = np.exp(-1.0 / (STEPS_PER_SECOND * self.time_constant)) if self.time_constant > 0.0 else 0.0
         start = pole * signals.fine_torque[:1]
         slow, _ = signal.lfilter([1.0 - pole], [1.0, -pole], signals.fine_torque, axis=0, zi=start)
-        return replace(signals, torque=slow[:: signals.steps], fine_torque=slow)
+        return signals.with_torque(slow)
 
 
 @dataclass(frozen=True)
@@ -77,6 +77,7 @@ class TimestampJitter(Effect):
     largest = 0.002
     local = False
     raw = True
+    last = True
 
     @classmethod
     def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
