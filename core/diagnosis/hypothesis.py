@@ -113,7 +113,11 @@ class Hypothesis:
     @property
     def possible(self) -> bool:
         """Tell whether nature allows all members."""
-        return all(one.cause.possible(self.solved(index)) for index, one in enumerate(self.members))
+        return all(self.allows(index) for index in range(len(self.members)))
+
+    def allows(self, index: int) -> bool:
+        """Tell whether nature allows one member."""
+        return self.members[index].cause.possible(self.solved(index))
 
     @property
     def by_key(self) -> Mapping[tuple[str, Site], int]:

@@ -17,8 +17,16 @@ WORTH_SETTLING = 6.0
 
 
 def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found and settle it under that, again and again as long as that helps."""
+    """Believe what a hypothesis found and settle it under that, again and again as long as that helps.
+
+    Columns are of first order: where believing a large effect makes that effect itself larger than nature
+    allows, it is left as it was found.
+    """
+    believe_first = bench.remembered()
     now = _settled_once(bench, better)
+    if better.possible and not now.allows(-1):
+        believe_first()
+        return better
     for _ in range(SETTLINGS - 1):
         believe_before = bench.remembered()
         again = _settled_once(bench, now)
