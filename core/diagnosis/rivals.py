@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.diagnosis.bench import Bench
-from core.diagnosis.diagnosis import Rival
+from core.diagnosis.diagnosis import Gain, Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.leftovers import keeps_beside, left_by_last
@@ -104,13 +104,20 @@ def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) ->
     if bench.unseen_share(chosen, chosen.by_key[own.member.key]) * own.statistic < LEAST_SEEN:
         return False
     look, left = bench.look, (bench.residual(own.without), bench.residual(chosen))
-    mask = look.usable & look.held_out[:, None]
+    unseen, fitted = (look.usable & (look.held_out == held)[:, None] for held in (True, False))
     # What shared parameters take up where a cause acts, they spoil on the other joints.
     places = (tuple(sorted(bench.columns([own.member])[0])), tuple(range(look.joints)))
-    seen = [one for joints in places if (one := gain(*left, mask, look.block_of_all, joints)) is not None]
+    both = [[gain(*left, mask, look.block_of_all, joints) for mask in (unseen, fitted)] for joints in places]
+    seen = [(there, here) for there, here in both if there is not None and here is not None]
     if alone:
-        return any(one.interval_95[1] < 0.0 for one in seen)
-    return bool(seen) and all(one.interval_95[0] <= 0.0 and one.total_percent < LEAST_GAIN for one in seen)
+        return any(there.interval_95[1] < 0.0 for there, _ in seen)
+    return bool(seen) and all(_refuted_unseen(there, here) for there, here in seen)
+
+
+def _refuted_unseen(there: Gain, here: Gain) -> bool:
+    """Tell whether unseen rows show no gain, and are not too few to deny that of the fitted ones."""
+    low, high = there.interval_95
+    return low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent
 
 
 def _over_nameless(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> float:
