@@ -21,3 +21,10 @@ class Belief:
     def departure(self, values: Weights) -> float:
         """Give the squared distance of coefficients from it, in standard deviations."""
         return float(np.sum((self.target - self.rows @ values[: self.rows.shape[1]]) ** 2))
+
+    def slope(self, values: Weights) -> Weights:
+        """Give minus half the gradient of that distance, for all coefficients."""
+        out = np.zeros(len(values))
+        size = self.rows.shape[1]
+        out[:size] = self.rows.T @ (self.target - self.rows @ values[:size])
+        return out

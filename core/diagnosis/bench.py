@@ -12,18 +12,10 @@ import numpy as np
 from core.arrays import JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
-from core.diagnosis.equations import (
-    TRIAL_ROUNDS,
-    Columns,
-    Fit,
-    extended,
-    fit,
-    joint_rows,
-    refit,
-    whitened,
-)
+from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, refit, whitened
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allowed
 from core.diagnosis.look import Look
+from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan

@@ -11,10 +11,10 @@ import numpy as np
 from core.arrays import Indices, JointSeries, Vector, Weights
 from core.diagnosis.cause import Site
 from core.diagnosis.diagnosis import Curve
-from core.diagnosis.equations import Columns
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look
 from core.diagnosis.residual.coordinates import coordinate
+from core.diagnosis.rows import Columns
 from core.dynamics.prediction import Prediction
 
 BINS = 36

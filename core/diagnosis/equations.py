@@ -6,7 +6,6 @@ effect in question as noise. Sources: Aitken 1936; Cochrane & Orcutt 1949; Bruno
 74, 2018.
 """
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,55 +13,23 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
 
-from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
+from core.arrays import EquationRows, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.belief import Belief
-from core.diagnosis.free import Free, free_of, independent
-from core.diagnosis.look import Look
-from core.diagnosis.noise import JointNoise, learn_noise, places
+from core.diagnosis.free import Free, free_of
+from core.diagnosis.noise import JointNoise, learn_noise
+from core.diagnosis.rows import JointRows
 
 RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
 ROUNDING = 1e-12
 """Share of a column's square below which what is left of it beside free columns is rounding."""
+STEPS, EXACT = 5, 1e-6
+"""Steps of a solution at most, until another would add less than this to twice the likelihood."""
 OPEN_SHARE = 1e-6
 """A column of which the others already span all but this share is no evidence for anything."""
 ROUNDS, TRIAL_ROUNDS = 3, 2
 SETTLED = 0.1
 """What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
-
-Columns = Mapping[int, EquationRows]
-"""Per joint (from 0), rows x columns; a joint that is left out has zeros."""
-
-
-@dataclass(frozen=True, eq=False)
-class JointRows:
-    """Hold the rows of one joint that a fit may use.
-
-    Attributes
-    ----------
-    rows, place
-        Which rows of the look, and their places within runs.
-    columns, torque
-        What is fitted to what.
-    free
-        Columns of any size: friction while the joint sticks.
-    """
-
-    rows: Indices
-    place: Indices
-    columns: Matrix
-    torque: Vector
-    free: Free
-
-    def missed(self, values: Weights) -> Vector:
-        """Give what the columns leave over, less what the free ones take."""
-        left = self.torque - self.columns @ values
-        return self.free.cleared(left[:, None])[:, 0]
-
-    def missed_under(self, values: Weights, white: "Whitened") -> Vector:
-        """Give the same, what the free columns take being judged under a noise and not row by row."""
-        left = self.torque - self.columns @ values
-        return np.asarray(left - self.free.columns @ white.free.coefficients(white.whitening @ left))
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,14 +69,21 @@ class Whitened:
         out[np.ix_(acting, acting)] = whole - inside.T @ inside + ROUNDING * np.diag(np.diag(whole))
         return out
 
-    @cached_property
-    def right(self) -> Vector:
-        """Give the products of the columns with the torque, less what free columns span."""
-        return np.asarray(self.columns.T @ self.torque)
-
     def left(self, values: Weights) -> Vector:
         """Give what the columns leave of the torque, less what free columns span."""
         return np.asarray(self.torque - self.free.cleared((self.columns @ values)[:, None])[:, 0])
+
+    def missed(self, rows: JointRows, values: Weights) -> Vector:
+        """Give what the columns leave of the same rows, N m, what free ones take being judged when white."""
+        left = rows.torque - rows.columns @ values
+        return np.asarray(left - rows.free.columns @ self.free.coefficients(self.whitening @ left))
+
+    def along(self, left: Vector) -> Weights:
+        """Give the products of the columns with what a fit left: zero where it is the best one."""
+        out = np.zeros(self.columns.shape[1])
+        acting, columns, _ = self.acting
+        out[acting] = columns.T @ left
+        return out
 
     def with_columns(self, kept: int, further: Matrix) -> "Whitened":
         """Keep the first columns and put others, not yet white, beside them."""
@@ -135,8 +109,8 @@ class Fit:
         Coefficient of every column.
     factor
         Cholesky factor of the columns' Gram matrix, scaled by `scale`.
-    log_likelihood
-        Of the rows, noise model included, and of what was believed.
+    by_joint
+        Log-likelihood of every joint's rows, noise model included.
     belief
         What was believed beforehand; None where nothing was.
     """
@@ -146,8 +120,14 @@ class Fit:
     values: Vector
     factor: tuple[np.ndarray, bool]
     scale: Vector
-    log_likelihood: float
+    by_joint: JointVector
     belief: Belief | None = None
+
+    @cached_property
+    def log_likelihood(self) -> float:
+        """Give the log-likelihood of all rows, and of what was believed."""
+        departed = 0.0 if self.belief is None else self.belief.departure(self.values)
+        return float(self.by_joint.sum()) - 0.5 * departed
 
     def solve(self, right: Matrix) -> Matrix:
         """Give Gram^-1 times right-hand sides."""
@@ -157,37 +137,6 @@ class Fit:
     def covariance(self) -> SquareMatrix:
         """Give the coefficients' covariance."""
         return self.solve(np.eye(len(self.values)))
-
-
-def joint_rows(look: Look, columns: Sequence[Matrix], mask: np.ndarray) -> tuple[JointRows, ...]:
-    """Take, per joint, the rows that a mask (rows x joints) allows."""
-    out = []
-    for joint in range(look.joints):
-        rows = np.flatnonzero(mask[:, joint])
-        follows = np.diff(rows, prepend=-2) == 1
-        follows &= ~look.starts[rows]
-        out.append(
-            JointRows(
-                rows,
-                places(follows),
-                columns[joint][rows],
-                look.torque[rows, joint],
-                free_of(independent(look.sticking[joint][rows])),
-            )
-        )
-    return tuple(out)
-
-
-def extended(joints: tuple[JointRows, ...], columns: Sequence[Columns]) -> tuple[JointRows, ...]:
-    """Append further columns, given over all rows of the look."""
-    widths = [next(iter(one.values())).shape[1] for one in columns]
-    out = []
-    for joint, rows in enumerate(joints):
-        parts = [rows.columns]
-        for one, width in zip(columns, widths, strict=True):
-            parts.append(one[joint][rows.rows] if joint in one else np.zeros((len(rows.rows), width)))
-        out.append(replace(rows, columns=np.hstack(parts)))
-    return tuple(out)
 
 
 def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
@@ -269,7 +218,7 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
     parts = list(found.joints)
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
-        residual = rows.missed_under(found.values, known)
+        residual = known.missed(rows, found.values)
         learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))
         if learned.departure(known.noise, residual, rows.place) > SETTLED:
             parts[joint] = whitened(rows, learned)
@@ -283,17 +232,26 @@ def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
 
 
 def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
+    """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
     gram = np.sum([one.gram for one in joints], axis=0)
-    right = np.sum([one.right for one in joints], axis=0)
     if belief is not None:
         size = belief.rows.shape[1]
         gram[:size, :size] += belief.rows.T @ belief.rows
-        right[:size] += belief.rows.T @ belief.target
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor = cho_factor(scaled, lower=True)
-    values = cho_solve(factor, right / scale) / scale
-    left = tuple(one.left(values) for one in joints)
-    missed = sum(float(one @ one) for one in left) + (belief.departure(values) if belief else 0.0)
-    logs = sum(one.log_deviations for one in joints)
-    return Fit(joints, left, values, factor, scale, -0.5 * missed - logs, belief)
+    values = np.zeros(len(gram))
+    left = tuple(one.torque for one in joints)
+    for _ in range(STEPS):
+        slope = np.sum([one.along(rest) for one, rest in zip(joints, left, strict=True)], axis=0)
+        if belief is not None:
+            slope += belief.slope(values)
+        step = cho_solve(factor, slope / scale) / scale
+        if float(slope @ step) < EXACT:
+            break
+        values = values + step
+        left = tuple(one.left(values) for one in joints)
+    by_joint = np.array(
+        [-0.5 * float(rest @ rest) - one.log_deviations for one, rest in zip(joints, left, strict=True)]
+    )
+    return Fit(joints, left, values, factor, scale, by_joint, belief)

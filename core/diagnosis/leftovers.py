@@ -1,21 +1,32 @@
 """Tell a cause from what another one leaves: by what it keeps beside that one, and by where it acts."""
 
+import numpy as np
+
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.rise import rise
+from core.diagnosis.rise import rise_by_joint
 
 BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
+LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
+"""A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
 WITHIN = 0.9
 """Share of an event's rows in which another cause acts, from which on it is what that one leaves."""
 
 
-def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> bool:
+def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> bool:
     """Tell whether a member looks like what another one leaves, and brings too little for a cause.
 
-    An event does where it happens only while the other acts.
+    It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
+    on a joint of its own it has to be half as clear as the other. An event does where it happens only while
+    the other acts.
+
+    Parameters
+    ----------
+    less
+        The hypothesis without the member.
     """
-    own = whole.members[index].cause
+    own, own_rise = whole.members[index].cause, rise_by_joint(less, whole)
     for place, other in enumerate(whole.members):
         if place != index and own.id in other.cause.leaves:
             if own.event:
@@ -23,7 +34,8 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, own_rise: float) -> b
                     return True
                 continue
             without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
-            if own_rise < BESIDE_SHARE * rise(without, whole):
+            left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
+            if np.maximum(own_rise - left, 0.0).sum() < CLEAR_SHARE * own_rise.sum():
                 return True
     return False
 

@@ -5,6 +5,7 @@ Source: Schwarz, Ann. Stat. 6(2), 1978, for the criterion.
 
 import numpy as np
 
+from core.arrays import JointVector
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Hypothesis, Scored
 
@@ -41,6 +42,11 @@ def bounded_rise(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
 def rise(now: Hypothesis, trial: Hypothesis) -> float:
     """Give the rise of twice the log-likelihood from one hypothesis to a larger one."""
     return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
+
+
+def rise_by_joint(now: Hypothesis, trial: Hypothesis) -> JointVector:
+    """Give the same from each joint's rows."""
+    return np.asarray(2.0 * (trial.fit.by_joint - now.fit.by_joint))
 
 
 def log_p_of(bench: Bench, chosen: Hypothesis, index: int, statistic: float) -> float:

@@ -13,7 +13,8 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from core.arrays import EquationRows, Matrix, Weights
-from core.diagnosis.equations import OPEN_SHARE, Columns, Fit, JointRows
+from core.diagnosis.equations import OPEN_SHARE, Fit
+from core.diagnosis.rows import Columns, JointRows
 
 
 @dataclass(frozen=True, eq=False)

@@ -138,7 +138,7 @@ def best_addition(
         if trial.possible
         and rise(now, trial) > given_up.get(trial.members[-1].key, 0.0)
         and holds_unseen(bench, now, trial)
-        and not left_over(bench, trial, len(now.members), rise(now, trial))
+        and not left_over(bench, trial, len(now.members), now)
     )
     return next(deserves, None)
 
@@ -245,7 +245,7 @@ def _challenged(
     weak = [
         index
         for index, without in enumerate(less)
-        if not _stays(bench, without, now, index) or left_over(bench, now, index, brings[index])
+        if not _stays(bench, without, now, index) or left_over(bench, now, index, without)
     ]
     if weak:
         least = min(weak, key=lambda index: brings[index])

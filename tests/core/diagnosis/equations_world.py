@@ -6,9 +6,9 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.sparse import csr_array, hstack
 
-from core.diagnosis.equations import Columns, JointRows, extended, joint_rows
 from core.diagnosis.look import Look
 from core.diagnosis.noise import JointNoise
+from core.diagnosis.rows import Columns, JointRows, extended, joint_rows
 from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, dense_covariance, drawn, exact_noise
 from tests.core.diagnosis.scenes import eventful_scene
 

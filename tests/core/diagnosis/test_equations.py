@@ -7,7 +7,8 @@ import pytest
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
 
-from core.diagnosis.equations import fit, joint_rows, refit
+from core.diagnosis.equations import fit, refit
+from core.diagnosis.rows import joint_rows
 from tests.core.diagnosis.equations_world import BASE, FREE, NOISE, Equations, smooth
 
 CLOSE = 1e-6

@@ -38,7 +38,7 @@ def test_a_belief_counts_like_rows_of_a_log_of_its_own(equations):
     plain = fit(equations.joints, NOISE, rounds=0)
     found = fit(equations.joints, NOISE, rounds=0, belief=Belief(rows, target))
     gram = sum(one.gram for one in plain.joints) + rows.T @ rows
-    right = sum(one.right for one in plain.joints) + rows.T @ target
+    right = sum(one.along(one.torque) for one in plain.joints) + rows.T @ target
     np.testing.assert_allclose(found.values, np.linalg.solve(gram, right), rtol=1e-6)
     missed = sum(float(np.sum(one.left(found.values) ** 2)) for one in plain.joints)
     missed += float(np.sum((target - rows @ found.values) ** 2))

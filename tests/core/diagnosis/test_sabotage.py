@@ -10,8 +10,9 @@ from scipy.sparse import csr_array, identity
 from core.diagnosis import misfit, selection
 from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.causes.torque_gain import TorqueGain
-from core.diagnosis.equations import JointRows, joint_rows, refit
+from core.diagnosis.equations import Whitened, refit
 from core.diagnosis.noise import JointNoise
+from core.diagnosis.rows import joint_rows
 from core.dynamics.terms.effect import OneJointTerm
 from tests.core.diagnosis import (
     equations_world,
@@ -105,7 +106,7 @@ def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
 def test_friction_at_rest_that_is_taken_out_row_by_row_is_seen(monkeypatch):
     law = partial(test_equations.test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it, 0)
     law()
-    monkeypatch.setattr(JointRows, "missed_under", lambda rows, values, white: rows.missed(values))
+    monkeypatch.setattr(Whitened, "missed", lambda white, rows, values: rows.missed(values))
     with pytest.raises(AssertionError):
         law()
 

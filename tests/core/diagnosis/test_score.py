@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import binom, chi2, kstest
 
-from core.diagnosis.equations import Columns, fit
+from core.diagnosis.equations import fit
+from core.diagnosis.rows import Columns, extended
 from core.diagnosis.score import score
 from tests.core.diagnosis.equations_world import NOISE, Equations, smooth
 
@@ -31,6 +32,18 @@ def test_a_score_is_what_fitting_the_candidate_gains(equations):
             2.0 * (after.log_likelihood - before.log_likelihood), rel=1e-6, abs=1e-6
         )
         np.testing.assert_allclose(one.values, after.values[len(before.values) :], rtol=1e-5, atol=1e-8)
+
+
+def test_no_candidate_promises_more_than_is_left_where_columns_run_nearly_parallel():
+    equations, rng = Equations(), np.random.default_rng(4)
+    one, other = smooth(rng, equations.count, 2).T
+    equations.look.torque[:, 0] += 100.0 * other  # 1e6 of each of the two columns, less each other
+    parallel = {0: np.column_stack([one, one + 1e-4 * other])}
+    rows = extended(equations.again(), [parallel])
+    found = fit(rows, NOISE, rounds=0)
+    near = {0: other[:, None] + 1e-2 * smooth(rng, equations.count, 1)}
+    (judged,) = score(found, rows, [near])
+    assert judged.statistic < 20.0
 
 
 def test_a_score_does_not_depend_on_who_else_is_scored_or_on_units(equations):
