@@ -12,7 +12,7 @@ import numpy as np
 from core.arrays import JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
-from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, refit, whitened
+from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, whitened
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allowed
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, extended, joint_rows
@@ -62,6 +62,7 @@ class Bench:
         self._lasting: dict[Place, Columns] = {}
         self._believing: dict[Place, Columns] = {}
         self._candidates: tuple[Candidate, ...] = ()
+        self._ordinary = leaves_too_much(self.base, fit(self.base, belief=belief))
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -136,7 +137,7 @@ class Bench:
             found = self._hypothesis(members, columns, refit(rows, start.fit, self.base[0].columns.shape[1]))
             if found.possible or start.members == members:
                 return found
-        return self._hypothesis(members, columns, fit(rows, belief=self.belief))
+        return self._hypothesis(members, columns, fit(rows, belief=self.belief, ordinary=self._ordinary))
 
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
         """Fit a hypothesis with one more member, learning its noise anew where the member acts.

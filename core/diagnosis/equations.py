@@ -2,10 +2,13 @@
 
 Generalised least squares: per joint the rows are whitened by the joint's own autoregression, which is learned
 again from the residual of every hypothesis; a noise model kept from another hypothesis would have learned the
-effect in question as noise. Sources: Aitken 1936; Cochrane & Orcutt 1949; Brunot et al., Control Eng. Pract.
-74, 2018.
+effect in question as noise. A fit under coloured noise may leave slow torque to the noise, and noise learned
+from what it left leaves it more: where that goes too far, noise is learned from what an ordinary fit leaves.
+Sources: Aitken 1936; Cochrane & Orcutt 1949; Amemiya, Advanced Econometrics (1985), ch. 6, on one step from
+ordinary residuals; Brunot et al., Control Eng. Pract. 74, 2018.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -30,6 +33,8 @@ OPEN_SHARE = 1e-6
 ROUNDS, TRIAL_ROUNDS = 3, 2
 SETTLED = 0.1
 """What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
+TOO_MUCH = 1.3
+"""Residual of a fit under coloured noise over that of an ordinary one that is too much."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +118,8 @@ class Fit:
         Log-likelihood of every joint's rows, noise model included.
     belief
         What was believed beforehand; None where nothing was.
+    plain
+        The ordinary fit from whose residual noise is learned; None where it is learned from this one's.
     """
 
     joints: tuple[Whitened, ...]
@@ -122,6 +129,7 @@ class Fit:
     scale: Vector
     by_joint: JointVector
     belief: Belief | None = None
+    plain: "Fit | None" = None
 
     @cached_property
     def log_likelihood(self) -> float:
@@ -163,6 +171,7 @@ def fit(
     *,
     rounds: int = ROUNDS,
     belief: Belief | None = None,
+    ordinary: bool = False,
 ) -> Fit:
     """Fit all columns to all joints' rows, learning the noise anew in every round.
 
@@ -172,12 +181,38 @@ def fit(
         What to begin with; None to begin with white noise of the torque's size.
     belief
         What is believed of the first columns' coefficients beforehand.
+    ordinary
+        Whether noise is learned from what an ordinary fit leaves.
     """
-    if noise is None:
-        noise = tuple(learn_noise(rows.torque, rows.place, order=0) for rows in joints)
-        rounds += 1
-    found = _solved(tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True)), belief)
-    return _settled(joints, found, None, rounds)
+    if noise is not None:
+        return _settled(joints, _solved(_whitened(joints, noise), belief), None, rounds)
+    first = _ordinary(joints, belief)
+    return _settled(joints, replace(first, plain=first if ordinary else None), None, rounds + 1)
+
+
+def leaves_too_much(joints: tuple[JointRows, ...], found: Fit) -> bool:
+    """Tell whether a fit leaves some joint's noise much more than an ordinary fit leaves."""
+    plain = _ordinary(joints, found.belief)
+    pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
+    return any(float(ours @ ours) > TOO_MUCH**2 * float(theirs @ theirs) for ours, theirs in pairs)
+
+
+def _ordinary(joints: tuple[JointRows, ...], belief: Belief | None) -> Fit:
+    """Fit under white noise, of the size of what the fit under white noise of the torque's size leaves."""
+    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), belief)
+    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), belief)
+
+
+def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[JointNoise, ...]:
+    return tuple(learn_noise(one, rows.place, order=0) for one, rows in zip(sized, joints, strict=True))
+
+
+def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
+    return [part.missed(rows, found.values) for part, rows in zip(found.joints, joints, strict=True)]
+
+
+def _whitened(joints: tuple[JointRows, ...], noise: tuple[JointNoise, ...]) -> tuple[Whitened, ...]:
+    return tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True))
 
 
 def refit(
@@ -201,7 +236,8 @@ def refit(
         old.with_columns(kept, rows.columns[:, kept:])
         for old, rows in zip(before.joints, joints, strict=True)
     )
-    return _settled(joints, _solved(parts, before.belief), touched, rounds)
+    plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
+    return _settled(joints, _solved(parts, before.belief, plain), touched, rounds)
 
 
 def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
@@ -215,14 +251,14 @@ def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] 
 
 def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
     """Learn the noise of some or all joints from their residual; fit again where that makes a difference."""
-    parts = list(found.joints)
+    parts, seen = list(found.joints), found.plain or found
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
-        residual = known.missed(rows, found.values)
+        residual = seen.joints[joint].missed(rows, seen.values)
         learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))
         if learned.departure(known.noise, residual, rows.place) > SETTLED:
             parts[joint] = whitened(rows, learned)
-    return found if tuple(parts) == found.joints else _solved(tuple(parts), found.belief)
+    return found if tuple(parts) == found.joints else _solved(tuple(parts), found.belief, found.plain)
 
 
 def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
@@ -231,7 +267,7 @@ def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
-def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
+def _solved(joints: tuple[Whitened, ...], belief: Belief | None, plain: Fit | None = None) -> Fit:
     """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
     gram = np.sum([one.gram for one in joints], axis=0)
     if belief is not None:
@@ -254,4 +290,4 @@ def _solved(joints: tuple[Whitened, ...], belief: Belief | None) -> Fit:
     by_joint = np.array(
         [-0.5 * float(rest @ rest) - one.log_deviations for one, rest in zip(joints, left, strict=True)]
     )
-    return Fit(joints, left, values, factor, scale, by_joint, belief)
+    return Fit(joints, left, values, factor, scale, by_joint, belief, plain)

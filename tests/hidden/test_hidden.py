@@ -51,3 +51,21 @@ def test_what_a_clipped_torque_leaves_is_no_push():
 def test_two_effects_are_both_named():
     score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2"))
     assert [answer.named for answer in score.answers] == [True, True]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "order",
+    [
+        Order("combination", 10100775, effects=3),  # a fit leaves five times the noise to the noise
+        Order("combination", 10100780, effects=2),  # beside mains hum, and both on one joint
+        Order("combination", 8900759, effects=3),  # columns that run nearly parallel
+        Order("combination", 8900766, effects=2),  # on joints that follow each other
+        Order("combination", 10100782, effects=2),  # one is ten degrees large
+    ],
+    ids=lambda order: str(order.seed),
+)
+def test_effects_that_hid_each_other_once_are_named_and_nothing_else(order):
+    score = scored(order)
+    assert [answer.named for answer in score.answers] == [True] * order.effects
+    assert score.extra == ()

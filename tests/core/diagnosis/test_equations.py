@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
 
-from core.diagnosis.equations import fit, refit
+from core.diagnosis.equations import fit, leaves_too_much, refit
 from core.diagnosis.rows import joint_rows
 from tests.core.diagnosis.equations_world import BASE, FREE, NOISE, Equations, smooth
 
@@ -99,8 +99,9 @@ def test_a_fit_that_begins_with_the_noise_of_another_ends_with_its_own():
     )
 
 
-def test_the_noise_that_a_fit_learns_is_the_noise_that_is_there(equations):
-    found = fit(equations.joints)
+@pytest.mark.parametrize("ordinary", [False, True])
+def test_the_noise_that_a_fit_learns_is_the_noise_that_is_there(equations, ordinary):
+    found = fit(equations.joints, ordinary=ordinary)
     for joint, noise in zip(found.joints, NOISE, strict=True):
         assert joint.noise.deviations[-1] == pytest.approx(noise.deviations[-1], rel=0.1)
 
@@ -115,24 +116,30 @@ def test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it(se
         assert left @ left == pytest.approx(len(left) - taken, rel=0.05)
 
 
-def test_parameters_scatter_as_their_covariance_says():
+@pytest.mark.parametrize("ordinary", [False, True])
+def test_parameters_scatter_as_their_covariance_says(ordinary):
     scores = []
     for seed in range(40):
         equations = Equations(seed)
-        found = fit(equations.joints)
+        found = fit(equations.joints, ordinary=ordinary)
         scores.append((found.values - BASE) / np.sqrt(np.diag(found.covariance)))
     # 160 scores of unit variance: their mean square is known to 11 %.
     assert np.mean(np.square(scores)) == pytest.approx(1.0, abs=0.34)
 
 
-def test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away():
+def test_a_fit_of_what_is_there_leaves_the_noise_no_more_than_an_ordinary_one(equations):
+    assert not leaves_too_much(equations.joints, fit(equations.joints))
+
+
+@pytest.mark.parametrize("ordinary", [False, True])
+def test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away(ordinary):
     """An autoregression that was learned with the effect in it takes the effect for noise."""
     rng = np.random.default_rng(11)
     shape = smooth(rng, Equations().count, 1)
     effect = np.zeros((len(shape), 3))
     effect[:, 0] = 3.0 * shape[:, 0]
     equations = Equations(effect=effect)
-    before = fit(equations.joints)
+    before = fit(equations.joints, ordinary=ordinary)
     after = refit(equations.with_columns({0: shape}), before, len(BASE), frozenset({0}))
     assert before.joints[0].noise.deviations[-1] > 1.2
     assert after.joints[0].noise.deviations[-1] == pytest.approx(1.0, abs=0.1)
