@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app import server as listening
+from app import connection
+from app.connection import Pieces
 from app.main import create_app
-from app.server import Pieces, Server
+from app.server import Server
 from app.settings import Settings
 from tests.app.stubs import StubExecutor
 
@@ -39,7 +40,7 @@ def listening_service(directory, executor=None, **settings):
 def port(tmp_path, monkeypatch):
     """A service whose patience is a second."""
     for name in ("HEAD_LOOKS", "BODY_LOOKS", "ANSWER_LOOKS"):
-        monkeypatch.setattr(listening, name, 1)
+        monkeypatch.setattr(connection, name, 1)
     with listening_service(tmp_path) as (_, port):
         yield port
 
