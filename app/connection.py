@@ -9,6 +9,7 @@ client pays for a time in which the service itself was suspended. Source: RFC 91
 import asyncio
 from typing import Literal, Self
 
+from httptools import HttpParserError, HttpParserUpgrade, HttpRequestParser
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 from app.documents import json_bytes
@@ -65,7 +66,11 @@ class PatientConnection(HttpToolsProtocol):
         """Take bytes; the first after an answer begin the next head."""
         if self._phase == "quiet" and self._idle:
             self._enter("head")
-        super().data_received(data)
+        self._unset_keepalive_if_required()
+        try:
+            self._parse(data)
+        except HttpParserError as error:
+            self._refuse(_not_http(str(error)))
         if self._phase == "head":
             self._bytes += len(data)
             if self._bytes > LARGEST_HEAD and not self.transport.is_closing():
@@ -79,6 +84,9 @@ class PatientConnection(HttpToolsProtocol):
 
     def on_headers_complete(self) -> None:
         """Notice the end of a head."""
+        if self.parser.should_upgrade():
+            _refuse_connect(self.parser.get_method())
+            return  # it is read again
         super().on_headers_complete()
         self._enter("body")
 
@@ -91,6 +99,8 @@ class PatientConnection(HttpToolsProtocol):
 
     def on_message_complete(self) -> None:
         """Notice the end of a request."""
+        if self.parser.should_upgrade():
+            return
         super().on_message_complete()
         self._enter("quiet")
 
@@ -108,13 +118,33 @@ class PatientConnection(HttpToolsProtocol):
         elif self._phase == "body":
             self._look_at_body()
 
-    def send_400_response(self, msg: str) -> None:
-        """Refuse what is not HTTP."""
-        self._refuse(_not_http(msg))
-
     @property
     def _idle(self) -> bool:
         return getattr(self.cycle, "response_complete", True)  # there is none before the first request
+
+    def _parse(self, data: bytes | memoryview) -> None:
+        """Read on; who offers another protocol is served in this one, as RFC 9110 (7.8) permits.
+
+        The parser takes everything after such a head for the other protocol. A new one is given the head
+        without the offer, and then the rest.
+        """
+        while True:
+            try:
+                self.parser.feed_data(data)
+            except HttpParserUpgrade as offer:
+                data = memoryview(data)[offer.args[0] :]
+                head = self._head_without_offer()
+                self.parser = HttpRequestParser(self)
+                self.parser.set_dangerous_leniencies(lenient_data_after_close=True)  # as uvicorn does
+                self.parser.feed_data(head)
+            else:
+                return
+
+    def _head_without_offer(self) -> bytes:
+        version = self.parser.get_http_version().encode()
+        lines = [b"%b %b HTTP/%b" % (self.parser.get_method(), self.url, version)]
+        lines += [b"%b: %b" % (name, value) for name, value in self.headers if name != b"upgrade"]
+        return b"\r\n".join([*lines, b"", b""])
 
     def _enter(self, phase: Literal["quiet", "head", "body"]) -> None:
         self._phase, self._looks, self._bytes = phase, 0, 0
@@ -154,6 +184,11 @@ def _raw(problem: Problem) -> bytes:
     lines = [b"HTTP/1.1 %d %s" % (problem.status_code, problem.title.encode())]
     lines += [name + b": " + value for name, value in headers]
     return b"\r\n".join([*lines, b"", body])
+
+
+def _refuse_connect(method: bytes) -> None:
+    if method == b"CONNECT":
+        raise ValueError("this is no proxy")
 
 
 def _not_http(reason: str) -> Problem:

@@ -1,10 +1,13 @@
 """Connections are given up when their clients are too slow, and whatever is no HTTP gets a problem, too."""
 
+import hashlib
+import http.client
 import json
 import socket
 import threading
 import time
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -18,6 +21,7 @@ from app.settings import Settings
 from tests.app.stubs import StubExecutor
 
 POLL = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+LAST_POLL = POLL[:-2] + b"Connection: close\r\n\r\n"
 
 
 @contextmanager
@@ -55,6 +59,23 @@ def all_of(link):
     while piece := link.recv(65536):
         pieces.append(piece)
     return b"".join(pieces)
+
+
+def answers_of(link, count):
+    """Read as many answers as are asked for."""
+    reader, answers = link.makefile("rb"), []
+    for _ in range(count):
+        status, headers = int(reader.readline().split()[1]), http.client.parse_headers(reader)
+        body = reader.read(int(headers.get("content-length", 0)))
+        answers.append(SimpleNamespace(status=status, headers=headers, body=body))
+    return answers
+
+
+def upload_head(size, *more, chunked=False):
+    """Write the head of an upload."""
+    framing = b"Transfer-Encoding: chunked\r\n" if chunked else b"Content-Length: %d\r\n" % size
+    start = b"POST /v1/logs HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/csv\r\n"
+    return b"".join([start, *more, framing, b"\r\n"])
 
 
 def seconds_until_closed(link, pieces, *, pause=0.0):
@@ -146,6 +167,46 @@ def test_what_is_not_http_gets_a_problem(port, said):
     with connected(port) as link:
         link.sendall(said)
         problem_in(all_of(link), 400, "bad-request")
+
+
+OFFERS = [
+    b"Connection: Upgrade, HTTP2-Settings\r\nUpgrade: h2c\r\nHTTP2-Settings: AAMAAABkAAQCAAAAAAIAAAAA\r\n",
+    b"connection: upgrade\r\nupgrade: websocket\r\n",
+]
+
+
+@pytest.mark.parametrize("offer", OFFERS)
+@pytest.mark.parametrize("chunked", [False, True])
+@pytest.mark.parametrize("pause", [0.0, 0.1])
+def test_a_body_is_read_though_its_client_offers_another_protocol(port, log_bytes, offer, chunked, pause):
+    head = upload_head(len(log_bytes), offer, chunked=chunked)
+    body = b"%x\r\n%b\r\n0\r\n\r\n" % (len(log_bytes), log_bytes) if chunked else log_bytes
+    with connected(port) as link:
+        link.sendall(head[:-9])
+        time.sleep(pause)
+        link.sendall(head[-9:] + body[:999])
+        time.sleep(pause)
+        link.sendall(body[999:] + POLL)
+        first, second = answers_of(link, 2)
+    assert first.status == 201
+    assert json.loads(first.body)["sha256"] == hashlib.sha256(log_bytes).hexdigest()
+    assert second.status == 200
+
+
+def test_a_body_is_never_read_as_a_request(port):
+    with connected(port) as link:
+        link.sendall(upload_head(len(POLL), b"Connection: Upgrade\r\nUpgrade: other\r\n"))
+        time.sleep(0.1)
+        link.sendall(POLL + LAST_POLL)
+        assert [answer.status for answer in answers_of(link, 2)] == [422, 200]
+        assert all_of(link) == b""
+
+
+def test_requests_after_many_offers_of_another_protocol_are_all_answered(port):
+    offer = POLL[:-2] + OFFERS[0] + b"\r\n"
+    with connected(port) as link:
+        link.sendall(offer * 1500 + LAST_POLL)
+        assert all_of(link).count(b"HTTP/1.1 200 ") == 1501
 
 
 def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
