@@ -82,6 +82,11 @@ class PatientConnection(HttpToolsProtocol):
         if self._phase != "head":
             self._enter("head")
 
+    def on_header(self, name: bytes, value: bytes) -> None:
+        """Keep what stands in a head; what follows a body is nobody's (RFC 9110, 6.5.1, on trailers)."""
+        if self._phase == "head":
+            super().on_header(name, value)
+
     def on_headers_complete(self) -> None:
         """Notice the end of a head."""
         if self.parser.should_upgrade():

@@ -209,6 +209,23 @@ def test_requests_after_many_offers_of_another_protocol_are_all_answered(port):
         assert all_of(link).count(b"HTTP/1.1 200 ") == 1501
 
 
+TRAILERS = [
+    b"Host: other.example",
+    b"Sec-Fetch-Site: cross-site",
+    b"Content-Digest: sha-256=:AAAA:",
+    b"Content-Type: image/png",
+    b"Expect: 100-continue",
+]
+
+
+def test_what_follows_a_body_is_no_part_of_its_head(port, log_bytes):
+    body = b"%x\r\n%b\r\n0\r\n" % (len(log_bytes), log_bytes)
+    with connected(port) as link:
+        for trailer in TRAILERS:
+            link.sendall(upload_head(0, chunked=True) + body + trailer + b"\r\n\r\n")
+            assert answers_of(link, 1)[0].status == 201, trailer
+
+
 def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
     with connected(port) as link:
         link.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ")
