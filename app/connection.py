@@ -50,11 +50,15 @@ class Pieces:
 
 
 class PatientConnection(HttpToolsProtocol):
-    """Serve one connection, as long as its client is not too slow."""
+    """Serve one connection, as long as its client is not too slow.
+
+    In a phase, `_looks` were made and `_bytes` came; `_besides` came with a body since its last bytes.
+    """
 
     _phase: Literal["quiet", "head", "body"] = "quiet"
     _looks = 0
     _bytes = 0
+    _besides = 0
     _stalled = 0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # TCP only
@@ -66,6 +70,8 @@ class PatientConnection(HttpToolsProtocol):
         """Take bytes; the first after an answer begin the next head."""
         if self._phase == "quiet" and self._idle:
             self._enter("head")
+        if self._phase == "body":
+            self._besides += len(data)
         self._unset_keepalive_if_required()
         try:
             self._parse(data)
@@ -75,6 +81,8 @@ class PatientConnection(HttpToolsProtocol):
             self._bytes += len(data)
             if self._bytes > LARGEST_HEAD and not self.transport.is_closing():
                 self._refuse(_head_too_large())
+        if self._besides > LARGEST_HEAD and not self.transport.is_closing():
+            self._refuse(_trailers_too_large())
 
     def on_message_begin(self) -> None:
         """Notice the first byte of a request, perhaps while another is being answered."""
@@ -98,6 +106,7 @@ class PatientConnection(HttpToolsProtocol):
     def on_body(self, body: bytes) -> None:
         """Count the bytes of a body, and keep them as they came."""
         self._bytes += len(body)
+        self._besides = 0
         if not self.cycle.body:
             self.cycle.body = Pieces()  # type: ignore[assignment]  # as much of an array as uvicorn asks for
         super().on_body(body)
@@ -152,7 +161,7 @@ class PatientConnection(HttpToolsProtocol):
         return b"\r\n".join([*lines, b"", b""])
 
     def _enter(self, phase: Literal["quiet", "head", "body"]) -> None:
-        self._phase, self._looks, self._bytes = phase, 0, 0
+        self._phase, self._looks, self._bytes, self._besides = phase, 0, 0, 0
 
     def _look_at_head(self) -> None:
         if self._looks <= HEAD_LOOKS:
@@ -220,4 +229,13 @@ def _head_too_large() -> Problem:
         f"the head of the request is larger than {LARGEST_HEAD} bytes",
         evidence={"limit_bytes": LARGEST_HEAD},
         remedy="send a shorter address and fewer headers; a long mapping fits into a form",
+    )
+
+
+def _trailers_too_large() -> Problem:
+    return Problem(
+        "head-too-large",
+        f"what goes with the body is larger than {LARGEST_HEAD} bytes",
+        evidence={"limit_bytes": LARGEST_HEAD},
+        remedy="send fewer trailers, or none: they are not read",
     )

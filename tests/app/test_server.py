@@ -49,6 +49,13 @@ def port(tmp_path, monkeypatch):
         yield port
 
 
+@pytest.fixture(scope="module")
+def patient_port(tmp_path_factory):
+    """A service that is as patient as it is meant to be."""
+    with listening_service(tmp_path_factory.mktemp("data")) as (_, port):
+        yield port
+
+
 def connected(port):
     return socket.create_connection(("127.0.0.1", port), timeout=5.0)
 
@@ -224,6 +231,37 @@ def test_what_follows_a_body_is_no_part_of_its_head(port, log_bytes):
         for trailer in TRAILERS:
             link.sendall(upload_head(0, chunked=True) + body + trailer + b"\r\n\r\n")
             assert answers_of(link, 1)[0].status == 201, trailer
+
+
+@pytest.mark.parametrize(
+    ("start", "piece"),
+    [(b"0\r\n", b"a:b\r\n" * 10_000), (b"0\r\nX: ", b"x" * 65536), (b"1;", b"x" * 65536)],
+)
+def test_what_goes_with_a_body_is_refused_before_it_fills_the_memory(patient_port, start, piece):
+    head = upload_head(0, chunked=True)
+    with connected(patient_port) as link:
+        link.sendall(head + start)
+        assert seconds_until_closed(link, [piece] * 1000) < 4.0
+    with connected(patient_port) as link:
+        link.sendall(head.replace(b"/v1/logs", b"/nothing") + start)
+        assert answers_of(link, 1)[0].status == 404
+        assert seconds_until_closed(link, [piece] * 1000) < 4.0
+
+
+def test_whoever_sends_too_much_with_a_body_is_told(patient_port):
+    with connected(patient_port) as link:
+        link.sendall(upload_head(0, chunked=True) + b"0\r\n")
+        time.sleep(0.1)
+        for _ in range(14):
+            link.sendall(b"X: " + b"x" * 9_995 + b"\r\n")
+        problem_in(all_of(link), 431, "head-too-large")
+
+
+def test_a_body_in_small_chunks_is_taken(port, log_bytes):
+    chunks = b"".join(b"1\r\n%c\r\n" % byte for byte in log_bytes)
+    with connected(port) as link:
+        link.sendall(upload_head(0, chunked=True) + chunks + b"0\r\n\r\n")
+        assert answers_of(link, 1)[0].status == 201
 
 
 def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
