@@ -68,20 +68,20 @@ class PatientConnection(HttpToolsProtocol):
 
     def data_received(self, data: bytes) -> None:
         """Take bytes; the first after an answer begin the next head."""
+        self._unset_keepalive_if_required()
         if self._phase == "quiet" and self._idle:
             self._enter("head")
-        if self._phase == "body":
+        if self._phase == "head":
+            self._bytes += len(data)
+        elif self._phase == "body":
             self._besides += len(data)
-        self._unset_keepalive_if_required()
         try:
             self._parse(data)
         except HttpParserError as error:
             self._refuse(_not_http(str(error)))
-        if self._phase == "head":
-            self._bytes += len(data)
-            if self._bytes > LARGEST_HEAD and not self.transport.is_closing():
-                self._refuse(_head_too_large())
-        if self._besides > LARGEST_HEAD and not self.transport.is_closing():
+        if self._phase == "head" and self._bytes > LARGEST_HEAD and not self.transport.is_closing():
+            self._refuse(_head_too_large())
+        elif self._besides > LARGEST_HEAD and not self.transport.is_closing():
             self._refuse(_trailers_too_large())
 
     def on_message_begin(self) -> None:
@@ -89,6 +89,7 @@ class PatientConnection(HttpToolsProtocol):
         super().on_message_begin()
         if self._phase != "head":
             self._enter("head")
+            self._bytes = 1  # at least; only what comes after this read is all its own
 
     def on_header(self, name: bytes, value: bytes) -> None:
         """Keep what stands in a head; what follows a body is nobody's (RFC 9110, 6.5.1, on trailers)."""

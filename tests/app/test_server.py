@@ -273,6 +273,19 @@ def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
         problem_in(all_of(link), 431, "head-too-large")
 
 
+@pytest.mark.parametrize("kilobytes", [200, 300, 400])
+def test_a_head_that_begins_in_the_midst_of_much_else_is_not_taken_for_large(
+    patient_port, log_bytes, kilobytes
+):
+    long = log_bytes.rstrip() + (b"\n#" + b"x" * 998) * kilobytes
+    asked = [upload_head(len(body)) + body for body in (log_bytes, long)]
+    with connected(patient_port) as link:
+        link.sendall(asked[0] + POLL + asked[1] + LAST_POLL[:-10])
+        time.sleep(0.3)
+        link.sendall(LAST_POLL[-10:])
+        assert [answer.status for answer in answers_of(link, 4)] == [201, 200, 201, 200]
+
+
 def test_a_client_that_takes_nothing_is_given_up(port):
     with socket.socket() as link:
         link.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
