@@ -117,7 +117,7 @@ class PatientConnection(HttpToolsProtocol):
         if self.parser.should_upgrade():
             return
         super().on_message_complete()
-        self._enter("quiet")
+        self._enter("head" if self._idle else "quiet")  # whoever was answered before is waited for now
 
     def look(self) -> None:
         """Give the connection up if its client has been slow for too long."""

@@ -129,6 +129,14 @@ def test_empty_lines_do_not_keep_a_connection_open(port):
         assert seconds_until_closed(link, [b"\r\n"] * 200, pause=0.05) < 4.0
 
 
+def test_a_connection_on_which_nothing_comes_after_a_late_body_is_closed_without_a_word(port):
+    with connected(port) as link:
+        link.sendall(upload_head(10).replace(b"/v1/logs", b"/nothing"))
+        assert answers_of(link, 1)[0].status == 404
+        link.sendall(b"0123456789")
+        assert all_of(link) == b""
+
+
 def test_a_body_that_comes_too_slowly_is_given_up(port):
     with connected(port) as link:
         head = b"POST /v1/logs HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/csv\r\n"
