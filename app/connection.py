@@ -7,24 +7,30 @@ client pays for a time in which the service itself was suspended. Source: RFC 91
 """
 
 import asyncio
-from typing import Literal, Self
+from typing import Literal, Self, cast
 
 from httptools import HttpParserError, HttpParserUpgrade, HttpRequestParser
-from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
+from uvicorn._types import ASGI3Application
+from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
-from app.documents import json_bytes
-from app.handlers import HEADERS
-from app.problems import MEDIA_TYPE, Problem
+from app.problems import Problem
+from app.refusals import (
+    BODY_BYTES,
+    BODY_LOOKS,
+    HEAD_LOOKS,
+    LARGEST_HEAD,
+    head_too_large,
+    not_http,
+    refusal,
+    too_slow,
+    trailers_too_large,
+)
 
-HEAD_LOOKS = 17
-"""Looks at an unfinished head before it is given up: 8.5 s."""
-BODY_LOOKS = 17
-"""Looks between which a body has to have grown by `BODY_BYTES`."""
-BODY_BYTES = 17 * 512
-"""1 KiB/s: no link in use is slower."""
 ANSWER_LOOKS = 120
 """Looks at a client that takes nothing of its answer before it is given up: a minute."""
-LARGEST_HEAD = 128 * 1024
+
+
+Phase = Literal["quiet", "head", "body", "deaf"]
 
 
 class Pieces:
@@ -52,10 +58,12 @@ class Pieces:
 class PatientConnection(HttpToolsProtocol):
     """Serve one connection, as long as its client is not too slow.
 
-    In a phase, `_looks` were made and `_bytes` came; `_besides` came with a body since its last bytes.
+    In a phase, `_looks` were made and `_bytes` came; `_besides` came with a body since its last bytes. Where
+    something was refused, no more is read: what was asked before is answered, then what was refused.
     """
 
-    _phase: Literal["quiet", "head", "body"] = "quiet"
+    _phase: Phase = "quiet"
+    _answering: RequestResponseCycle | None = None
     _looks = 0
     _bytes = 0
     _besides = 0
@@ -68,6 +76,8 @@ class PatientConnection(HttpToolsProtocol):
 
     def data_received(self, data: bytes) -> None:
         """Take bytes; the first after an answer begin the next head."""
+        if self._phase == "deaf":
+            return
         self._unset_keepalive_if_required()
         if self._phase == "quiet" and self._idle:
             self._enter("head")
@@ -78,11 +88,11 @@ class PatientConnection(HttpToolsProtocol):
         try:
             self._parse(data)
         except HttpParserError as error:
-            self._refuse(_not_http(str(error)))
-        if self._phase == "head" and self._bytes > LARGEST_HEAD and not self.transport.is_closing():
-            self._refuse(_head_too_large())
-        elif self._besides > LARGEST_HEAD and not self.transport.is_closing():
-            self._refuse(_trailers_too_large())
+            self._refuse(not_http(str(error)))
+        if self._phase == "head" and self._bytes > LARGEST_HEAD:
+            self._refuse(head_too_large())
+        elif self._besides > LARGEST_HEAD:
+            self._refuse(trailers_too_large())
 
     def on_message_begin(self) -> None:
         """Notice the first byte of a request, perhaps while another is being answered."""
@@ -118,6 +128,13 @@ class PatientConnection(HttpToolsProtocol):
             return
         super().on_message_complete()
         self._enter("head" if self._idle else "quiet")  # whoever was answered before is waited for now
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Tell all who are to be answered, and not only the last, that nobody listens any more."""
+        for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):
+            if cycle is not None:
+                _leave_unanswered(cycle)
+        super().connection_lost(exc)
 
     def look(self) -> None:
         """Give the connection up if its client has been slow for too long."""
@@ -161,14 +178,16 @@ class PatientConnection(HttpToolsProtocol):
         lines += [b"%b: %b" % (name, value) for name, value in self.headers if name != b"upgrade"]
         return b"\r\n".join([*lines, b"", b""])
 
-    def _enter(self, phase: Literal["quiet", "head", "body"]) -> None:
+    def _enter(self, phase: Phase) -> None:
         self._phase, self._looks, self._bytes, self._besides = phase, 0, 0, 0
 
     def _look_at_head(self) -> None:
+        if self.flow.read_paused:
+            self._looks = 0  # it is the service that does not read on
         if self._looks <= HEAD_LOOKS:
             return
         if self._bytes:
-            self._refuse(_too_slow("the head of the request was not finished in time"))
+            self._refuse(too_slow("the head of the request was not finished in time"))
         else:
             self.transport.close()  # opened ahead of need, as browsers do
 
@@ -177,66 +196,59 @@ class PatientConnection(HttpToolsProtocol):
             self._enter("body")  # it is the service that does not read on
         elif self._looks > BODY_LOOKS:
             if self._bytes < BODY_BYTES:
-                self._refuse(_too_slow("the body of the request came too slowly"))
-            self._enter("body")
+                self._refuse(too_slow("the body of the request came too slowly"))
+            else:
+                self._enter("body")
 
     def _refuse(self, problem: Problem) -> None:
-        """Say what is wrong where nothing else is being said, and close."""
-        if self._idle or not self.cycle.response_started:
-            self.transport.write(_raw(problem))
-        self.transport.close()
+        """Say what is wrong when all that was asked before is answered, and close."""
+        unfinished = self._phase == "body"
+        self._enter("deaf")
+        if unfinished:
+            if self.cycle.response_started:
+                self.transport.close()
+                return
+            self._withdraw(self.cycle)
+        self._say(problem)
+
+    def _withdraw(self, cycle: RequestResponseCycle) -> None:
+        """Leave the last request unanswered."""
+        _leave_unanswered(cycle)
+        if cycle is not self._answering:
+            self.pipeline.popleft()
+
+    def _say(self, problem: Problem) -> None:
+        """Answer with a problem after all other answers, and close."""
+        before = self._answering
+        self.cycle = RequestResponseCycle(
+            scope={"type": "http", "method": "GET", "headers": []},  # type: ignore[typeddict-item]  # no request
+            transport=self.transport,
+            flow=self.flow,
+            logger=self.logger,
+            access_logger=self.access_logger,
+            access_log=False,
+            default_headers=self.server_state.default_headers,
+            message_event=asyncio.Event(),
+            expect_100_continue=False,
+            keep_alive=False,
+            on_response=self.on_response_complete,
+        )
+        said = cast("ASGI3Application", refusal(problem))
+        if before is None or before.response_complete or before.disconnected:
+            self._start_asgi_task(self.cycle, said)
+        else:
+            self.pipeline.appendleft((self.cycle, said))
+
+    def _start_asgi_task(self, cycle: RequestResponseCycle, app: ASGI3Application) -> None:
+        self._answering = cycle
+        super()._start_asgi_task(cycle, app)
 
 
-def _raw(problem: Problem) -> bytes:
-    """Write a problem as the bytes of an answer, where no application is there to write it."""
-    body = json_bytes(problem.document())
-    headers = [
-        *HEADERS,
-        (b"content-type", MEDIA_TYPE.encode()),
-        (b"content-length", b"%d" % len(body)),
-        (b"connection", b"close"),
-    ]
-    lines = [b"HTTP/1.1 %d %s" % (problem.status_code, problem.title.encode())]
-    lines += [name + b": " + value for name, value in headers]
-    return b"\r\n".join([*lines, b"", body])
+def _leave_unanswered(cycle: RequestResponseCycle) -> None:
+    cycle.disconnected = True
+    cycle.message_event.set()
 
 
 def _refuse_connect(method: bytes) -> None:
     if method == b"CONNECT":
         raise ValueError("this is no proxy")
-
-
-def _not_http(reason: str) -> Problem:
-    return Problem(
-        "bad-request",
-        "the request is not HTTP/1.1 that can be read",
-        evidence={"reason": reason},
-        remedy="send it as RFC 9112 says; most clients do",
-    )
-
-
-def _too_slow(cause: str) -> Problem:
-    return Problem(
-        "too-slow",
-        cause,
-        evidence={"head_s": HEAD_LOOKS / 2, "body_bytes_per_s": 1024},
-        remedy="send the request without long pauses",
-    )
-
-
-def _head_too_large() -> Problem:
-    return Problem(
-        "head-too-large",
-        f"the head of the request is larger than {LARGEST_HEAD} bytes",
-        evidence={"limit_bytes": LARGEST_HEAD},
-        remedy="send a shorter address and fewer headers; a long mapping fits into a form",
-    )
-
-
-def _trailers_too_large() -> Problem:
-    return Problem(
-        "head-too-large",
-        f"what goes with the body is larger than {LARGEST_HEAD} bytes",
-        evidence={"limit_bytes": LARGEST_HEAD},
-        remedy="send fewer trailers, or none: they are not read",
-    )

@@ -3,10 +3,11 @@
 import hashlib
 import http.client
 import json
+import re
 import socket
 import threading
 import time
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from types import SimpleNamespace
 
 import pytest
@@ -18,6 +19,7 @@ from app.connection import Pieces
 from app.main import create_app
 from app.server import Server
 from app.settings import Settings
+from tests.app.planar_arm import description
 from tests.app.stubs import StubExecutor
 
 POLL = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
@@ -270,6 +272,70 @@ def test_a_body_in_small_chunks_is_taken(port, log_bytes):
     with connected(port) as link:
         link.sendall(upload_head(0, chunked=True) + chunks + b"0\r\n\r\n")
         assert answers_of(link, 1)[0].status == 201
+
+
+GARBAGE = b"\x01garbage\r\n\r\n"
+
+
+def posted(port, path, content, kind):
+    """Send a body, and give the id of what was made of it."""
+    with closing(http.client.HTTPConnection("127.0.0.1", port)) as link:
+        link.request("POST", path, content, {"Content-Type": kind})
+        return json.load(link.getresponse())["id"]
+
+
+def job_request(port, log_bytes, wait):
+    """Make a robot and a log, and write the request for a job that waits for its end."""
+    robot = posted(port, "/v1/robots", json.dumps(description()).encode(), "application/json")
+    log = posted(port, "/v1/logs", log_bytes, "text/csv")
+    content = json.dumps({"kind": "identify", "robot": robot, "logs": [log]}).encode()
+    head = b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    return head + b"Prefer: wait=%d\r\nContent-Length: %d\r\n\r\n" % (wait, len(content)) + content
+
+
+@pytest.mark.parametrize(
+    ("more", "statuses"),
+    [
+        (GARBAGE, [202, 400]),
+        (POLL + GARBAGE, [202, 200, 400]),
+        (POLL[:-10], [202, 408]),
+        (upload_head(100) + b"too slow", [202, 408]),
+        (upload_head(0, chunked=True) + GARBAGE, [202, 400]),
+        (POLL + upload_head(0, chunked=True) + GARBAGE, [202, 200, 400]),
+    ],
+)
+def test_what_was_asked_before_is_answered_before_a_refusal(port, log_bytes, more, statuses):
+    request = job_request(port, log_bytes, wait=2)
+    with connected(port) as link:
+        link.sendall(request + more)
+        assert [answer.status for answer in answers_of(link, len(statuses))] == statuses
+        assert all_of(link) == b""
+
+
+def test_no_refusal_stands_in_the_midst_of_a_stream(tmp_path, log_bytes):
+    executor = StubExecutor()
+    with listening_service(tmp_path, executor) as (_, port):
+        request = job_request(port, log_bytes, wait=0)
+        with connected(port) as link:
+            link.sendall(request)
+            job = json.loads(answers_of(link, 1)[0].body)["id"].encode()
+            link.sendall(POLL.replace(b"/healthz", b"/v1/jobs/%b/events" % job) + POLL + GARBAGE)
+            time.sleep(0.2)
+            executor.release.set()
+            stream, _, rest = all_of(link).partition(b"\r\n0\r\n\r\n")
+    assert b"event: end" in stream
+    assert stream.count(b"HTTP/1.1") == 1
+    assert re.findall(rb"HTTP/1.1 (\d+)", rest) == [b"200", b"400"]
+
+
+def test_a_client_that_goes_away_before_its_answers_is_no_mistake_of_the_service(port, log_bytes, caplog):
+    request = job_request(port, log_bytes, wait=1)
+    for more in (b"", POLL, POLL * 3):
+        with connected(port) as link:
+            link.sendall(request + more)
+            time.sleep(0.05)
+    time.sleep(1.2)
+    assert [record for record in caplog.records if record.levelname == "ERROR"] == []
 
 
 def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
