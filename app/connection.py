@@ -22,6 +22,7 @@ from app.refusals import (
     head_too_large,
     not_http,
     refusal,
+    stopping,
     too_slow,
     trailers_too_large,
 )
@@ -149,6 +150,16 @@ class PatientConnection(HttpToolsProtocol):
             self._look_at_head()
         elif self._phase == "body":
             self._look_at_body()
+
+    def give_up(self) -> None:
+        """Refuse whatever is not answered yet, since the service stops."""
+        if self._answering is None or self._answering.response_started:
+            return
+        for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):
+            _leave_unanswered(cycle)
+        self.pipeline.clear()
+        self._enter("deaf")
+        self._say(stopping())
 
     @property
     def _idle(self) -> bool:

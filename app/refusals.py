@@ -31,6 +31,16 @@ def not_http(reason: str) -> Problem:
     )
 
 
+def stopping() -> Problem:
+    """Refuse what is not done before the service has to stop."""
+    return Problem(
+        "stopping",
+        "the service stops before the request is done",
+        remedy="send the request again in a few seconds; the same bytes sent twice are the same log",
+        headers={"Retry-After": "5"},
+    )
+
+
 def too_slow(cause: str) -> Problem:
     """Refuse what does not come on."""
     return Problem(

@@ -1,5 +1,6 @@
 """Listen as uvicorn does, and look at the connections now and then."""
 
+import asyncio
 import gc
 import socket
 
@@ -11,6 +12,10 @@ from app.settings import Settings
 
 TICKS_PER_LOOK = 5
 """uvicorn ticks ten times a second."""
+GRACE_S = 5
+"""What is under way when the service is told to stop may take so long."""
+LAST_WORD_S = 4.0
+"""What is not done by then is refused, while there is time to say so."""
 
 
 class Server(uvicorn.Server):
@@ -35,7 +40,7 @@ class Server(uvicorn.Server):
                 server_header=False,
                 log_level="info",
                 access_log=False,
-                timeout_graceful_shutdown=5,
+                timeout_graceful_shutdown=GRACE_S,
             )
         )
         self._app = app
@@ -53,12 +58,21 @@ class Server(uvicorn.Server):
     async def on_tick(self, counter: int) -> bool:
         """Look at all connections now and then."""
         if counter % TICKS_PER_LOOK == 0:
-            for connection in list(self.server_state.connections):
-                if isinstance(connection, PatientConnection):
-                    connection.look()
+            for connection in self._connections:
+                connection.look()
         return await super().on_tick(counter)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Let nobody wait for a job any longer, then close."""
         self._app.state.services.feed.end()
+        giving_up = asyncio.get_running_loop().call_later(LAST_WORD_S, self._give_up)
         await super().shutdown(sockets)
+        giving_up.cancel()
+
+    def _give_up(self) -> None:
+        for connection in self._connections:
+            connection.give_up()
+
+    @property
+    def _connections(self) -> list[PatientConnection]:
+        return [one for one in self.server_state.connections if isinstance(one, PatientConnection)]

@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app import connection
+from app import server as listening
 from app.connection import Pieces
 from app.main import create_app
 from app.server import Server
@@ -326,6 +327,23 @@ def test_no_refusal_stands_in_the_midst_of_a_stream(tmp_path, log_bytes):
     assert b"event: end" in stream
     assert stream.count(b"HTTP/1.1") == 1
     assert re.findall(rb"HTTP/1.1 (\d+)", rest) == [b"200", b"400"]
+
+
+def test_an_upload_that_does_not_end_before_the_service_stops_is_told(
+    tmp_path, log_bytes, caplog, monkeypatch
+):
+    monkeypatch.setattr(listening, "LAST_WORD_S", 2.0)
+    upload = upload_head(len(log_bytes)) + log_bytes
+    with listening_service(tmp_path) as (server, port), connected(port) as slow, connected(port) as quick:
+        slow.sendall(upload[:-10])
+        quick.sendall(upload[:-10])
+        time.sleep(0.1)
+        server.should_exit = True
+        time.sleep(0.2)
+        quick.sendall(upload[-10:])
+        assert answers_of(quick, 1)[0].status == 201
+        problem_in(all_of(slow), 503, "stopping")
+    assert [record for record in caplog.records if record.levelname == "ERROR"] == []
 
 
 def test_a_client_that_goes_away_before_its_answers_is_no_mistake_of_the_service(port, log_bytes, caplog):
