@@ -7,6 +7,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.disk import DiskReserve
 from app.handlers import HEADERS, problem_response
 from app.problems import Problem
+from app.refusals import too_large
 
 DOCUMENT_LIMIT = 6 * 1024**2  # a URDF of 5 MB and its envelope
 FORM_OVERHEAD = DOCUMENT_LIMIT
@@ -44,7 +45,7 @@ class BodyLimit:
         limit, declared = self._limit(scope), _declared_length(scope)
         try:
             if declared > limit:
-                raise _too_large(limit)
+                raise too_large(limit)
             self._disk.require(declared)
         except Problem as problem:
             await problem_response(problem)(scope, receive, send)
@@ -56,7 +57,7 @@ class BodyLimit:
             message = await receive()
             seen += len(message.get("body", b""))
             if seen > limit:
-                raise _too_large(limit)
+                raise too_large(limit)
             if seen - looked > LOOK_AT_DISK_EVERY:
                 looked = seen
                 self._disk.require()
@@ -67,7 +68,7 @@ class BodyLimit:
     def _limit(self, scope: Scope) -> int:
         if scope["path"].rstrip("/") not in UPLOAD_PATHS:
             return DOCUMENT_LIMIT
-        form = dict(scope["headers"]).get(b"content-type", b"").startswith(b"multipart/")
+        form = dict(scope["headers"]).get(b"content-type", b"").lower().startswith(b"multipart/")
         return self._upload_limit + (FORM_OVERHEAD if form else 0)
 
 
@@ -128,13 +129,3 @@ def _completed(
 def _declared_length(scope: Scope) -> int:
     value = dict(scope["headers"]).get(b"content-length", b"0")
     return int(value) if value.isdigit() and len(value) < 20 else 0
-
-
-def _too_large(limit: int) -> Problem:
-    return Problem(
-        "too-large",
-        f"the body is larger than {limit} bytes",
-        evidence={"limit_bytes": limit},
-        remedy="send less, as Parquet perhaps, or let the operator raise VERITORQUE_MAX_UPLOAD_BYTES",
-        headers={"Connection": "close"},
-    )

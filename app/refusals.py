@@ -69,3 +69,14 @@ def trailers_too_large() -> Problem:
         evidence={"limit_bytes": LARGEST_HEAD},
         remedy="send fewer trailers, or none: they are not read",
     )
+
+
+def too_large(limit: int) -> Problem:
+    """Refuse a body, or a file in it, of more bytes than are taken."""
+    return Problem(
+        "too-large",
+        f"the body, or a file in it, is larger than {limit} bytes",
+        evidence={"limit_bytes": limit},
+        remedy="send less, as Parquet perhaps, or let the operator raise VERITORQUE_MAX_UPLOAD_BYTES",
+        headers={"Connection": "close"},
+    )

@@ -13,6 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 
 from app.problems import Problem
+from app.refusals import too_large
 from app.store.blobs import Incoming
 from core.log.content import FORMS, NO_CLAIM
 
@@ -70,7 +71,7 @@ async def open_form(request: Request, *, longest_text: int) -> AsyncIterator[For
     Raises
     ------
     Problem
-        If the body is no form (400).
+        If the body is no form (400), or a file in it larger than the service takes (413).
     """
     try:
         form = await request.form(max_files=MOST_PARTS, max_fields=MOST_PARTS, max_part_size=longest_text)
@@ -85,9 +86,16 @@ async def open_form(request: Request, *, longest_text: int) -> AsyncIterator[For
             remedy=f"send {MULTIPART} with a boundary and at most {MOST_PARTS} parts, as curl -F does",
         ) from None
     try:
+        _refuse_large_files(form, request.app.state.services.settings.max_upload_bytes)
         yield form
     finally:
         await form.close()
+
+
+def _refuse_large_files(form: FormData, limit: int) -> None:
+    for _, part in form.multi_items():
+        if isinstance(part, UploadFile) and (part.size or 0) > limit:
+            raise too_large(limit)
 
 
 def refuse_unknown_parts(form: FormData, known: tuple[str, ...]) -> None:

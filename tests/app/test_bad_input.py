@@ -146,6 +146,26 @@ def test_an_upload_that_is_too_large_is_refused_by_its_declared_and_by_its_real_
     assert_problem(client.post("/v1/logs", files=large), 413, "too-large")
 
 
+def test_a_file_in_a_form_may_be_as_large_as_a_body_and_no_larger(client):
+    content = csv_log(seconds=2.0).rstrip()
+    largest = content + (b"\n#" + b"x" * 998) * ((4_000_000 - len(content)) // 1000)
+    largest += b"\n" * (4_000_000 - len(largest))
+    larger = ("log.csv", largest + b"\n", "text/csv")
+    assert_problem(client.post("/v1/logs", files={"file": larger}), 413, "too-large")
+    asked = {"robot": (None, "yumi-left"), "log": larger}
+    assert_problem(client.post("/v1/identify", files=asked), 413, "too-large")
+    assert client.post("/v1/logs", files={"file": ("log.csv", largest, "text/csv")}).status_code == 201
+
+
+def test_a_form_is_a_form_however_its_type_is_written(client):
+    content = csv_log(seconds=2.0).rstrip()
+    content += (b"\n#" + b"x" * 998) * ((3_999_000 - len(content)) // 1000)
+    part = b'Content-Disposition: form-data; name="file"; filename="a.csv"'
+    form = b"--x\r\n" + part + b"\r\nX: " + b"x" * 2000 + b"\r\n\r\n" + content + b"\r\n--x--\r\n"
+    headers = {"Content-Type": "Multipart/Form-Data; boundary=x"}
+    assert client.post("/v1/logs", headers=headers, content=form).status_code == 201
+
+
 @pytest.mark.parametrize(
     ("headers", "content", "status"),
     [
