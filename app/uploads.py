@@ -9,9 +9,10 @@ from contextlib import asynccontextmanager
 import anyio
 from python_multipart.exceptions import FormParserError
 from starlette.datastructures import FormData, UploadFile
-from starlette.exceptions import HTTPException
+from starlette.formparsers import MultiPartException
 from starlette.requests import ClientDisconnect, Request
 
+from app.forms import parse_form
 from app.problems import Problem
 from app.refusals import too_large
 from app.store.blobs import Incoming
@@ -74,11 +75,11 @@ async def open_form(request: Request, *, longest_text: int) -> AsyncIterator[For
         If the body is no form (400), or a file in it larger than the service takes (413).
     """
     try:
-        form = await request.form(max_files=MOST_PARTS, max_fields=MOST_PARTS, max_part_size=longest_text)
+        form = await parse_form(request, most_parts=MOST_PARTS, longest_text=longest_text)
     except Problem:
         raise
-    except (HTTPException, FormParserError, ClientDisconnect, ValueError, KeyError) as error:
-        reason = error.detail if isinstance(error, HTTPException) else str(error) or type(error).__name__
+    except (MultiPartException, FormParserError, ClientDisconnect, ValueError, KeyError) as error:
+        reason = getattr(error, "message", str(error)) or type(error).__name__
         raise Problem(
             "bad-request",
             "the body is no multipart form that can be read",

@@ -195,6 +195,29 @@ def test_a_form_with_the_wrong_parts_is_refused(client, files):
     assert_problem(client.post("/v1/logs", files=files), 422, "request")
 
 
+def form_of(*parts):
+    """Write a form whose boundary is x, of the headers and contents of its parts."""
+    written = (b"--x\r\nContent-Disposition: form-data; %b\r\n\r\n%b\r\n" % part for part in parts)
+    return b"".join(written) + b"--x--\r\n"
+
+
+FORM = {"Content-Type": "multipart/form-data; boundary=x"}
+FILE = b'name="file"; filename="log.csv"', csv_log(seconds=2.0)
+MAPPING = b'name="mapping"', b'{"nonsense": 1}'
+
+
+@pytest.mark.parametrize("missing", [3, 4, 6, 20, 90])
+@pytest.mark.parametrize("parts", [[FILE], [FILE, MAPPING], [MAPPING, FILE]])
+def test_a_form_that_was_cut_off_is_refused_whatever_is_missing(client, parts, missing):
+    answer = client.post("/v1/logs", headers=FORM, content=form_of(*parts)[:-missing])
+    problem = assert_problem(answer, 400, "bad-request")
+    assert problem["evidence"]["reason"] == "it ends before its last boundary"
+
+
+def test_a_form_may_end_with_its_last_boundary(client):
+    assert client.post("/v1/logs", headers=FORM, content=form_of(FILE)[:-2]).status_code == 201
+
+
 def test_a_form_with_too_many_parts_is_refused(client):
     files = [(f"part{n}", (None, "1")) for n in range(200)]
     assert_problem(client.post("/v1/logs", files=files), 400, "bad-request")
