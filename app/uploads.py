@@ -137,6 +137,25 @@ def files_of(form: FormData, name: str) -> list[UploadFile]:
     return files
 
 
+def file_of(form: FormData, name: str) -> UploadFile:
+    """Give the one file of a form under a name.
+
+    Raises
+    ------
+    Problem
+        If there is none, several, or plain text (422).
+    """
+    files = files_of(form, name)
+    if len(files) > 1:
+        raise Problem(
+            "request",
+            f"the form holds several files named {name}",
+            evidence={"count": len(files)},
+            remedy="send each in a request of its own",
+        )
+    return files[0]
+
+
 def text_of(form: FormData, name: str) -> str | None:
     """Give a text part of a form; None where there is none.
 

@@ -187,6 +187,7 @@ def test_a_broken_form_is_refused(client, headers, content, status):
     [
         {"other": ("log.csv", b"x", "text/csv")},
         {"file": (None, "text instead of a file")},
+        [("file", ("1.csv", csv_log(seconds=2.0))), ("file", ("2.csv", csv_log(seconds=3.0)))],
         {"file": ("log.csv", b"x", "text/csv"), "surprise": (None, "1")},
         {"file": ("log.csv", b"x", "text/csv"), "mapping": ("mapping.json", b"{}", "application/json")},
     ],
