@@ -130,6 +130,14 @@ class PatientConnection(HttpToolsProtocol):
         super().on_message_complete()
         self._enter("head" if self._idle else "quiet")  # whoever was answered before is waited for now
 
+    def eof_received(self) -> bool:  # type: ignore[override]  # as asyncio has it, though not uvicorn
+        """Answer whoever has said all and may still listen; a stream that has begun ends instead."""
+        listens = self._phase in ("quiet", "deaf") and not self._idle
+        if not listens or self._answering is None or self._answering.response_started:
+            return False
+        self.cycle.keep_alive = False
+        return True
+
     def connection_lost(self, exc: Exception | None) -> None:
         """Tell all who are to be answered, and not only the last, that nobody listens any more."""
         for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):

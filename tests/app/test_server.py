@@ -346,6 +346,32 @@ def test_an_upload_that_does_not_end_before_the_service_stops_is_told(
     assert [record for record in caplog.records if record.levelname == "ERROR"] == []
 
 
+def test_whoever_has_said_all_is_answered(port, log_bytes):
+    request = job_request(port, log_bytes, wait=1)
+    for said, statuses in (
+        (POLL, [200]),
+        (upload_head(len(log_bytes)) + log_bytes, [201]),
+        (request, [202]),
+        (request + POLL, [202, 200]),
+        (request + GARBAGE, [202, 400]),
+    ):
+        with connected(port) as link:
+            link.sendall(said)
+            link.shutdown(socket.SHUT_WR)
+            assert [answer.status for answer in answers_of(link, len(statuses))] == statuses
+            assert all_of(link) == b""
+
+
+def test_whoever_breaks_off_is_not_waited_for(port, log_bytes):
+    upload = upload_head(len(log_bytes)) + log_bytes
+    for said in (b"", upload[:30], upload[:-10], POLL[:-1]):
+        with connected(port) as link:
+            link.sendall(said)
+            link.shutdown(socket.SHUT_WR)
+            link.settimeout(0.4)
+            assert all_of(link) == b""
+
+
 def test_a_client_that_goes_away_before_its_answers_is_no_mistake_of_the_service(port, log_bytes, caplog):
     request = job_request(port, log_bytes, wait=1)
     for more in (b"", POLL, POLL * 3):
