@@ -7,12 +7,14 @@ client pays for a time in which the service itself was suspended. Source: RFC 91
 """
 
 import asyncio
-from typing import Literal, Self, cast
+from collections.abc import Callable
+from typing import Literal, cast
 
 from httptools import HttpParserError, HttpParserUpgrade, HttpRequestParser
 from uvicorn._types import ASGI3Application
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
+from app.pieces import Pieces
 from app.problems import Problem
 from app.refusals import (
     BODY_BYTES,
@@ -31,29 +33,18 @@ ANSWER_LOOKS = 120
 """Looks at a client that takes nothing of its answer before it is given up: a minute."""
 
 
-Phase = Literal["quiet", "head", "body", "deaf"]
+PARTING_LOOKS = 20
+"""Looks at a client that still sends after the last answer before the connection is cut: 10 s."""
+PARTING_BYTES = 256 * 1024**2
+"""What it may send meanwhile, which is thrown away."""
+Phase = Literal["quiet", "head", "body", "deaf", "parting"]
 
 
-class Pieces:
-    """Hold a body as it came, piece by piece: uvicorn copies each into an array, and out of it again."""
+class Ending:
+    """Stand before a transport for those who answer, and let somebody else close it."""
 
-    def __init__(self) -> None:
-        self._pieces: list[bytes] = []
-        self._size = 0
-
-    def __iadd__(self, piece: bytes) -> Self:
-        """Take a piece."""
-        self._pieces.append(piece)
-        self._size += len(piece)
-        return self
-
-    def __len__(self) -> int:
-        """Count the bytes."""
-        return self._size
-
-    def __bytes__(self) -> bytes:
-        """Give all pieces; one alone as it is."""
-        return self._pieces[0] if len(self._pieces) == 1 else b"".join(self._pieces)
+    def __init__(self, transport: asyncio.Transport, close: Callable[[], None]) -> None:
+        self.write, self.is_closing, self.close = transport.write, transport.is_closing, close
 
 
 class PatientConnection(HttpToolsProtocol):
@@ -73,13 +64,15 @@ class PatientConnection(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # TCP only
         """Expect a head: whoever connects has something to say."""
         super().connection_made(transport)
+        self._ending = cast("asyncio.Transport", Ending(transport, self._part))
         self._enter("head")
 
     def data_received(self, data: bytes) -> None:
         """Take bytes; the first after an answer begin the next head."""
-        if self._phase == "deaf":
-            return
         self._unset_keepalive_if_required()
+        if self._phase in ("deaf", "parting"):
+            self._throw_away(data)
+            return
         if self._phase == "quiet" and self._idle:
             self._enter("head")
         if self._phase == "head":
@@ -113,6 +106,7 @@ class PatientConnection(HttpToolsProtocol):
             _refuse_connect(self.parser.get_method())
             return  # it is read again
         super().on_headers_complete()
+        self.cycle.transport = self._ending
         self._enter("body")
 
     def on_body(self, body: bytes) -> None:
@@ -154,6 +148,8 @@ class PatientConnection(HttpToolsProtocol):
             self.transport.abort()
         elif self.transport.is_closing():
             return
+        elif self._phase == "parting" and self._looks > PARTING_LOOKS:
+            self.transport.close()
         elif self._phase == "head":
             self._look_at_head()
         elif self._phase == "body":
@@ -230,6 +226,20 @@ class PatientConnection(HttpToolsProtocol):
             self._withdraw(self.cycle)
         self._say(problem)
 
+    def _part(self) -> None:
+        """Close after the last answer, which whoever is in the midst of sending would lose: hear them out."""
+        if self.transport.is_closing() or self._phase not in ("body", "deaf"):
+            self.transport.close()
+            return
+        self._enter("parting")
+        self.pipeline.clear()
+        self.transport.write_eof()
+
+    def _throw_away(self, data: bytes) -> None:
+        self._bytes += len(data)
+        if self._phase == "parting" and self._bytes > PARTING_BYTES:
+            self.transport.close()
+
     def _withdraw(self, cycle: RequestResponseCycle) -> None:
         """Leave the last request unanswered."""
         _leave_unanswered(cycle)
@@ -241,7 +251,7 @@ class PatientConnection(HttpToolsProtocol):
         before = self._answering
         self.cycle = RequestResponseCycle(
             scope={"type": "http", "method": "GET", "headers": []},  # type: ignore[typeddict-item]  # no request
-            transport=self.transport,
+            transport=self._ending,
             flow=self.flow,
             logger=self.logger,
             access_logger=self.access_logger,

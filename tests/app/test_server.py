@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from app import connection
 from app import server as listening
-from app.connection import Pieces
 from app.main import create_app
+from app.pieces import Pieces
 from app.server import Server
 from app.settings import Settings
 from tests.app.planar_arm import description
@@ -46,7 +46,7 @@ def listening_service(directory, executor=None, **settings):
 @pytest.fixture
 def port(tmp_path, monkeypatch):
     """A service whose patience is a second."""
-    for name in ("HEAD_LOOKS", "BODY_LOOKS", "ANSWER_LOOKS"):
+    for name in ("HEAD_LOOKS", "BODY_LOOKS", "ANSWER_LOOKS", "PARTING_LOOKS"):
         monkeypatch.setattr(connection, name, 1)
     with listening_service(tmp_path) as (_, port):
         yield port
@@ -248,7 +248,8 @@ def test_what_follows_a_body_is_no_part_of_its_head(port, log_bytes):
     ("start", "piece"),
     [(b"0\r\n", b"a:b\r\n" * 10_000), (b"0\r\nX: ", b"x" * 65536), (b"1;", b"x" * 65536)],
 )
-def test_what_goes_with_a_body_is_refused_before_it_fills_the_memory(patient_port, start, piece):
+def test_what_goes_with_a_body_is_refused_before_it_fills_the_memory(patient_port, start, piece, monkeypatch):
+    monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
     head = upload_head(0, chunked=True)
     with connected(patient_port) as link:
         link.sendall(head + start)
@@ -263,7 +264,7 @@ def test_whoever_sends_too_much_with_a_body_is_told(patient_port):
     with connected(patient_port) as link:
         link.sendall(upload_head(0, chunked=True) + b"0\r\n")
         time.sleep(0.1)
-        for _ in range(14):
+        for _ in range(100):
             link.sendall(b"X: " + b"x" * 9_995 + b"\r\n")
         problem_in(all_of(link), 431, "head-too-large")
 
@@ -362,6 +363,31 @@ def test_whoever_has_said_all_is_answered(port, log_bytes):
             assert all_of(link) == b""
 
 
+def test_whoever_sends_on_hears_why_the_rest_is_not_taken(tmp_path):
+    with listening_service(tmp_path, max_upload_bytes=100_000) as (_, port):
+        for framing in ({"Content-Length": "30000000"}, {"Transfer-Encoding": "chunked"}):
+            with closing(http.client.HTTPConnection("127.0.0.1", port, timeout=5.0)) as link:
+                body, chunked = iter([bytes(100_000)] * 300), "Transfer-Encoding" in framing
+                headers = {"Content-Type": "text/csv"} | framing
+                link.request("POST", "/v1/logs", body, headers, encode_chunked=chunked)
+                answer = link.getresponse()
+                assert json.load(answer)["type"] == "urn:veritorque:problem:too-large"
+                assert answer.headers["connection"] == "close"
+
+
+def test_whoever_never_ends_is_not_heard_out(port, monkeypatch):
+    head = upload_head(10**12)
+    with connected(port) as link:
+        link.sendall(head)
+        assert answers_of(link, 1)[0].status == 413
+        assert seconds_until_closed(link, [b"x"] * 500, pause=0.01) < 3.0
+    monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
+    monkeypatch.setattr(connection, "PARTING_LOOKS", 100)
+    with connected(port) as link:
+        link.sendall(head)
+        assert seconds_until_closed(link, [b"x" * 65536] * 1000) < 3.0
+
+
 def test_whoever_breaks_off_is_not_waited_for(port, log_bytes):
     upload = upload_head(len(log_bytes)) + log_bytes
     for said in (b"", upload[:30], upload[:-10], POLL[:-1]):
@@ -382,7 +408,8 @@ def test_a_client_that_goes_away_before_its_answers_is_no_mistake_of_the_service
     assert [record for record in caplog.records if record.levelname == "ERROR"] == []
 
 
-def test_a_head_without_end_is_refused_before_it_fills_the_memory(port):
+def test_a_head_without_end_is_refused_before_it_fills_the_memory(port, monkeypatch):
+    monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
     with connected(port) as link:
         link.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ")
         assert seconds_until_closed(link, [b"x" * 65536] * 1000) < 4.0
