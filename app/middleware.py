@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.disk import DiskReserve
@@ -13,6 +14,8 @@ DOCUMENT_LIMIT = 6 * 1024**2  # a URDF of 5 MB and its envelope
 FORM_OVERHEAD = DOCUMENT_LIMIT
 WITH_BODY = ("POST", "PUT", "PATCH")
 UPLOAD_PATHS = ("/v1/logs", "/v1/identify")
+LONGEST_NUMBER = 20
+"""Digits of the largest length that can be declared, 2^64 - 1."""
 LOOK_AT_DISK_EVERY = 16 * 1024**2
 UNLESS_SAID = (
     (b"content-security-policy", b"default-src 'none'; frame-ancestors 'none'"),
@@ -44,6 +47,7 @@ class BodyLimit:
             return
         limit, declared = self._limit(scope), _declared_length(scope)
         try:
+            _refuse_codings(scope)
             if declared > limit:
                 raise too_large(limit)
             self._disk.require(declared)
@@ -126,6 +130,28 @@ def _completed(
     return [*given, *HEADERS, *(header for header in unless_said if header[0] not in said)]
 
 
+def _refuse_codings(scope: Scope) -> None:
+    """Refuse bodies that would have to be decoded: they would be taken for what they are not."""
+    headers = Headers(scope=scope)
+    framing = ", ".join(headers.getlist("transfer-encoding")).strip().lower()
+    if framing not in ("", "chunked"):
+        raise Problem(
+            "bad-request",
+            "the body travels in a coding that is not known here",
+            evidence={"transfer_encoding": framing},
+            remedy="send it as it is, or in chunks: Transfer-Encoding: chunked",
+        )
+    coding = ", ".join(headers.getlist("content-encoding")).strip().lower()
+    if coding not in ("", "identity"):
+        raise Problem(
+            "unsupported-media-type",
+            "the body is compressed or otherwise coded",
+            evidence={"content_encoding": coding},
+            remedy="send it as it is, without Content-Encoding; Parquet is small by itself",
+            headers={"Accept-Encoding": "identity"},
+        )
+
+
 def _declared_length(scope: Scope) -> int:
     value = dict(scope["headers"]).get(b"content-length", b"0")
-    return int(value) if value.isdigit() and len(value) < 20 else 0
+    return int(value) if value.isdigit() and len(value) <= LONGEST_NUMBER else 0

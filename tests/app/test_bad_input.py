@@ -146,6 +146,18 @@ def test_an_upload_that_is_too_large_is_refused_by_its_declared_and_by_its_real_
     assert_problem(client.post("/v1/logs", files=large), 413, "too-large")
 
 
+def test_a_body_that_is_coded_is_refused_with_what_to_send_instead(client):
+    for coding in ("gzip", "br, identity", "GZIP"):
+        answer = client.post(
+            "/v1/logs", content=gzip.compress(b"x"), headers=CSV | {"Content-Encoding": coding}
+        )
+        problem = assert_problem(answer, 415, "unsupported-media-type")
+        assert problem["evidence"] == {"content_encoding": coding.lower()}
+        assert answer.headers["accept-encoding"] == "identity"
+    plain = CSV | {"Content-Encoding": "Identity"}
+    assert client.post("/v1/logs", content=csv_log(seconds=2.0), headers=plain).status_code == 201
+
+
 def test_a_file_in_a_form_may_be_as_large_as_a_body_and_no_larger(client):
     content = csv_log(seconds=2.0).rstrip()
     largest = content + (b"\n#" + b"x" * 998) * ((4_000_000 - len(content)) // 1000)

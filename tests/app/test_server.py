@@ -375,6 +375,22 @@ def test_whoever_sends_on_hears_why_the_rest_is_not_taken(tmp_path):
                 assert answer.headers["connection"] == "close"
 
 
+@pytest.mark.parametrize("length", [2**31 + 1, 10**19, 2**64 - 1])
+def test_a_length_that_is_too_large_is_refused_at_once(patient_port, length):
+    with connected(patient_port) as link:
+        link.sendall(upload_head(length))
+        assert answers_of(link, 1)[0].status == 413
+
+
+def test_a_coding_that_nobody_undoes_is_refused(port):
+    head = upload_head(0, chunked=True).replace(b"chunked", b"gzip, chunked")
+    with connected(port) as link:
+        link.sendall(head + b"1\r\nx\r\n0\r\n\r\n" + LAST_POLL)
+        refused, after = answers_of(link, 2)
+    assert (refused.status, after.status) == (400, 200)
+    assert json.loads(refused.body)["evidence"] == {"transfer_encoding": "gzip, chunked"}
+
+
 def test_whoever_never_ends_is_not_heard_out(port, monkeypatch):
     head = upload_head(10**12)
     with connected(port) as link:
