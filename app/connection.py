@@ -7,6 +7,7 @@ client pays for a time in which the service itself was suspended. Source: RFC 91
 """
 
 import asyncio
+import re
 from collections.abc import Callable
 from typing import Literal, cast
 
@@ -37,6 +38,8 @@ PARTING_LOOKS = 20
 """Looks at a client that still sends after the last answer before the connection is cut: 10 s."""
 PARTING_BYTES = 256 * 1024**2
 """What it may send meanwhile, which is thrown away."""
+_WITHOUT_PATH = re.compile(rb"\A(\w+://[^/?]+)(\?|\Z)")
+"""An address that names only the host means the root (RFC 9112, 3.2.2)."""
 Phase = Literal["quiet", "head", "body", "deaf", "parting"]
 
 
@@ -105,6 +108,7 @@ class PatientConnection(HttpToolsProtocol):
         if self.parser.should_upgrade():
             _refuse_connect(self.parser.get_method())
             return  # it is read again
+        self.url = _WITHOUT_PATH.sub(rb"\1/\2", self.url)
         super().on_headers_complete()
         self.cycle.transport = self._ending
         self._enter("body")

@@ -391,6 +391,16 @@ def test_a_coding_that_nobody_undoes_is_refused(port):
     assert json.loads(refused.body)["evidence"] == {"transfer_encoding": "gzip, chunked"}
 
 
+@pytest.mark.parametrize("address", [b"http://localhost", b"http://localhost:80?x=1", b"http://localhost/"])
+def test_an_address_may_be_written_in_full(patient_port, address):
+    with connected(patient_port) as link:
+        link.sendall(LAST_POLL.replace(b"/healthz", address))
+        assert answers_of(link, 1)[0].status == 200
+    with connected(patient_port) as link:
+        link.sendall(LAST_POLL.replace(b"/healthz", b"http://localhost/healthz"))
+        assert json.loads(answers_of(link, 1)[0].body) == {"status": "alive"}
+
+
 def test_whoever_never_ends_is_not_heard_out(port, monkeypatch):
     head = upload_head(10**12)
     with connected(port) as link:
