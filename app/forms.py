@@ -5,9 +5,12 @@ Source: RFC 2046, 5.1.1, on boundaries.
 
 from collections.abc import AsyncGenerator
 
+from python_multipart.multipart import parse_options_header
 from starlette.datastructures import FormData
 from starlette.formparsers import MultiPartException, MultiPartParser
 from starlette.requests import Request
+
+LONGEST_PREAMBLE = 64 * 1024
 
 
 async def parse_form(request: Request, *, most_parts: int, longest_text: int) -> FormData:
@@ -38,8 +41,33 @@ class _WholeForm(MultiPartParser):
         """Notice the last boundary."""
         self._ended = True
 
+    def on_part_end(self) -> None:
+        """Refuse a text that is not written as the form says, which is UTF-8 if it says nothing."""
+        if self._current_part.file is None:
+            self._current_part.data.decode(self._charset)
+        super().on_part_end()
+
     async def _whole(self, pieces: AsyncGenerator[bytes]) -> AsyncGenerator[bytes]:
-        async for piece in pieces:
+        async for piece in _from_boundary(pieces, _boundary(self.headers["content-type"])):
             yield piece
         if not self._ended:
             raise MultiPartException("it ends before its last boundary")
+
+
+async def _from_boundary(pieces: AsyncGenerator[bytes], boundary: bytes) -> AsyncGenerator[bytes]:
+    """Leave out what stands before the first boundary, which is for readers that know no forms."""
+    mark, seen = b"\r\n--" + boundary, b"\r\n"
+    async for piece in pieces:
+        seen += piece
+        begin = seen.find(mark)
+        if begin >= 0:
+            yield seen[begin + 2 :]
+            break
+        if len(seen) > LONGEST_PREAMBLE:
+            raise MultiPartException(f"no boundary is in its first {LONGEST_PREAMBLE} bytes")
+    async for piece in pieces:
+        yield piece
+
+
+def _boundary(content_type: str) -> bytes:
+    return parse_options_header(content_type)[1][b"boundary"]

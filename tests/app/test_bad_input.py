@@ -227,6 +227,24 @@ def test_a_form_that_was_cut_off_is_refused_whatever_is_missing(client, parts, m
     assert problem["evidence"]["reason"] == "it ends before its last boundary"
 
 
+@pytest.mark.parametrize("preamble", [b"", b"\r\n", b"This is a form\r\nin MIME --x.\r\n"])
+def test_what_stands_before_the_first_boundary_is_passed_over(client, preamble):
+    answer = client.post("/v1/logs", headers=FORM, content=preamble + form_of(FILE))
+    assert answer.status_code == 201, answer.text
+
+
+def test_a_form_without_a_boundary_is_refused_before_it_fills_the_memory(client):
+    answer = client.post("/v1/logs", headers=FORM, content=bytes(3_000_000))
+    problem = assert_problem(answer, 400, "bad-request")
+    assert problem["evidence"]["reason"] == "no boundary is in its first 65536 bytes"
+
+
+def test_a_text_that_is_no_utf_8_is_refused(client):
+    mapping = b'name="mapping"', '{"torque": {"unit": "N\u00b7m"}}'.encode("latin-1")
+    answer = client.post("/v1/logs", headers=FORM, content=form_of(FILE, mapping))
+    assert "utf-8" in assert_problem(answer, 400, "bad-request")["evidence"]["reason"]
+
+
 def test_a_form_may_end_with_its_last_boundary(client):
     assert client.post("/v1/logs", headers=FORM, content=form_of(FILE)[:-2]).status_code == 201
 
