@@ -38,6 +38,7 @@ class Server(uvicorn.Server):
                 http=PatientConnection,
                 ws="none",
                 server_header=False,
+                log_config=None,  # it writes into the service's journal, as all that runs here does
                 log_level="info",
                 access_log=False,
                 timeout_graceful_shutdown=GRACE_S,

@@ -3,6 +3,7 @@
 import hashlib
 import http.client
 import json
+import logging
 import re
 import socket
 import threading
@@ -14,7 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app import connection
+from app import connection, journal
 from app import server as listening
 from app.main import create_app
 from app.pieces import Pieces
@@ -479,6 +480,19 @@ def test_many_that_stop_in_the_middle_do_not_hold_up_the_others(port):
     finally:
         for link in links:
             link.close()
+
+
+def test_all_that_the_server_says_is_json(tmp_path, capsys):
+    root = logging.getLogger()
+    before = root.handlers, root.level
+    try:
+        journal.open_journal(Settings(data_dir=tmp_path))
+        with listening_service(tmp_path):
+            pass
+    finally:
+        root.handlers, root.level = before
+    lines = [json.loads(line) for line in capsys.readouterr().err.splitlines()]
+    assert "Shutting down" in [line["event"] for line in lines if line["logger"] == "uvicorn.error"]
 
 
 @given(st.lists(st.binary(max_size=9)))
