@@ -32,8 +32,6 @@ from app.refusals import (
 
 ANSWER_LOOKS = 120
 """Looks at a client that takes nothing of its answer before it is given up: a minute."""
-
-
 PARTING_LOOKS = 20
 """Looks at a client that still sends after the last answer before the connection is cut: 10 s."""
 PARTING_BYTES = 256 * 1024**2
@@ -67,7 +65,7 @@ class PatientConnection(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # TCP only
         """Expect a head: whoever connects has something to say."""
         super().connection_made(transport)
-        self._ending = cast("asyncio.Transport", Ending(transport, self._part))
+        self._ending = Ending(transport, self._part)
         self._enter("head")
 
     def data_received(self, data: bytes) -> None:
@@ -110,7 +108,7 @@ class PatientConnection(HttpToolsProtocol):
             return  # it is read again
         self.url = _WITHOUT_PATH.sub(rb"\1/\2", self.url)
         super().on_headers_complete()
-        self.cycle.transport = self._ending
+        self.cycle.transport = cast("asyncio.Transport", self._ending)
         self._enter("body")
 
     def on_body(self, body: bytes) -> None:
@@ -142,6 +140,7 @@ class PatientConnection(HttpToolsProtocol):
             if cycle is not None:
                 _leave_unanswered(cycle)
         super().connection_lost(exc)
+        self._ending.close = self.transport.close  # it holds nobody any more
 
     def look(self) -> None:
         """Give the connection up if its client has been slow for too long."""
@@ -255,7 +254,7 @@ class PatientConnection(HttpToolsProtocol):
         before = self._answering
         self.cycle = RequestResponseCycle(
             scope={"type": "http", "method": "GET", "headers": []},  # type: ignore[typeddict-item]  # no request
-            transport=self._ending,
+            transport=cast("asyncio.Transport", self._ending),
             flow=self.flow,
             logger=self.logger,
             access_logger=self.access_logger,
