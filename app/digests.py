@@ -17,7 +17,7 @@ from app.problems import Problem
 
 HEADER = "Content-Digest"
 ALGORITHMS = {"sha-256": "sha256", "sha-512": "sha512"}
-_MEMBER = re.compile(r"([a-z*][a-z0-9_.*-]*)=:([A-Za-z0-9+/=]*):")
+_MEMBER = re.compile(r"([a-z*][a-z0-9_.*-]*)=:([A-Za-z0-9+/=]*):(?: *;.*)?")  # parameters say nothing here
 
 
 class ContentDigest:
@@ -75,10 +75,15 @@ def parse_digests(text: str) -> dict[str, bytes]:
         name, value = member.groups()
         if name in ALGORITHMS:
             try:
-                announced[name] = base64.b64decode(value, validate=True)
+                announced[name] = base64.b64decode(_padded(value), validate=True)
             except binascii.Error:
                 raise _unreadable(part.strip()) from None
     return announced
+
+
+def _padded(value: str) -> str:
+    """Complete what may be left out at the end (RFC 8941, 4.2.7)."""
+    return value + "=" * (-len(value) % 4)
 
 
 def _announced(scope: Scope) -> dict[str, bytes]:

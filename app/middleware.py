@@ -2,16 +2,20 @@
 
 from collections.abc import Iterable
 
+from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.disk import DiskReserve
 from app.handlers import HEADERS, problem_response
 from app.problems import Problem
+from app.refusals import too_large
 
 DOCUMENT_LIMIT = 6 * 1024**2  # a URDF of 5 MB and its envelope
 FORM_OVERHEAD = DOCUMENT_LIMIT
 WITH_BODY = ("POST", "PUT", "PATCH")
 UPLOAD_PATHS = ("/v1/logs", "/v1/identify")
+LONGEST_NUMBER = 20
+"""Digits of the largest length that can be declared, 2^64 - 1."""
 LOOK_AT_DISK_EVERY = 16 * 1024**2
 UNLESS_SAID = (
     (b"content-security-policy", b"default-src 'none'; frame-ancestors 'none'"),
@@ -43,8 +47,9 @@ class BodyLimit:
             return
         limit, declared = self._limit(scope), _declared_length(scope)
         try:
+            _refuse_codings(scope)
             if declared > limit:
-                raise _too_large(limit)
+                raise too_large(limit)
             self._disk.require(declared)
         except Problem as problem:
             await problem_response(problem)(scope, receive, send)
@@ -56,7 +61,7 @@ class BodyLimit:
             message = await receive()
             seen += len(message.get("body", b""))
             if seen > limit:
-                raise _too_large(limit)
+                raise too_large(limit)
             if seen - looked > LOOK_AT_DISK_EVERY:
                 looked = seen
                 self._disk.require()
@@ -67,7 +72,7 @@ class BodyLimit:
     def _limit(self, scope: Scope) -> int:
         if scope["path"].rstrip("/") not in UPLOAD_PATHS:
             return DOCUMENT_LIMIT
-        form = dict(scope["headers"]).get(b"content-type", b"").startswith(b"multipart/")
+        form = dict(scope["headers"]).get(b"content-type", b"").lower().startswith(b"multipart/")
         return self._upload_limit + (FORM_OVERHEAD if form else 0)
 
 
@@ -125,16 +130,28 @@ def _completed(
     return [*given, *HEADERS, *(header for header in unless_said if header[0] not in said)]
 
 
+def _refuse_codings(scope: Scope) -> None:
+    """Refuse bodies that would have to be decoded: they would be taken for what they are not."""
+    headers = Headers(scope=scope)
+    framing = ", ".join(headers.getlist("transfer-encoding")).strip().lower()
+    if framing not in ("", "chunked"):
+        raise Problem(
+            "bad-request",
+            "the body travels in a coding that is not known here",
+            evidence={"transfer_encoding": framing},
+            remedy="send it as it is, or in chunks: Transfer-Encoding: chunked",
+        )
+    coding = ", ".join(headers.getlist("content-encoding")).strip().lower()
+    if coding not in ("", "identity"):
+        raise Problem(
+            "unsupported-media-type",
+            "the body is compressed or otherwise coded",
+            evidence={"content_encoding": coding},
+            remedy="send it as it is, without Content-Encoding; Parquet is small by itself",
+            headers={"Accept-Encoding": "identity"},
+        )
+
+
 def _declared_length(scope: Scope) -> int:
     value = dict(scope["headers"]).get(b"content-length", b"0")
-    return int(value) if value.isdigit() and len(value) < 20 else 0
-
-
-def _too_large(limit: int) -> Problem:
-    return Problem(
-        "too-large",
-        f"the body is larger than {limit} bytes",
-        evidence={"limit_bytes": limit},
-        remedy="send less, as Parquet perhaps, or let the operator raise VERITORQUE_MAX_UPLOAD_BYTES",
-        headers={"Connection": "close"},
-    )
+    return int(value) if value.isdigit() and len(value) <= LONGEST_NUMBER else 0

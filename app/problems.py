@@ -52,6 +52,7 @@ KINDS: dict[str, tuple[int, str]] = {
     "damaged": (500, "What was kept is damaged"),
     "computation-stopped": (500, "The computation stopped unexpectedly"),
     "not-ready": (503, "The service is starting"),
+    "stopping": (503, "The service is stopping"),
     "unavailable": (503, "The database does not answer"),
     "disk-full": (507, "The disk is nearly full"),
 }

@@ -9,10 +9,12 @@ from contextlib import asynccontextmanager
 import anyio
 from python_multipart.exceptions import FormParserError
 from starlette.datastructures import FormData, UploadFile
-from starlette.exceptions import HTTPException
+from starlette.formparsers import MultiPartException
 from starlette.requests import ClientDisconnect, Request
 
+from app.forms import parse_form
 from app.problems import Problem
+from app.refusals import too_large
 from app.store.blobs import Incoming
 from core.log.content import FORMS, NO_CLAIM
 
@@ -70,14 +72,14 @@ async def open_form(request: Request, *, longest_text: int) -> AsyncIterator[For
     Raises
     ------
     Problem
-        If the body is no form (400).
+        If the body is no form (400), or a file in it larger than the service takes (413).
     """
     try:
-        form = await request.form(max_files=MOST_PARTS, max_fields=MOST_PARTS, max_part_size=longest_text)
+        form = await parse_form(request, most_parts=MOST_PARTS, longest_text=longest_text)
     except Problem:
         raise
-    except (HTTPException, FormParserError, ClientDisconnect, ValueError, KeyError) as error:
-        reason = error.detail if isinstance(error, HTTPException) else str(error) or type(error).__name__
+    except (MultiPartException, FormParserError, ClientDisconnect, ValueError, KeyError) as error:
+        reason = getattr(error, "message", str(error)) or type(error).__name__
         raise Problem(
             "bad-request",
             "the body is no multipart form that can be read",
@@ -85,9 +87,16 @@ async def open_form(request: Request, *, longest_text: int) -> AsyncIterator[For
             remedy=f"send {MULTIPART} with a boundary and at most {MOST_PARTS} parts, as curl -F does",
         ) from None
     try:
+        _refuse_large_files(form, request.app.state.services.settings.max_upload_bytes)
         yield form
     finally:
         await form.close()
+
+
+def _refuse_large_files(form: FormData, limit: int) -> None:
+    for _, part in form.multi_items():
+        if isinstance(part, UploadFile) and (part.size or 0) > limit:
+            raise too_large(limit)
 
 
 def refuse_unknown_parts(form: FormData, known: tuple[str, ...]) -> None:
@@ -126,6 +135,25 @@ def files_of(form: FormData, name: str) -> list[UploadFile]:
             remedy=f"attach the file, as curl -F {name}=@log.csv does",
         )
     return files
+
+
+def file_of(form: FormData, name: str) -> UploadFile:
+    """Give the one file of a form under a name.
+
+    Raises
+    ------
+    Problem
+        If there is none, several, or plain text (422).
+    """
+    files = files_of(form, name)
+    if len(files) > 1:
+        raise Problem(
+            "request",
+            f"the form holds several files named {name}",
+            evidence={"count": len(files)},
+            remedy="send each in a request of its own",
+        )
+    return files[0]
 
 
 def text_of(form: FormData, name: str) -> str | None:

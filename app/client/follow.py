@@ -17,7 +17,7 @@ PATIENCE_S: Final = 30.0
 PAUSE_S: Final = 0.5
 BARREN: Final = 3
 """Streams without an event after which the service is only asked."""
-PASSING: Final = frozenset({"not-ready", "unavailable", "too-many"})
+PASSING: Final = frozenset({"not-ready", "stopping", "unavailable", "too-many"})
 """Problems that pass by themselves."""
 
 

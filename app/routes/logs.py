@@ -24,7 +24,7 @@ from app.uploads import (
     LOG_MEDIA_TYPES,
     MULTIPART,
     claimed_type,
-    files_of,
+    file_of,
     open_form,
     receive_body,
     receive_part,
@@ -154,7 +154,7 @@ async def _from_form(
 ) -> LogRecord:
     async with open_form(request, longest_text=LONGEST_MAPPING) as form:
         refuse_unknown_parts(form, ("file", "mapping"))
-        part = files_of(form, "file")[0]
+        part = file_of(form, "file")
         name = name or part.filename or "log"
         mapping = text_of(form, "mapping") or mapping
         await receive_part(part, incoming)

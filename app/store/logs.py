@@ -7,7 +7,7 @@ from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, selec
 
 from app.documents import canonical_json
 from app.store.database import Database, insert_if_new
-from app.store.quota import refuse_beyond
+from app.store.quota import refuse_beyond, refuse_more
 from app.store.records import UNBOUNDED, Document, LogRecord, Quota
 from app.store.rows import log_record
 from app.store.tables import LOGS, now
@@ -25,6 +25,17 @@ class LogStore:
 
     def __init__(self, database: Database, tenant: str, quota: Quota = UNBOUNDED) -> None:
         self._database, self._tenant, self._quota = database, tenant, quota
+
+    def require_room(self, identity: str, *, size: int) -> None:
+        """Refuse a log before its bytes are kept; one that is known takes no more room.
+
+        Raises
+        ------
+        OverQuota
+            If the tenant would have more bytes than it may.
+        """
+        if self._quota.stored_bytes is not None and self.get(identity) is None:
+            self._database.read(lambda connection: refuse_more(connection, self._tenant, self._quota, size))
 
     def add(self, identity: str, *, sha256: str, size: int, summary: Document) -> LogRecord:
         """Keep a log, or find it where it is known already; its bytes are there before it is.

@@ -35,10 +35,20 @@ def refuse_beyond(connection: Connection, tenant: str, quota: Quota) -> None:
     OverQuota
         If the tenant has more bytes than it may have.
     """
-    if quota.stored_bytes is None:
-        return
-    take_turns(connection, f"bytes of {tenant}")
-    if stored_bytes(connection, tenant) > quota.stored_bytes:
+    if quota.stored_bytes is not None:
+        take_turns(connection, f"bytes of {tenant}")
+        refuse_more(connection, tenant, quota, 0)
+
+
+def refuse_more(connection: Connection, tenant: str, quota: Quota, size: int) -> None:
+    """Refuse so many bytes beside those that are there, where they are too much.
+
+    Raises
+    ------
+    OverQuota
+        If the tenant would have more bytes than it may have.
+    """
+    if quota.stored_bytes is not None and stored_bytes(connection, tenant) + size > quota.stored_bytes:
         raise OverQuota("bytes", most=quota.stored_bytes, setting="VERITORQUE_STORED_BYTES_PER_TENANT")
 
 

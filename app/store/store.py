@@ -118,7 +118,14 @@ class TenantStore:
     jobs: JobStore
 
     def keep_log(self, incoming: Incoming, *, mapping: Document | None, summary: Document) -> LogRecord:
-        """Keep an uploaded log: its bytes, then its summary."""
-        sha256, size = self.blobs.keep(incoming), incoming.size
-        identity = log_id(sha256=sha256, name=str(summary["name"]), mapping=mapping)
-        return self.logs.add(identity, sha256=sha256, size=size, summary=summary)
+        """Keep an uploaded log: its bytes, then its summary.
+
+        Raises
+        ------
+        OverQuota
+            If the tenant would have more bytes than it may; as a rule none of them are kept then.
+        """
+        identity = log_id(sha256=incoming.sha256, name=str(summary["name"]), mapping=mapping)
+        self.logs.require_room(identity, size=incoming.size)
+        sha256 = self.blobs.keep(incoming)
+        return self.logs.add(identity, sha256=sha256, size=incoming.size, summary=summary)

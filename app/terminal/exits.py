@@ -30,7 +30,7 @@ NO_RESULT = frozenset(
 )
 NO_SERVICE = frozenset(
     {"no-key", "no-scope", "other-site", "wrong-host", "too-slow", "too-many", "quota", "head-too-large"}
-    | {"internal", "damaged", "not-ready", "unavailable", "disk-full"}
+    | {"internal", "damaged", "not-ready", "stopping", "unavailable", "disk-full"}
 )
 
 

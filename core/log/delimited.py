@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,8 @@ from core.log.table import MAX_COLUMNS, check_columns, check_rows, check_values,
 
 FORM = "CSV"
 HEAD_BYTES = 1 << 20
+MOST_HEAD_BYTES = 64 << 20
+"""Where the header has to have come, whatever stands before it."""
 BLOCK_BYTES = 1 << 22
 DELIMITERS = ",;\t"
 MAX_COMMENTS = 100_000
@@ -91,9 +94,7 @@ def open_delimited(path: Path) -> DelimitedTable:
     LogError
         If there is no header line, or the text is not UTF-8, or the columns break the limits.
     """
-    with path.open("rb") as stream:
-        head = stream.read(HEAD_BYTES)
-    lines = re.split("\r\n|\r|\n", _decoded(head))
+    lines = _opening_lines(path)
     header_index, header, first_row = _header(lines)
     delimiter = max(DELIMITERS, key=header.count)
     names = _names(path, header, delimiter)
@@ -109,6 +110,30 @@ def open_delimited(path: Path) -> DelimitedTable:
     decimal = "," if delimiter != "," and "," in first_row and "." not in first_row else "."
     _check_text(path)
     return DelimitedTable(path, names, delimiter, decimal, skip)
+
+
+def _opening_lines(path: Path) -> list[str]:
+    """Read the first megabyte, and on where it holds nothing but comments and perhaps one line more."""
+    with path.open("rb") as stream:
+        head = stream.read(HEAD_BYTES)
+        lines = _lines(head)
+        while len(_content(lines)) < 2 and len(lines) <= MAX_COMMENTS and len(head) < MOST_HEAD_BYTES:
+            more = stream.read(len(head))
+            if not more:
+                break
+            head += more
+            lines = _lines(head)
+    return lines
+
+
+def _lines(head: bytes) -> list[str]:
+    return re.split("\r\n|\r|\n", _decoded(head))
+
+
+def _content(lines: Sequence[str]) -> list[int]:
+    """Give the places of the first two lines that are no comment."""
+    places = (index for index, line in enumerate(lines) if not _is_comment(line))
+    return list(islice(places, 2))
 
 
 def _check_text(path: Path) -> None:
@@ -170,7 +195,7 @@ def _is_comment(line: str) -> bool:
 
 def _header(lines: Sequence[str]) -> tuple[int, str, str]:
     """Find the header: the first line that is no comment, or the comment right before the numbers."""
-    content = [index for index, line in enumerate(lines) if not _is_comment(line)][:2]
+    content = _content(lines)
     if not content:
         raise LogError(
             "the log holds no rows",

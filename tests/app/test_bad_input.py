@@ -146,6 +146,38 @@ def test_an_upload_that_is_too_large_is_refused_by_its_declared_and_by_its_real_
     assert_problem(client.post("/v1/logs", files=large), 413, "too-large")
 
 
+def test_a_body_that_is_coded_is_refused_with_what_to_send_instead(client):
+    for coding in ("gzip", "br, identity", "GZIP"):
+        answer = client.post(
+            "/v1/logs", content=gzip.compress(b"x"), headers=CSV | {"Content-Encoding": coding}
+        )
+        problem = assert_problem(answer, 415, "unsupported-media-type")
+        assert problem["evidence"] == {"content_encoding": coding.lower()}
+        assert answer.headers["accept-encoding"] == "identity"
+    plain = CSV | {"Content-Encoding": "Identity"}
+    assert client.post("/v1/logs", content=csv_log(seconds=2.0), headers=plain).status_code == 201
+
+
+def test_a_file_in_a_form_may_be_as_large_as_a_body_and_no_larger(client):
+    content = csv_log(seconds=2.0).rstrip()
+    largest = content + (b"\n#" + b"x" * 998) * ((4_000_000 - len(content)) // 1000)
+    largest += b"\n" * (4_000_000 - len(largest))
+    larger = ("log.csv", largest + b"\n", "text/csv")
+    assert_problem(client.post("/v1/logs", files={"file": larger}), 413, "too-large")
+    asked = {"robot": (None, "yumi-left"), "log": larger}
+    assert_problem(client.post("/v1/identify", files=asked), 413, "too-large")
+    assert client.post("/v1/logs", files={"file": ("log.csv", largest, "text/csv")}).status_code == 201
+
+
+def test_a_form_is_a_form_however_its_type_is_written(client):
+    content = csv_log(seconds=2.0).rstrip()
+    content += (b"\n#" + b"x" * 998) * ((3_999_000 - len(content)) // 1000)
+    part = b'Content-Disposition: form-data; name="file"; filename="a.csv"'
+    form = b"--x\r\n" + part + b"\r\nX: " + b"x" * 2000 + b"\r\n\r\n" + content + b"\r\n--x--\r\n"
+    headers = {"Content-Type": "Multipart/Form-Data; boundary=x"}
+    assert client.post("/v1/logs", headers=headers, content=form).status_code == 201
+
+
 @pytest.mark.parametrize(
     ("headers", "content", "status"),
     [
@@ -167,12 +199,54 @@ def test_a_broken_form_is_refused(client, headers, content, status):
     [
         {"other": ("log.csv", b"x", "text/csv")},
         {"file": (None, "text instead of a file")},
+        [("file", ("1.csv", csv_log(seconds=2.0))), ("file", ("2.csv", csv_log(seconds=3.0)))],
         {"file": ("log.csv", b"x", "text/csv"), "surprise": (None, "1")},
         {"file": ("log.csv", b"x", "text/csv"), "mapping": ("mapping.json", b"{}", "application/json")},
     ],
 )
 def test_a_form_with_the_wrong_parts_is_refused(client, files):
     assert_problem(client.post("/v1/logs", files=files), 422, "request")
+
+
+def form_of(*parts):
+    """Write a form whose boundary is x, of the headers and contents of its parts."""
+    written = (b"--x\r\nContent-Disposition: form-data; %b\r\n\r\n%b\r\n" % part for part in parts)
+    return b"".join(written) + b"--x--\r\n"
+
+
+FORM = {"Content-Type": "multipart/form-data; boundary=x"}
+FILE = b'name="file"; filename="log.csv"', csv_log(seconds=2.0)
+MAPPING = b'name="mapping"', b'{"nonsense": 1}'
+
+
+@pytest.mark.parametrize("missing", [3, 4, 6, 20, 90])
+@pytest.mark.parametrize("parts", [[FILE], [FILE, MAPPING], [MAPPING, FILE]])
+def test_a_form_that_was_cut_off_is_refused_whatever_is_missing(client, parts, missing):
+    answer = client.post("/v1/logs", headers=FORM, content=form_of(*parts)[:-missing])
+    problem = assert_problem(answer, 400, "bad-request")
+    assert problem["evidence"]["reason"] == "it ends before its last boundary"
+
+
+@pytest.mark.parametrize("preamble", [b"", b"\r\n", b"This is a form\r\nin MIME --x.\r\n"])
+def test_what_stands_before_the_first_boundary_is_passed_over(client, preamble):
+    answer = client.post("/v1/logs", headers=FORM, content=preamble + form_of(FILE))
+    assert answer.status_code == 201, answer.text
+
+
+def test_a_form_without_a_boundary_is_refused_before_it_fills_the_memory(client):
+    answer = client.post("/v1/logs", headers=FORM, content=bytes(3_000_000))
+    problem = assert_problem(answer, 400, "bad-request")
+    assert problem["evidence"]["reason"] == "no boundary is in its first 65536 bytes"
+
+
+def test_a_text_that_is_no_utf_8_is_refused(client):
+    mapping = b'name="mapping"', '{"torque": {"unit": "N\u00b7m"}}'.encode("latin-1")
+    answer = client.post("/v1/logs", headers=FORM, content=form_of(FILE, mapping))
+    assert "utf-8" in assert_problem(answer, 400, "bad-request")["evidence"]["reason"]
+
+
+def test_a_form_may_end_with_its_last_boundary(client):
+    assert client.post("/v1/logs", headers=FORM, content=form_of(FILE)[:-2]).status_code == 201
 
 
 def test_a_form_with_too_many_parts_is_refused(client):

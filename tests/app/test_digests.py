@@ -41,6 +41,13 @@ def test_an_algorithm_that_is_not_known_is_passed_over(client, log_bytes):
     assert upload(client, log_bytes, "unixsum=:AAA=:, md5=:AAAA:").status_code == 201
 
 
+@pytest.mark.parametrize("ending", ["=:;q=1", '=: ; a;b="c"', ":"])
+def test_a_digest_may_have_parameters_and_needs_no_padding(client, log_bytes, ending):
+    right, wrong = (digest(content).removesuffix("=:") + ending for content in (log_bytes, b"other"))
+    assert upload(client, log_bytes, right).status_code == 201
+    assert_problem(upload(client, log_bytes, wrong), 400, "digest")
+
+
 @pytest.mark.parametrize(
     "header", ["", "sha-256", "sha-256=AAAA", "sha-256=:AAAA", "sha-256=:A:", ";", "sha-256=:é:"]
 )

@@ -88,6 +88,7 @@ def test_a_tenant_stores_no_more_than_it_may(tmp_path, log_bytes):
         assert first.status_code == 201
         other = csv_log(seconds=3.0)
         assert_problem(client.post("/v1/logs", content=other, headers=CSV), 429, "quota")
+        assert len(list((tmp_path / "blobs" / "kept").glob("*/*"))) == 1
         assert len(client.get("/v1/logs").json()["logs"]) == 1
         assert client.post("/v1/logs", content=log_bytes, headers=CSV).status_code == 201
         client.delete(first.headers["location"])

@@ -86,6 +86,16 @@ def test_text_may_have_comments_semicolons_and_decimal_commas(tmp_path):
     np.testing.assert_array_equal(whole_rows(read_log(path)).position[:, 0], COLUMNS["q_1"])
 
 
+@pytest.mark.parametrize("kilobytes", [1047, 1048, 1049, 3000])
+def test_a_header_may_stand_below_megabytes_of_comments(tmp_path, kilobytes):
+    comments = ("# " + "c" * 997 + "\n") * kilobytes
+    path = write_csv(tmp_path / "log.csv", COLUMNS, before=comments + "# " + "c" * 500 + "\n")
+    np.testing.assert_array_equal(whole_rows(read_log(path)).position[:, 0], COLUMNS["q_1"])
+    np.savetxt(path, np.column_stack(list(COLUMNS.values())), delimiter=",", header=",".join(COLUMNS))
+    path.write_text(comments + path.read_text(encoding="utf-8"), encoding="utf-8")
+    assert read_log(path).joints == 3
+
+
 def test_a_header_written_as_a_comment_by_savetxt_is_a_header(tmp_path):
     path = tmp_path / "log.csv"
     np.savetxt(path, np.column_stack(list(COLUMNS.values())), delimiter=",", header=",".join(COLUMNS))
