@@ -65,7 +65,7 @@ def test_a_column_of_measured_torque_is_seen():
                 Equations()
             )
         ),
-        test_equations.test_parameters_scatter_as_their_covariance_says,
+        partial(test_equations.test_parameters_scatter_as_their_covariance_says, ordinary=False),
         test_score.test_where_nothing_is_hidden_and_the_noise_was_learned_small_chances_stay_rare,
     ],
     ids=["white", "likelihood", "dense", "scatter", "chances"],
@@ -112,7 +112,9 @@ def test_friction_at_rest_that_is_taken_out_row_by_row_is_seen(monkeypatch):
 
 
 def test_a_noise_model_that_was_learned_with_the_effect_in_it_is_seen(monkeypatch):
-    law = test_equations.test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away
+    law = partial(
+        test_equations.test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away, ordinary=False
+    )
     law()
     monkeypatch.setattr(test_equations, "refit", partial(refit, rounds=0))
     with pytest.raises(AssertionError):
