@@ -40,6 +40,8 @@ class Bench:
         Rows (rows x joints) that a fit may use.
     belief
         What is believed of the base parameters beforehand; None where the rows alone tell them.
+    ordinary
+        Whether noise is learned from what ordinary fits leave.
     """
 
     def __init__(
@@ -49,6 +51,8 @@ class Bench:
         causes: Sequence[Cause],
         mask: np.ndarray,
         belief: Belief | None = None,
+        *,
+        ordinary: bool = False,
     ) -> None:
         self.look = look
         self.plan = plan
@@ -62,7 +66,7 @@ class Bench:
         self._lasting: dict[Place, Columns] = {}
         self._believing: dict[Place, Columns] = {}
         self._candidates: tuple[Candidate, ...] = ()
-        self._ordinary = leaves_too_much(self.base, fit(self.base, belief=belief))
+        self._ordinary = ordinary
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -191,6 +195,10 @@ class Bench:
             ):
                 best[one.key] = possible, scored
         return sorted((one for _, one in best.values()), key=lambda one: one.log_p)
+
+    def leaves_too_much(self, under: Hypothesis) -> bool:
+        """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would."""
+        return leaves_too_much(extended(self.base, self.columns(under.members)), under.fit)
 
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
         """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N.

@@ -186,8 +186,11 @@ def fit(
     """
     if noise is not None:
         return _settled(joints, _solved(_whitened(joints, noise), belief), None, rounds)
-    first = _ordinary(joints, belief)
-    return _settled(joints, replace(first, plain=first if ordinary else None), None, rounds + 1)
+    if ordinary:
+        plain = _ordinary(joints, belief)
+        return _settled(joints, replace(plain, plain=plain), None, rounds + 1)
+    first = _white_noise(joints, [rows.torque for rows in joints])
+    return _settled(joints, _solved(_whitened(joints, first), belief), None, rounds + 1)
 
 
 def leaves_too_much(joints: tuple[JointRows, ...], found: Fit) -> bool:

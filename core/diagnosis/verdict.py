@@ -16,7 +16,7 @@ from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
 from core.diagnosis.consolidation import consolidated
 from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.findings import finding, raw_finding
-from core.diagnosis.hypothesis import Candidate
+from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.levels import level_keeper
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.reference import Reference
@@ -114,14 +114,24 @@ def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Se
         tell("search", 0.1 + 0.5 * done)
 
     progress(0.0)
-    bench = _bench(question, look)
-    found = consolidated(bench, select(bench, progress))
+    bench, found = _found(question, look, progress)
     other_look = turned(look) if surprised(bench, found.chosen) else None
     if other_look is not None:
-        other = _bench(question, other_look)
-        more = consolidated(other, select(other, progress, found.chosen.members))
+        other, more = _found(question, other_look, progress, found.chosen.members)
         if more.chosen.members and not surprised(other, more.chosen):
             return other, more
+    return bench, found
+
+
+def _found(
+    question: Question, look: Look, progress: Callable[[float], None], start: Sequence[Candidate] = ()
+) -> tuple[Bench, Selection]:
+    """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
+    bench = _bench(question, look)
+    found = consolidated(bench, select(bench, progress, start))
+    if bench.leaves_too_much(found.chosen):
+        bench = _bench(question, look, ordinary=True)
+        found = consolidated(bench, select(bench, progress, start))
     return bench, found
 
 
@@ -136,12 +146,11 @@ def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]
     return kept, standings
 
 
-def _bench(question: Question, look: Look) -> Bench:
+def _bench(question: Question, look: Look, *, ordinary: bool = False) -> Bench:
     """Lay out what is suspected, and what is believed beforehand."""
     mask, reference = look.usable & ~look.held_out[:, None], question.reference
-    if reference is None:
-        return Bench(look, question.plan, CAUSES, mask)
-    return Bench(look, question.plan, AGAINST_REFERENCE, mask, reference.belief)
+    causes, belief = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.belief)
+    return Bench(look, question.plan, causes, mask, belief, ordinary=ordinary)
 
 
 def _looked(question: Question) -> tuple[list[Finding], Look]:
@@ -152,8 +161,9 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
         look = look_at(
             question.model, question.logs, held_out=question.held_out, blocks=question.blocks, width=width
         )
-        bench = Bench(look, question.plan, (), look.usable & ~look.held_out[:, None])
-        found = bench.tried(())
+        bench, found = _bare(question, look)
+        if bench.leaves_too_much(found):
+            bench, found = _bare(question, look, ordinary=True)
         bench.believe(found)
         looks.append((look, bench.believed, tuple(one.noise for one in found.fit.joints)))
         return looks[-1]
@@ -162,6 +172,12 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
     wide, believed, _ = looks[0]
     raw = [raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
     return raw, look
+
+
+def _bare(question: Question, look: Look, *, ordinary: bool = False) -> tuple[Bench, Hypothesis]:
+    """Fit the model with nothing suspected."""
+    bench = Bench(look, question.plan, (), look.usable & ~look.held_out[:, None], ordinary=ordinary)
+    return bench, bench.tried(())
 
 
 def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiable, ...]:
