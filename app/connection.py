@@ -134,6 +134,16 @@ class PatientConnection(HttpToolsProtocol):
         self.cycle.keep_alive = False
         return True
 
+    def on_response_complete(self) -> None:
+        """Go on with the next request; no more are read while others wait, and one begun has its time."""
+        super().on_response_complete()
+        if self.transport.is_closing():
+            return
+        if self.pipeline:
+            self.flow.pause_reading()
+        elif self._phase == "head" and self._bytes:
+            self._unset_keepalive_if_required()
+
     def connection_lost(self, exc: Exception | None) -> None:
         """Tell all who are to be answered, and not only the last, that nobody listens any more."""
         for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):
@@ -159,7 +169,10 @@ class PatientConnection(HttpToolsProtocol):
             self._look_at_body()
 
     def give_up(self) -> None:
-        """Refuse whatever is not answered yet, since the service stops."""
+        """Refuse whatever is not answered yet, since the service stops, and leave whoever does not listen."""
+        if self.flow.write_paused or self._phase == "parting":
+            self.transport.abort()
+            return
         if self._answering is None or self._answering.response_started:
             return
         for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):

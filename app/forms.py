@@ -3,6 +3,7 @@
 Source: RFC 2046, 5.1.1, on boundaries.
 """
 
+import re
 from collections.abc import AsyncGenerator
 
 from python_multipart.multipart import parse_options_header
@@ -11,6 +12,8 @@ from starlette.formparsers import MultiPartException, MultiPartParser
 from starlette.requests import Request
 
 LONGEST_PREAMBLE = 64 * 1024
+CHARSETS = (b"utf-8", b"utf8", b"us-ascii")
+"""A codec is code that a client would choose: some are no charsets, some take minutes."""
 
 
 async def parse_form(request: Request, *, most_parts: int, longest_text: int) -> FormData:
@@ -21,6 +24,9 @@ async def parse_form(request: Request, *, most_parts: int, longest_text: int) ->
     MultiPartException, FormParserError, ClientDisconnect, ValueError, KeyError
         If it is none.
     """
+    charset = _options(request.headers["content-type"]).get(b"charset", CHARSETS[0])
+    if charset.lower() not in CHARSETS:
+        raise MultiPartException("its charset is not UTF-8")
     return await _WholeForm(request, most_parts, longest_text).parse()
 
 
@@ -48,7 +54,7 @@ class _WholeForm(MultiPartParser):
         super().on_part_end()
 
     async def _whole(self, pieces: AsyncGenerator[bytes]) -> AsyncGenerator[bytes]:
-        async for piece in _from_boundary(pieces, _boundary(self.headers["content-type"])):
+        async for piece in _from_boundary(pieces, _options(self.headers["content-type"])[b"boundary"]):
             yield piece
         if not self._ended:
             raise MultiPartException("it ends before its last boundary")
@@ -56,18 +62,20 @@ class _WholeForm(MultiPartParser):
 
 async def _from_boundary(pieces: AsyncGenerator[bytes], boundary: bytes) -> AsyncGenerator[bytes]:
     """Leave out what stands before the first boundary, which is for readers that know no forms."""
-    mark, seen = b"\r\n--" + boundary, b"\r\n"
+    delimiter = b"--" + boundary
+    line = re.compile(b"\r\n" + re.escape(delimiter) + rb"(?:[ \t]*(?=\r\n)|(?=--))")
+    seen = b"\r\n"
     async for piece in pieces:
         seen += piece
-        begin = seen.find(mark)
-        if begin >= 0:
-            yield seen[begin + 2 :]
-            break
-        if len(seen) > LONGEST_PREAMBLE:
+        first = line.search(seen)
+        if len(seen if first is None else seen[: first.start()]) > LONGEST_PREAMBLE:
             raise MultiPartException(f"no boundary is in its first {LONGEST_PREAMBLE} bytes")
+        if first is not None:
+            yield delimiter + seen[first.end() :]
+            break
     async for piece in pieces:
         yield piece
 
 
-def _boundary(content_type: str) -> bytes:
-    return parse_options_header(content_type)[1][b"boundary"]
+def _options(content_type: str) -> dict[bytes, bytes]:
+    return parse_options_header(content_type)[1]

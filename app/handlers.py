@@ -7,7 +7,7 @@ import secrets
 from fastapi import FastAPI
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Match
 
@@ -53,6 +53,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(OverQuota, _on_quota)
     app.add_exception_handler(KeyReused, _on_key)
     app.add_exception_handler(Damaged, _on_damage)
+    app.add_exception_handler(ClientDisconnect, _on_loss)
     app.add_exception_handler(OSError, _on_system)
     app.add_exception_handler(Exception, _on_mistake)
 
@@ -72,6 +73,12 @@ async def _on_http(request: Request, error: Exception) -> Response:
         cause = f"there is nothing at {path}"
     remedy = "/docs lists all resources" if kind == "not-found" else "send the request as /docs shows it"
     return problem_response(Problem(kind, cause, evidence={"path": path}, remedy=remedy))
+
+
+async def _on_loss(request: Request, error: Exception) -> Response:
+    """Answer nobody: whoever asked is gone, or was refused meanwhile."""
+    del request, error
+    return problem_response(Problem("bad-request", "the request ended early", remedy="send it again"))
 
 
 def _reads(request: Request) -> bool:

@@ -227,10 +227,27 @@ def test_a_form_that_was_cut_off_is_refused_whatever_is_missing(client, parts, m
     assert problem["evidence"]["reason"] == "it ends before its last boundary"
 
 
-@pytest.mark.parametrize("preamble", [b"", b"\r\n", b"This is a form\r\nin MIME --x.\r\n"])
+@pytest.mark.parametrize(
+    "preamble",
+    [b"", b"\r\n", b"This is a form\r\nin MIME --x.\r\n", b"--xy of another\r\n", b"hello\r\n--x-inner\r\n"],
+)
 def test_what_stands_before_the_first_boundary_is_passed_over(client, preamble):
     answer = client.post("/v1/logs", headers=FORM, content=preamble + form_of(FILE))
     assert answer.status_code == 201, answer.text
+
+
+def test_blanks_may_follow_the_first_boundary(client):
+    first, rest = form_of(FILE).split(b"\r\n", 1)
+    answer = client.post("/v1/logs", headers=FORM, content=first + b" \t\r\n" + rest)
+    assert answer.status_code == 201, answer.text
+
+
+@pytest.mark.parametrize("charset", ["hex", "punycode", "utf-16", "what"])
+def test_a_form_in_anything_but_utf_8_is_refused(client, charset):
+    said = {"Content-Type": f"{FORM['Content-Type']}; charset={charset}"}
+    answer = client.post("/v1/logs", headers=said, content=form_of(FILE, (b'name="mapping"', b"{}")))
+    problem = assert_problem(answer, 400, "bad-request")
+    assert problem["evidence"]["reason"] == "its charset is not UTF-8"
 
 
 def test_a_form_without_a_boundary_is_refused_before_it_fills_the_memory(client):

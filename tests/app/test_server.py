@@ -435,6 +435,46 @@ def test_a_client_that_goes_away_before_its_answers_is_no_mistake_of_the_service
     assert [record for record in caplog.records if record.levelname == "ERROR"] == []
 
 
+def test_a_document_that_does_not_come_is_no_mistake_of_the_service(port, caplog):
+    start = b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    for rest in (b"Content-Length: 100\r\n\r\n{", b"Transfer-Encoding: chunked\r\n\r\nzz\r\n"):
+        with closing(connected(port)) as link:
+            link.sendall(start + rest)
+            time.sleep(0.1)
+    with closing(connected(port)) as link:
+        link.sendall(LAST_POLL)
+        all_of(link)
+    assert [line for line in caplog.records if line.levelno >= logging.ERROR] == []
+
+
+def test_no_more_requests_are_read_while_others_wait(port, monkeypatch):
+    """As many as one read of the socket holds may wait, and no more come in with every answer."""
+    most, honest = [0], connection.PatientConnection.on_headers_complete
+
+    def counted(self):
+        honest(self)
+        most[0] = max(most[0], len(self.pipeline))
+
+    monkeypatch.setattr(connection.PatientConnection, "on_headers_complete", counted)
+    with closing(connected(port)) as link:
+        asked = 20_000
+        sender = threading.Thread(target=link.sendall, args=(POLL * asked + LAST_POLL,))
+        sender.start()
+        assert all_of(link).count(b"HTTP/1.1 200") == asked + 1
+        sender.join()
+    assert most[0] <= 2 * 256 * 1024 // len(POLL)
+
+
+def test_a_head_that_has_begun_beside_an_answer_has_as_long_as_any(port, monkeypatch):
+    monkeypatch.setattr(
+        connection, "HEAD_LOOKS", 11
+    )  # longer than a connection is kept on which nothing comes
+    with closing(connected(port)) as link:
+        link.settimeout(10.0)
+        link.sendall(POLL + POLL[:9])
+        assert all_of(link).count(b"HTTP/1.1 408") == 1
+
+
 def test_a_head_without_end_is_refused_before_it_fills_the_memory(port, monkeypatch):
     monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
     with connected(port) as link:
@@ -475,7 +515,7 @@ def test_many_that_stop_in_the_middle_do_not_hold_up_the_others(port):
         with connected(port) as other:
             for _ in range(20):
                 other.sendall(POLL)
-                assert other.recv(65536).startswith(b"HTTP/1.1 200 ")
+                assert [answer.status for answer in answers_of(other, 1)] == [200]
         assert all(all_of(link).startswith(b"HTTP/1.1 408 ") for link in links)
     finally:
         for link in links:
