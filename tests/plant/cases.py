@@ -6,7 +6,7 @@ error of a joint that turns about the vertical changes no torque), another joint
 robot.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
 
 import numpy as np
@@ -82,6 +82,7 @@ class World:
     noise_rms: np.ndarray
     rate_hz: float
     seed: int
+    _last: dict[tuple[Effect, ...], Recording] = field(default_factory=dict)
 
     @cached_property
     def clean(self) -> Recording:
@@ -90,12 +91,20 @@ class World:
 
     def signals(self, effects: tuple[Effect, ...], *, smooth: bool = False) -> Signals:
         """Give what the sensors see under the effects."""
-        moving = tuple(one for one in effects if moves_the_robot(one))
-        arm = reduce(lambda whole, one: one.true(whole), moving, self.arm)
-        seen = simulate(arm, moving, self.steering, rate_hz=self.rate_hz) if moving else self.clean
+        seen = self._moved(tuple(one for one in effects if moves_the_robot(one)))
         rng = np.random.default_rng([self.seed, 1])
         sensing = overriding(effects, "sense")
         return reduce(lambda signals, one: one.sense(signals, rng), sensing, seen.sampled(smooth=smooth))
+
+    def _moved(self, moving: tuple[Effect, ...]) -> Recording:
+        """Record the arm under effects. The last recording is kept: what was measured is logged next."""
+        if not moving:
+            return self.clean
+        if moving not in self._last:
+            arm = reduce(lambda whole, one: one.true(whole), moving, self.arm)
+            self._last.clear()
+            self._last[moving] = simulate(arm, moving, self.steering, rate_hz=self.rate_hz)
+        return self._last[moving]
 
     def believed(self, effects: tuple[Effect, ...]) -> RobotModel:
         """Give the robot as its user describes it."""
