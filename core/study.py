@@ -3,36 +3,30 @@
 This is the only module that meets every chapter; each step takes what the step before gave.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from core.admission import admit, known_log
-from core.arrays import Parameters
-from core.diagnosis.belief import Belief
+from core.arrays import BaseParameters, Parameters
 from core.diagnosis.diagnosis import Diagnosis
 from core.diagnosis.reference import PRIOR, Reference, reference_from_prior
 from core.diagnosis.verdict import Question
 from core.diagnosis.verdict import diagnose as find_causes
 from core.dynamics.model import DynamicModel, standard_model
 from core.errors import OptionError, SolverError, VeritorqueError
-from core.estimate.constraints import default_prior
-from core.estimate.estimate import estimate
-from core.estimate.feasibility import active_constraints, feasibility
-from core.estimate.measured import Measured, smoothed, weighted_system
-from core.estimate.system import System
+from core.estimate.measured import Measured, smoothed
 from core.extension.extend import cures, extended_base, sizes, taken_along
 from core.extension.fold import folded
 from core.extension.gain import gains
+from core.extension.proving import proven
+from core.fitting import Fitting, Progress, fitted, identified
 from core.log.model import JointLog
 from core.options import IdentifyOptions, parse_diagnose_options, parse_options
-from core.precision.bootstrap import bootstrap
-from core.precision.covariance import assess
-from core.precision.essential import essential_parameters
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import torque_scales
+from core.regressor.observe import Observation
 from core.report.compared import compared
 from core.report.diagnosed import Diagnosed
 from core.report.diagnosis_document import diagnosis_document
@@ -45,11 +39,6 @@ from core.robot.model import RobotModel
 from core.signals.several import condition_all
 from core.simulation.mechanism import mechanism_of
 from core.simulation.multistep import Comparison, compare
-from core.validation.excitation import excitation
-from core.validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
-from core.validation.scores import scores, total_percent
-
-Progress = Callable[[str, float], None]
 
 __all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full", "parse_options"]
 
@@ -92,7 +81,7 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     tell = progress or _say_nothing
     options = parse_options(request.options)
     data, base = _prepared(request, options, tell)
-    return _identified(request, options, _Fitting(data, base), tell)
+    return identified(request.logs, options, Fitting(data, base), tell)
 
 
 def check_reference(request: IdentifyRequest) -> None:
@@ -150,18 +139,16 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     data, base = _prepared(request, options, tell, reference)
     if options.reference == PRIOR:
         reference = reference_from_prior(base)
-    before = _identified(request, options, _Fitting(data, base), lambda stage, done: tell(stage, 0.3 * done))
+    before = identified(request.logs, options, Fitting(data, base), _within(tell, 0.0, 0.3))
     question = Question(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
-    found = find_causes(question, lambda stage, done: tell(stage, 0.3 + 0.5 * done))
+    found = find_causes(question, _within(tell, 0.3, 0.5))
+    plain = Fitting(data, base, belief=None if reference is None else reference.belief)
+    found = _proven(found, options, plain)
     as_it_is = None if reference is None else compared(reference, before, data.parts(before.observation))
-    terms = cures(found)
-    if not terms:
+    if not cures(found):
         return Diagnosed(before, found, None, (), None, "nothing joined the model", as_it_is)
-    whole = extended_base(base, terms)
-    wider = Measured(ColumnPlan(whole.model, whole.kept), data.motions, data.held_out)
-    fitting = _Fitting(wider, whole, sizes(found), None if reference is None else reference.belief)
     try:
-        after = _identified(request, options, fitting, lambda stage, done: tell(stage, 0.8 + 0.15 * done))
+        after = identified(request.logs, options, _extended(found, plain), _within(tell, 0.8, 0.15))
     except SolverError as error:  # what was found stands, whether or not the cure can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return Diagnosed(before, found, None, (), None, note, as_it_is)
@@ -171,6 +158,27 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     gained = gains((before.observation, old.base), (after.observation, after.estimate.base), held)
     motion, note = _motion((base.model, old.standard), after, found, data)
     return Diagnosed(before, found, after, gained, motion, note, as_it_is)
+
+
+def _extended(found: Diagnosis, fitting: Fitting) -> Fitting:
+    """Let the causes whose gain is beyond doubt join the model."""
+    whole = extended_base(fitting.base, cures(found))
+    plan = ColumnPlan(whole.model, whole.kept)
+    return replace(fitting, data=replace(fitting.data, plan=plan), base=whole, sizes=sizes(found))
+
+
+def _proven(found: Diagnosis, options: IdentifyOptions, fitting: Fitting) -> Diagnosis:
+    """Identify again with causes whose gain the search leaves in doubt."""
+
+    def tried(trial: Diagnosis) -> tuple[Observation, BaseParameters]:
+        answer = fitted(options, _extended(trial, fitting), _say_nothing)
+        return answer.observation, answer.estimate.base
+
+    return proven(found, tried, lambda observation: fitting.data.parts(observation)[1])
+
+
+def _within(tell: Progress, begin: float, share: float) -> Progress:
+    return lambda stage, done: tell(stage, begin + share * done)
 
 
 def _motion(
@@ -199,70 +207,6 @@ def _prepared(
     return Measured(ColumnPlan(model, base.kept), motions, held_out), base
 
 
-def _identified(
-    request: IdentifyRequest, options: IdentifyOptions, fitting: "_Fitting", tell: Progress
-) -> Identification:
-    """Fit one model and judge it."""
-    data, base, model = fitting.data, fitting.base, fitting.base.model
-    observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
-    tell("estimate", 0.6)
-    used, system = weighted_system(data, observation, options.estimate)
-    known = fitting.belief
-    inform = _unchanged if known is None else lambda plain: plain.informed(known.rows, known.target)
-    system = inform(system)
-    fitted, held = data.parts(observation)
-    prior = default_prior(model, torque_scales(observation, fitted), fitting.sizes)
-    answer = estimate(base, system, prior, options.estimate)
-    tell("assess", 0.7)
-    precision = assess(
-        system, used.memory, used.columns_of, answer.base, known=None if known is None else known.rows
-    )
-    essential = essential_parameters(system, precision)
-    if options.essential:
-        answer = estimate(base, system, prior, options.estimate, essential=essential.kept)
-    draws = bootstrap(
-        system,
-        tuple(used.blocks[index] for index in fitted),
-        used.columns_of,
-        lambda drawn: (
-            estimate(
-                base,
-                inform(drawn),
-                prior,
-                options.estimate,
-                essential=essential.kept if options.essential else None,
-            ).base
-        ),
-        draws=options.bootstrap.draws,
-        seed=options.bootstrap.seed,
-    )
-    tell("validate", 0.9)
-    return Identification(
-        logs=request.logs,
-        motions=data.motions,
-        base=base,
-        observation=observation,
-        estimate=answer,
-        precision=precision,
-        essential=essential,
-        draws=draws,
-        fit=scores(observation, fitted, answer.base),
-        fit_total_percent=total_percent(observation, fitted, answer.base),
-        validation=scores(observation, held, answer.base) if held else (),
-        validation_total_percent=total_percent(observation, held, answer.base) if held else 0.0,
-        excitation=excitation(system.triangle),
-        unconstrained_feasibility=feasibility(base, answer.unconstrained, prior),
-        estimate_feasibility=feasibility(base, base.base_of(answer.standard), prior),
-        pseudo_inertia_eigenvalues=pseudo_inertia_eigenvalues(model, answer.standard),
-        active_constraints=active_constraints(model, answer.standard, prior, options.estimate.bounds),
-        trajectory=check_mass_matrix(model, answer.standard, observation.positions),
-        workspace=check_mass_matrix(model, answer.standard, workspace(request.robot)),
-        widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]  # Coulomb friction alone has them
-        seed=options.bootstrap.seed,
-        held_out=data.held_out,
-    )
-
-
 def base_parameters(robot: RobotModel) -> dict[str, object]:
     """Give the base parameters that a robot's structure allows, with their groupings."""
     base = base_model(standard_model(robot))
@@ -271,20 +215,6 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
     without = [base.model.parameters[column].name for column in base.without_effect]
     document = {"counts": counts, "base_parameters": rows, "without_effect": without}
     return {key: plain(value) for key, value in document.items()}
-
-
-@dataclass(frozen=True, eq=False)
-class _Fitting:
-    """Hold a model to be fitted: the data, its base parameters, and what is known otherwise."""
-
-    data: Measured
-    base: BaseModel
-    sizes: Mapping[str, float] = field(default_factory=dict)
-    belief: Belief | None = None
-
-
-def _unchanged(system: System) -> System:
-    return system
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

@@ -92,7 +92,10 @@ class Gain:
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """Name one cause with everything that supports it."""
+    """Name one cause with everything that supports it.
+
+    `proven` says that an identification with it has surely predicted unseen motion better.
+    """
 
     cause: str
     title: str
@@ -109,6 +112,7 @@ class Finding:
     gain: Gain | None
     curve: Curve | None
     member: Candidate | None
+    proven: bool = False
 
 
 @dataclass(frozen=True)

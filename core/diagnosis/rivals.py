@@ -95,29 +95,30 @@ def weighed(
 def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) -> bool:
     """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows.
 
-    Of the clearest, and of one that stands alone, it is only asked whether it makes that error larger.
+    Of the clearest, of one that stands alone, and of one that hardly acts there, it is only asked whether it
+    makes that error larger.
     """
     if own.margin < -INDIFFERENCE and not alone:
         return True
     if own.member.cause.event or bench.belief is not None:
         return False
-    if bench.unseen_share(chosen, chosen.by_key[own.member.key]) * own.statistic < LEAST_SEEN:
-        return False
+    expected = bench.unseen_share(chosen, chosen.by_key[own.member.key]) * own.statistic
     look, left = bench.look, (bench.residual(own.without), bench.residual(chosen))
     unseen, fitted = (look.usable & (look.held_out == held)[:, None] for held in (True, False))
     # What shared parameters take up where a cause acts, they spoil on the other joints.
     places = (tuple(sorted(bench.columns([own.member])[0])), tuple(range(look.joints)))
     both = [[gain(*left, mask, look.block_of_all, joints) for mask in (unseen, fitted)] for joints in places]
     seen = [(there, here) for there, here in both if there is not None and here is not None]
-    if alone:
+    if alone or expected < LEAST_SEEN:
         return any(there.interval_95[1] < 0.0 for there, _ in seen)
     return bool(seen) and all(_refuted_unseen(there, here) for there, here in seen)
 
 
 def _refuted_unseen(there: Gain, here: Gain) -> bool:
-    """Tell whether unseen rows show no gain, and are not too few to deny that of the fitted ones."""
+    """Tell whether unseen rows show no gain, and deny that of the fitted ones if these show any."""
     low, high = there.interval_95
-    return low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent
+    none = there.total_percent < 0.0 and here.total_percent < 0.0
+    return none or (low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent)
 
 
 def _over_nameless(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> float:

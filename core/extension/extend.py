@@ -29,7 +29,7 @@ def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
 
 def gains_surely(finding: Finding) -> bool:
     """Tell whether what a finding gains on unseen rows is beyond doubt."""
-    return finding.gain is None or finding.gain.interval_95[0] > 0.0
+    return finding.proven or finding.gain is None or finding.gain.interval_95[0] > 0.0
 
 
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:

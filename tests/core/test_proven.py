@@ -1,0 +1,57 @@
+"""Hold the study to its word on causes whose gain is in doubt: who proves it joins the model."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import core.study
+from core.diagnosis.diagnosis import Diagnosis
+from core.errors import SolverError
+from core.report.diagnosed import Diagnosed
+from core.study import IdentifyRequest, diagnose_in_full
+from tests.core.diagnosis.scenes import measured_arm, skew_arm
+from tests.core.diagnosis.test_verdict import diagnosed, hidden
+
+HARMLESS, HIDDEN = measured_arm(), measured_arm(hidden)
+
+
+def in_doubt(found: Diagnosis) -> Diagnosis:
+    """Let the search have been less sure of what it found."""
+    (one,) = found.findings
+    return replace(found, findings=(replace(one, gain=replace(one.gain, interval_95=(-1.0, 9.0))),))
+
+
+def studied(monkeypatch: pytest.MonkeyPatch, scene) -> Diagnosed:
+    """Diagnose a scene where the search doubts that friction of joint 2 differs between the directions."""
+    monkeypatch.setattr(core.study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
+    logs = (scene.look.motions[0].log,)
+    return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}))
+
+
+def test_a_cause_in_doubt_joins_the_model_where_unseen_motion_is_surely_predicted_better(monkeypatch):
+    found = studied(monkeypatch, HIDDEN)
+    (one,) = found.diagnosis.findings
+    shown = one.evidence[-1]
+    (gain,) = (gain for gain in found.gains if gain.joint == 2)
+    assert one.proven
+    assert "joint 2" in shown.statement
+    np.testing.assert_allclose(shown.value, gain.improvement_percent, rtol=0.05)
+    assert gain.interval_95[0] > 0.0
+
+
+def test_a_cause_in_doubt_joins_no_model_where_it_gains_nothing(monkeypatch):
+    found = studied(monkeypatch, HARMLESS)
+    assert found.after is None
+    assert not found.diagnosis.findings[0].proven
+    assert len(found.diagnosis.findings[0].evidence) == len(diagnosed(hidden).findings[0].evidence)
+
+
+def test_a_cause_in_doubt_with_which_there_is_no_answer_joins_no_model(monkeypatch):
+    def unsolved(*_):
+        raise SolverError("it has no answer", evidence={}, remedy="none")
+
+    monkeypatch.setattr(core.study, "fitted", unsolved)
+    found = studied(monkeypatch, HIDDEN)
+    assert found.after is None
+    assert not found.diagnosis.findings[0].proven
