@@ -6,6 +6,7 @@ effects are built on the torque that a believed model predicts. Source: Ljung, S
 ch. 7, on endogenous regressors.
 """
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -79,6 +80,14 @@ class Prediction:
         if state not in self._loads:
             self._loads[state] = _kept(self._moved_bodies(self.model.robot, state))
         return self._loads[state]
+
+    def rotor(self, joint: int) -> float:
+        """Give the inertia of a joint's rotor, counted from 1; zero where it is one with the link's."""
+        return math.fsum(
+            value
+            for one, value in zip(self.model.parameters, self.standard, strict=True)
+            if one.symbol == "IA" and one.joint == joint
+        )
 
     def friction(self, state: MotionState) -> JointSeries:
         """Give the torque of all terms but moving masses, N m or N."""

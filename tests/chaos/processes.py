@@ -14,6 +14,8 @@ from examples.yumi.service import free_port
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 120.0
 """How long a process may take to end in order."""
+PORTS = 5
+"""How many ports are tried."""
 PARTING_S = 30.0
 """How long what a killed process had started may take to notice."""
 
@@ -40,17 +42,28 @@ class Fleet:
     """One service with the worker beside it, and workers of their own, on one data directory."""
 
     def __init__(self, directory, url, workers):
-        self.directory, self.port = directory, free_port()
+        self.directory = directory
         told = {"DATA_DIR": str(directory), "DISK_RESERVE_BYTES": "0", "QUEUED_PER_TENANT": "100000"}
         told |= {"DATABASE_URL": url} if url else {}
         self.environment = {**os.environ, **{f"VERITORQUE_{name}": value for name, value in told.items()}}
         self._journal = (directory.parent / "journal").open("ab")
-        self.service = self._start("serve", "--port", str(self.port))
         self.workers = [self._start("work") for _ in range(workers)]
+        self._listen()
 
     @property
     def address(self):
         return f"http://127.0.0.1:{self.port}"
+
+    def _listen(self):
+        """Start the service; somebody may take the port that was free before it can."""
+        for _ in range(PORTS):
+            self.port = free_port()
+            self.service = self._start("serve", "--port", str(self.port))
+            while self.service.poll() is None:
+                if self.answers():
+                    return
+                time.sleep(0.1)
+        raise RuntimeError(f"the service ended {PORTS} times before it listened")
 
     def answers(self):
         """Tell whether the service takes requests."""

@@ -8,7 +8,7 @@ from tests.chaos.run import chaos
 
 @pytest.mark.slow
 def test_no_job_is_lost_or_double_when_processes_are_killed_and_frozen():
-    figures, storm = chaos(jobs=16, kills=6, freezes=1, seed=5)
+    figures, storm = chaos(jobs=16, kills=6, freezes=1, seed=5, tell=print)
     assert sum(storm.kills.values()) >= 6
     assert storm.freezes >= 1
     assert figures.clean, figures
@@ -17,6 +17,6 @@ def test_no_job_is_lost_or_double_when_processes_are_killed_and_frozen():
 @pytest.mark.slow
 def test_no_job_is_lost_or_double_on_postgresql():
     with cluster() as folder:
-        figures, storm = chaos(jobs=16, kills=6, freezes=0, seed=6, url=new_database(folder))
+        figures, storm = chaos(jobs=16, kills=6, freezes=0, seed=6, url=new_database(folder), tell=print)
     assert sum(storm.kills.values()) >= 6
     assert figures.clean, figures

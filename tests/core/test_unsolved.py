@@ -1,6 +1,6 @@
 """What a diagnosis found stands, even where the programme of the cured model cannot be solved."""
 
-from core import study
+from core import fitting, study
 from core.errors import SolverError
 from core.study import IdentifyRequest
 from tests.plant.cache import kept
@@ -14,11 +14,11 @@ def test_findings_stand_where_the_extended_model_cannot_be_identified(monkeypatc
     def once(*arguments):
         if solved:
             raise SolverError("the solver stopped: AlmostSolved", evidence={}, remedy="move more")
-        solved.append(study_estimate(*arguments))
+        solved.append(estimate(*arguments))
         return solved[0]
 
-    study_estimate = study.estimate
-    monkeypatch.setattr(study, "estimate", once)
+    estimate = fitting.estimate
+    monkeypatch.setattr(fitting, "estimate", once)
     document = study.diagnose(IdentifyRequest(case.believed, (case.log,), {"bootstrap": {"draws": 0}}))
     diagnosis = document["diagnosis"]
     assert [one["cause"] for one in diagnosis["findings"]] == ["torque_ripple"]

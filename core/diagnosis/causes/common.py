@@ -54,9 +54,9 @@ class OwnJointCause:
         return bool(np.isfinite(solved.values).all())
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report the linear parameters in order, then the scanned scalars."""
+        """Report the linear parameters in order, then those scalars that were scanned."""
         joint = solved.site[0] if solved.site else None
-        names = [name for name, _ in self.units if name not in solved.scalars]
+        names = [name for name, _ in self.units if name not in solved.scalars][: len(solved.values)]
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         linear = {
             name: (float(value), float(deviation))
@@ -64,7 +64,9 @@ class OwnJointCause:
         }
         scanned = {name: (value, solved.deviations.get(name, 0.0)) for name, value in solved.scalars.items()}
         both = linear | scanned
-        return tuple(Quantity(name, joint, solved.unit(unit), *both[name]) for name, unit in self.units)
+        return tuple(
+            Quantity(name, joint, solved.unit(unit), *both[name]) for name, unit in self.units if name in both
+        )
 
     def numbers(self, look: Look, solved: Solved) -> Numbers:
         """Give the reported numbers."""

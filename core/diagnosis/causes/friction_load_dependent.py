@@ -1,13 +1,20 @@
-"""Suspect that a joint's friction grows with the torque its gear transmits."""
+"""Suspect that a joint's friction grows with the torque its gear transmits.
 
+Where a fit cannot tell a rotor's inertia from its link's, this friction can: only the link's is transmitted.
+"""
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
+from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.common import NOTHING, OwnJointCause, named, shown
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.load_friction import LoadFriction
+
+SHARES = (0.0, 0.3, 0.6, 0.9)
+"""Of the least inertia that a joint has in the motion, what may turn with its motor."""
 
 
 @dataclass(frozen=True)
@@ -16,7 +23,7 @@ class FrictionLoadDependent(OwnJointCause):
 
     id = "friction_load_dependent"
     title = "Friction grows with the transmitted torque"
-    units = (("load_coefficient", "1"),)
+    units = (("load_coefficient", "1"), ("motor_inertia", "kg m2"))
     confusions = (
         Confusion(
             "torque_gain",
@@ -27,19 +34,34 @@ class FrictionLoadDependent(OwnJointCause):
     experiment = "slow moves in both directions through postures of little and of much gravity torque"
     coordinate = "load"
 
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Scan the inertia that turns with the motor, where the fit cannot tell it from the link's."""
+        if believed.rotor(site[0]) != 0.0:
+            return NOTHING
+        least = float(believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1].min())
+        return [{"motor_inertia": share * max(least, 0.0)} for share in SHARES]
+
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, scalars
-        return LoadFriction(site[0], believed)
+        del look
+        return LoadFriction(site[0], believed, scalars.get("motor_inertia", 0.0))
 
     def possible(self, solved: Solved) -> bool:
-        """Want friction that brakes, and less than all of the load."""
-        return bool(0.0 < solved.values[0] < 1.0)
+        """Want friction that brakes, and less than all of the load; and a rotor, if any, that is heavy."""
+        return bool(0.0 < solved.values[0] < 1.0) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 
     def statement(self, solved: Solved) -> str:
         """Say which share of the load comes back as friction."""
         found, unit = named(self.quantities(solved)), solved.unit("N m")
         return (
             f"Joint {solved.site[0]}'s friction grows by {shown(found['load_coefficient'])} {unit} per "
-            f"{unit} of transmitted {'force' if solved.slides else 'torque'}"
+            f"{unit} of transmitted {'force' if solved.slides else 'torque'}{_rotor(found)}"
         )
+
+
+def _rotor(found: Mapping[str, Quantity]) -> str:
+    """Say what turns with the motor, where that was searched for and is more than nothing."""
+    rotor = found.get("motor_inertia")
+    if rotor is None or rotor.value < 2.0 * rotor.standard_deviation:
+        return ""
+    return f"; of its inertia {shown(rotor)} turns with the motor, before the gear"

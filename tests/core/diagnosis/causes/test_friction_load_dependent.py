@@ -1,0 +1,42 @@
+"""Hold load-dependent friction to the torque that goes through the gear: a rotor's own stays before it."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
+from core.diagnosis.verdict import diagnose
+from core.dynamics.model import standard_model
+from core.dynamics.prediction import Prediction
+from tests.core.diagnosis.scenes import measured_arm, skew_arm
+from tests.core.diagnosis.test_verdict import asked
+from tests.core.estimate.worlds import true_parameters
+
+ROTOR, SHARE = 1.5, 0.15
+"""Inertia of the rotor that the skew arm's description leaves out, kg m2, and friction per torque."""
+
+
+def loaded(state):
+    """Turn a rotor that nobody knows of on joint 1, and let what its gear transmits brake it."""
+    model = standard_model(skew_arm())
+    load = Prediction(model, true_parameters(model)).load(state)[:, 0]
+    friction = SHARE * np.sign(state.velocity[:, 0]) * np.abs(load)
+    return (ROTOR * state.acceleration[:, 0] + friction)[:, None] * [1.0, 0.0, 0.0]
+
+
+def test_friction_tells_the_rotor_that_no_fit_tells_from_its_link():
+    (found,) = diagnose(asked(measured_arm(loaded))).findings
+    assert (found.cause, found.joints) == ("friction_load_dependent", (1,))
+    share, rotor = found.quantities
+    assert (rotor.name, rotor.unit) == ("motor_inertia", "kg m2")
+    assert abs(share.value - SHARE) < 3.0 * share.standard_deviation
+    assert abs(rotor.value - ROTOR) < 3.0 * rotor.standard_deviation
+    assert rotor.standard_deviation < 0.2 * ROTOR
+    assert "turns with the motor" in found.statement
+
+
+@pytest.mark.parametrize(("joint", "points"), [(1, 4), (3, 1)], ids=["unknown", "known"])
+def test_a_rotor_is_searched_for_only_where_it_is_one_with_the_link(joint, points):
+    scene = measured_arm()
+    grid = FrictionLoadDependent().grid(scene.look, scene.believed, (joint,))
+    assert len(grid) == points
+    assert {name for scalars in grid for name in scalars} == ({"motor_inertia"} if points > 1 else set())
