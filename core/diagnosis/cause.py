@@ -144,6 +144,15 @@ class Cause(Protocol):
         """List scalars that are taken from the grid as they are (a side, a sense), not refined."""
         ...
 
+    @property
+    def yielded(self) -> tuple[str, ...]:
+        """List scalars that are the size itself: columns are built where they yield what they are built for.
+
+        Causes that agree to first order differ by how their second order follows from it; a free scalar would
+        give that away.
+        """
+        ...
+
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List where it can act."""
         ...

@@ -42,7 +42,5 @@ def consolidated(bench: Bench, found: Selection) -> Selection:
 def criterion(hypothesis: Hypothesis) -> float:
     """Give twice the log-likelihood less what as many parameters would gain by themselves (Bayesian)."""
     rows = max(len(one.torque) for one in hypothesis.fit.joints)
-    freedom = sum(
-        hypothesis.freedom(index) + len(one.scalars) for index, one in enumerate(hypothesis.members)
-    )
+    freedom = sum(hypothesis.freedom(index) + one.searched for index, one in enumerate(hypothesis.members))
     return 2.0 * hypothesis.fit.log_likelihood - freedom * float(np.log(rows))

@@ -43,6 +43,11 @@ class Candidate:
         return self.cause.id, self.site
 
     @property
+    def searched(self) -> int:
+        """Count the scalars that were free."""
+        return len(set(self.scalars) - set(self.cause.yielded))
+
+    @property
     def place(self) -> Place:
         """Name it with its scalars."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))

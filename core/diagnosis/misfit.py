@@ -3,8 +3,6 @@
 A first look only settles where to search; what counts is judged on the complement of the fitted columns.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 
 from core.arrays import Indices, JointSeries, JointVector, Vector
@@ -12,10 +10,6 @@ from core.diagnosis.free import free_of, independent
 from core.diagnosis.look import Look
 from core.diagnosis.noise import learn_noise, places
 from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-
-SETTLING = 3
-"""Rounds; each leaves the error of the one before times the value's share of a period."""
 
 
 def misfit(look: Look, believed: Prediction) -> JointSeries:
@@ -65,19 +59,3 @@ def size_of(left: JointSeries, mask: np.ndarray) -> JointVector:
     """Give the RMS of the marked rows per joint, never zero."""
     counts = np.maximum(mask.sum(axis=0), 1)
     return np.asarray(np.sqrt(np.maximum((left**2 * mask).sum(axis=0) / counts, 1e-24)))
-
-
-def settled(look: Look, believed: Prediction, build: Callable[[float], Term], start: float) -> float:
-    """Give the value at which a one-column term has to be built to yield that value itself.
-
-    Terms of different causes that agree to first order differ by how their second order follows from it; a
-    scan of the value would give that away.
-    """
-    left, mask = misfit(look, believed), fitted_rows(look)
-    weight = mask / size_of(left, mask)
-    value = start
-    for _ in range(SETTLING):
-        (columns,) = look.columns([build(value)])
-        column = np.column_stack([columns[joint][:, 0] for joint in range(look.joints)]) * weight
-        value = float(np.sum(column * left * weight) / max(float(np.sum(column**2)), 1e-300))
-    return value

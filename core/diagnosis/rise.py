@@ -71,5 +71,5 @@ def weight(hypothesis: Hypothesis, index: int) -> float:
 def merit(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
     rows = max(len(one.torque) for one in trial.fit.joints)
-    freedom = trial.freedom(index) + len(trial.members[index].scalars)
+    freedom = trial.freedom(index) + trial.members[index].searched
     return rise(now, trial) - freedom * float(np.log(rows))

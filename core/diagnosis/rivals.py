@@ -16,7 +16,7 @@ from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.leftovers import keeps_beside, left_by_last
 from core.diagnosis.rise import merit, rise
-from core.diagnosis.selection import Key, Selection, Step, with_candidate
+from core.diagnosis.selection import Key, Selection, Step, holds_unseen, with_candidate
 from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0
@@ -158,12 +158,13 @@ def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[
         if keeps_beside(bench, own, rival, rise(without, trial)) or left_by_last(bench, own, rival):
             continue
         behind = own_merit - merit(without, trial)
-        if trial.possible:
+        why = _impossible(bench, without, trial)
+        if not why:
             margin = min(margin, behind)
-        if trial.possible and behind < _indifference(member, rival, own_rise):
+        if not why and behind < _indifference(member, rival, own_rise):
             ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
-            refuted.append(_refuted(rival, rise(without, trial), own_rise, possible=trial.possible))
+            refuted.append(_refuted(rival, rise(without, trial), own_rise, why))
     return Standing(member, own_rise, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
 
 
@@ -185,10 +186,17 @@ def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: fl
     )
 
 
-def _refuted(rival: Candidate, statistic: float, own: float, *, possible: bool) -> Rival:
+def _impossible(bench: Bench, without: Hypothesis, trial: Hypothesis) -> str:
+    """Say why a rival cannot take a finding's place, however well it fits; nothing where it can."""
+    if not trial.possible:
+        return "fits only with a sign or size that nature does not allow"
+    return "" if holds_unseen(bench, without, trial) else "does not help on rows that no fit has seen"
+
+
+def _refuted(rival: Candidate, statistic: float, own: float, impossible: str) -> Rival:
     why = (
-        f"raises twice the log-likelihood by {statistic:.1f} where the finding raises it by {own:.1f}"
-        if possible
-        else f"fits only with a sign or size that nature does not allow (rise {statistic:.1f})"
+        f"{impossible} (rise {statistic:.1f})"
+        if impossible
+        else f"raises twice the log-likelihood by {statistic:.1f} where the finding raises it by {own:.1f}"
     )
     return Rival(rival.cause.id, rival.site, statistic, why, "")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.optimize import root_scalar
 
 from core.arrays import Vector
 from core.diagnosis.bench import Bench
@@ -15,6 +16,10 @@ from core.diagnosis.grid import between, neighbours
 from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
 from core.diagnosis.score import Score
 
+YIELDINGS = 4
+"""Steps by the secant towards columns that yield the size which they are built for,"""
+SAME_SIZE = 0.01
+"""within this share of it."""
 NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
@@ -22,9 +27,26 @@ NEARLY = 1.96
 def refined(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
     """Settle a candidate's scalars between its grid points, on top of a hypothesis."""
     for name in candidate.scalars:
-        if name not in candidate.cause.settled:
+        if name in candidate.cause.yielded:
+            candidate = _yielding(bench, under, candidate, name)
+        elif name not in candidate.cause.settled:
             candidate = _refined(bench, under, candidate, name)
     return candidate
+
+
+def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+    """Build the columns where they yield the size that they are built for."""
+
+    def off(size: float) -> float:
+        (found,) = bench.scored(under, [_at(candidate, name, size)])
+        return float(found.values[0]) - size
+
+    here = candidate.scalars[name]
+    there = here + off(here)
+    if there == here:
+        return candidate
+    found = root_scalar(off, x0=here, x1=there, method="secant", rtol=SAME_SIZE, maxiter=YIELDINGS)
+    return _at(candidate, name, float(found.root))
 
 
 def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:

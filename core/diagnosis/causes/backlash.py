@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
+from core.diagnosis.causes.common import OwnJointCause, motor_inertias, named, shown, spread
 from core.diagnosis.causes.sites import revolute_joints
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
@@ -27,7 +27,7 @@ class Backlash(OwnJointCause):
 
     id = "backlash"
     title = "The transmission has play"
-    units = (("half_width", "rad"),)
+    units = (("half_width", "rad"), ("motor_inertia", "kg m2"))
     confusions = (
         Confusion(
             "friction_presliding",
@@ -53,17 +53,21 @@ class Backlash(OwnJointCause):
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the width of the gap, of which the time of crossing is the cube root."""
-        del look, believed, site
-        return [{"around": value} for value in spread(NARROWEST, WIDEST, STEPS)]
+        return [
+            {"around": value, **rotor}
+            for rotor in motor_inertias(look, believed, site)
+            for value in spread(NARROWEST, WIDEST, STEPS)
+        ]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        return BacklashTerm(site[0], believed, scalars["around"], SMOOTHING_OVER_BAND * look.band_hz)
+        band = SMOOTHING_OVER_BAND * look.band_hz
+        return BacklashTerm(site[0], believed, scalars["around"], band, scalars.get("motor_inertia", 0.0))
 
     def possible(self, solved: Solved) -> bool:
         """Want a gap of about the width that the crossings were computed for."""
         around = solved.scalars["around"]
-        return bool(around / NARROWER < solved.values[0] < WIDER * around)
+        return super().possible(solved) and bool(around / NARROWER < solved.values[0] < WIDER * around)
 
     def statement(self, solved: Solved) -> str:
         """Say how wide the gap is."""

@@ -13,6 +13,8 @@ from core.robot.model import RobotModel
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""
+MOTOR_SHARES = (0.0, 0.45, 0.9)
+"""Of the least inertia that a joint has in the motion, what may turn with its motor."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,7 @@ class OwnJointCause:
     excludes: ClassVar[tuple[str, ...]] = ()
     leaves: ClassVar[tuple[str, ...]] = ()
     settled: ClassVar[tuple[str, ...]] = ()
+    yielded: ClassVar[tuple[str, ...]] = ()
     inexact: ClassVar[float] = 0.05
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
@@ -50,8 +53,8 @@ class OwnJointCause:
         return float(len(grid))
 
     def possible(self, solved: Solved) -> bool:
-        """Allow any finite value."""
-        return bool(np.isfinite(solved.values).all())
+        """Allow any finite value, and a rotor, if any, that is heavy."""
+        return bool(np.isfinite(solved.values).all()) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
         """Report the linear parameters in order, then those scalars that were scanned."""
@@ -77,6 +80,14 @@ class OwnJointCause:
         """Say that its term is all the repair there is."""
         del robot, joints, numbers
         return "The model has its torque as a further term; the description and the log stay as they are"
+
+
+def motor_inertias(look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    """Scan the inertia that turns with a joint's motor, where the fit cannot tell it from the link's."""
+    inertia = believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1]
+    if believed.rotor(site[0]) != 0.0 or inertia.min() <= 0.0:
+        return NOTHING
+    return [{"motor_inertia": share * float(inertia.min())} for share in MOTOR_SHARES]
 
 
 def spread(low: float, high: float, count: int) -> list[float]:

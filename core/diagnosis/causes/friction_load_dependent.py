@@ -7,14 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import NOTHING, OwnJointCause, named, shown
+from core.diagnosis.causes.common import OwnJointCause, motor_inertias, named, shown
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.load_friction import LoadFriction
-
-SHARES = (0.0, 0.3, 0.6, 0.9)
-"""Of the least inertia that a joint has in the motion, what may turn with its motor."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +33,7 @@ class FrictionLoadDependent(OwnJointCause):
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the inertia that turns with the motor, where the fit cannot tell it from the link's."""
-        if believed.rotor(site[0]) != 0.0:
-            return NOTHING
-        least = float(believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1].min())
-        return [{"motor_inertia": share * max(least, 0.0)} for share in SHARES]
+        return motor_inertias(look, believed, site)
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
@@ -47,8 +41,8 @@ class FrictionLoadDependent(OwnJointCause):
         return LoadFriction(site[0], believed, scalars.get("motor_inertia", 0.0))
 
     def possible(self, solved: Solved) -> bool:
-        """Want friction that brakes, and less than all of the load; and a rotor, if any, that is heavy."""
-        return bool(0.0 < solved.values[0] < 1.0) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
+        """Want friction that brakes, and less than all of the load."""
+        return super().possible(solved) and bool(0.0 < solved.values[0] < 1.0)
 
     def statement(self, solved: Solved) -> str:
         """Say which share of the load comes back as friction."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
+from core.diagnosis.causes.common import OwnJointCause, motor_inertias, named, shown, spread
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -22,7 +22,7 @@ class JointElasticity(OwnJointCause):
 
     id = "joint_elasticity"
     title = "The gear is compliant"
-    units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"))
+    units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"), ("motor_inertia", "kg m2"))
     confusions = (
         Confusion(
             "time_delay",
@@ -42,33 +42,38 @@ class JointElasticity(OwnJointCause):
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the resonance from a few times the motion's band to beyond the look's, and the damping."""
-        del believed, site
         ends = (LOWEST * look.motion_band_hz, HIGHEST * look.band_hz)
         return [
-            {"resonance_hz": frequency, "damping_ratio": ratio}
+            {"resonance_hz": frequency, "damping_ratio": ratio, **rotor}
+            for rotor in motor_inertias(look, believed, site)
             for frequency in spread(*ends, POINTS)
             for ratio in DAMPING_RATIOS
         ]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        return Elasticity(site[0], believed, look.band_hz, scalars["resonance_hz"], scalars["damping_ratio"])
+        response = (scalars["resonance_hz"], scalars["damping_ratio"])
+        return Elasticity(site[0], believed, look.band_hz, *response, scalars.get("motor_inertia", 0.0))
 
     def possible(self, solved: Solved) -> bool:
         """Want a spring that gives way."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report the stiffness; its relative deviation is the compliance's."""
+        """Report the stiffness, of the compliance's relative deviation, the damping, and the rotor if any."""
         compliance, deviation = float(solved.values[0]), float(solved.covariance[0, 0] ** 0.5)
         joint, angular = solved.site[0], 2.0 * np.pi * solved.scalars["resonance_hz"]
         damping = 2.0 * solved.scalars["damping_ratio"] / (angular * compliance)
         doubts = [deviation / compliance]
-        doubts += [solved.deviations.get(name, 0.0) / value for name, value in solved.scalars.items()]
+        doubts += [
+            solved.deviations.get(name, 0.0) / solved.scalars[name]
+            for name in ("resonance_hz", "damping_ratio")
+        ]
         doubt = float(np.linalg.norm(doubts))
         return (
             Quantity("stiffness", joint, solved.unit("N m/rad"), 1.0 / compliance, deviation / compliance**2),
             Quantity("damping", joint, solved.unit("N m s/rad"), damping, damping * doubt),
+            *(one for one in super().quantities(solved) if one.name == "motor_inertia"),
         )
 
     def statement(self, solved: Solved) -> str:

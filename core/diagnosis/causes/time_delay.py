@@ -10,7 +10,6 @@ from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.diagnosis.mending import MendsLog, with_torque
-from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.delay import Delay
@@ -18,6 +17,7 @@ from core.log.model import LogRows
 from core.robot.model import RobotModel
 
 LONGEST_DELAY = 0.05
+STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,7 @@ class TimeDelay(OwnJointCause, MendsLog):
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)
+    yielded = ("around",)
     confusions = (
         Confusion(
             "torque_filter_lag",
@@ -52,14 +53,15 @@ class TimeDelay(OwnJointCause, MendsLog):
         del look, believed
         return [()]
 
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Begin at several delays."""
+        del look, believed, site
+        return [{"around": start} for start in STARTS]
+
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
-        """Give the columns at the delay that they yield themselves."""
-        del site, scalars
-
-        def build(delay: float) -> Term:
-            return Delay(0, believed, float(np.clip(delay, -LONGEST_DELAY, LONGEST_DELAY)))
-
-        return build(settled(look, believed, build, 0.0))
+        """Give the columns."""
+        del look, site
+        return Delay(0, believed, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
 
     def possible(self, solved: Solved) -> bool:
         """Want a delay that a first-order column can stand for."""

@@ -12,7 +12,6 @@ from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.diagnosis.mending import MendsLog, with_torque
-from core.diagnosis.misfit import settled
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.filter_lag import FilterLag
@@ -22,7 +21,7 @@ from core.signals.zero_phase import kernel
 
 SHORTEST, LONGEST = 2e-4, 0.1
 """Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""
-START = 0.005
+STARTS = (0.001, 0.004, 0.016, 0.064)
 ORDER = 2
 PERIODS = 3.0
 """Of the band's edge, beyond which less than a millionth of its filter's mass lies."""
@@ -39,6 +38,7 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
     title = "The torque channel is low-pass filtered"
     cure = "signal"
     units = (("time_constant", "s"),)
+    yielded = ("around",)
     confusions = (
         Confusion(
             "time_delay",
@@ -60,14 +60,15 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
         del look, believed
         return [()]
 
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """Begin at several time constants."""
+        del look, believed, site
+        return [{"around": start} for start in STARTS]
+
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
-        """Give the columns at the time constant that they yield themselves."""
-        del site, scalars
-
-        def build(time_constant: float) -> Term:
-            return FilterLag(0, believed, float(np.clip(time_constant, SHORTEST, LONGEST)))
-
-        return build(settled(look, believed, build, START))
+        """Give the columns."""
+        del look, site
+        return FilterLag(0, believed, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
 
     def possible(self, solved: Solved) -> bool:
         """Want a filter that lags."""

@@ -13,6 +13,7 @@ from typing import ClassVar
 import numpy as np
 
 from core.arrays import JointSeries, Samples
+from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
 from core.dynamics.terms.elasticity import smoothed
@@ -22,11 +23,15 @@ from core.signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Backlash(AllJointsTerm):
-    """Model play near the half width `around` (rad); the twist is smoothed at `band_hz`."""
+    """Model play near the half width `around` (rad); the twist is smoothed at `band_hz`.
+
+    The `motor_inertia`, kg m2, is what the believed load holds of the rotor's.
+    """
 
     believed: Prediction
     around: float
     band_hz: float
+    motor_inertia: float = 0.0
     symbols: ClassVar[tuple[Symbol, ...]] = (("half_width", "rad", 0.0),)
     kind: ClassVar[str] = "backlash"
     remembers: ClassVar[bool] = True
@@ -34,13 +39,11 @@ class Backlash(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per rad of half width."""
         del robot
-        own = self.joint - 1
-        inertia = self.believed.slopes(state, own)[2][:, own]
-        load = self.believed.load(state)[:, own]
-        free = load / np.maximum(inertia, 1e-9)
+        gear = Gear(self.believed, self.joint, self.motor_inertia)
+        free = gear.load(state) / np.maximum(gear.inertia(state), 1e-9)
         twist = smoothed(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
         first, second = rates(twist, state)
-        return [self.believed.change(state, own, MotionState(twist, first, second)) / -self.around]
+        return [gear.change(state, MotionState(twist, first, second)) / -self.around]
 
 
 def twist_of(free: Samples, step: float, half_width: float) -> Samples:

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from core.arrays import JointSeries, Samples, Spectrum
+from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
 from core.robot.joint_units import joint_unit
@@ -32,12 +33,15 @@ class Elasticity(AllJointsTerm):
         Loads are smoothed at it before they are differentiated.
     resonance_hz, damping_ratio
         Of the link's inertia on the gear's spring: below it the link follows the load at once.
+    motor_inertia
+        What the believed load holds of the rotor's inertia, kg m2 (kg).
     """
 
     believed: Prediction
     band_hz: float
     resonance_hz: float
     damping_ratio: float
+    motor_inertia: float = 0.0
     symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
     kind: ClassVar[str] = "joint_elasticity"
     remembers: ClassVar[bool] = True
@@ -51,17 +55,17 @@ class Elasticity(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per unit of compliance."""
         del robot
-        own = self.joint - 1
-        load = _load_spectrum(self.believed, state, own, self.band_hz)
+        gear = Gear(self.believed, self.joint, self.motor_inertia)
+        load = _load_spectrum(gear, state, self.band_hz)
         load = swung(load, state, self.resonance_hz, self.damping_ratio)[:, None]
         first, second = rates(load, state)
-        return [-self.believed.change(state, own, MotionState(load, first, second))]
+        return [-gear.change(state, MotionState(load, first, second))]
 
 
 @lru_cache(maxsize=64)
-def _load_spectrum(believed: Prediction, state: MotionState, own: int, band_hz: float) -> Spectrum:
-    """Give the spectrum of one joint's smoothed load; kept, because a scan asks for the same ones again."""
-    return spectrum_of(smoothed(believed.load(state)[:, [own]], state, band_hz)[:, 0])
+def _load_spectrum(gear: Gear, state: MotionState, band_hz: float) -> Spectrum:
+    """Give the spectrum of a gear's smoothed load; kept, because a scan asks for the same ones again."""
+    return spectrum_of(smoothed(gear.load(state)[:, None], state, band_hz)[:, 0])
 
 
 def spectrum_of(values: Samples) -> Spectrum:

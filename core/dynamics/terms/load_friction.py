@@ -1,8 +1,5 @@
 """Give the friction that grows with the torque a gear transmits: sign(v) |load|, the load as predicted.
 
-What turns with the motor needs no gear. A model whose base parameters hold a rotor's inertia in the link's
-predicts too much load, by that inertia times the acceleration.
-
 Source: Bittencourt & Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012.
 """
 
@@ -12,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from core.arrays import Samples
+from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import OneJointTerm, Symbol
 from core.robot.model import RobotModel
@@ -32,6 +30,5 @@ class LoadFriction(OneJointTerm):
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give sign(v) |load|."""
-        own = self.joint - 1
-        load = self.believed.load(state, robot)[:, own] - self.motor_inertia * state.acceleration[:, own]
-        return [np.sign(state.velocity[:, own]) * np.abs(load)]
+        load = Gear(self.believed, self.joint, self.motor_inertia).load(state, robot)
+        return [np.sign(state.velocity[:, self.joint - 1]) * np.abs(load)]

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array, identity
 
-from core.diagnosis import misfit, selection
+from core.diagnosis import selection
 from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.causes import external_contact
 from core.diagnosis.causes.torque_gain import TorqueGain
 from core.diagnosis.equations import Whitened, refit
 from core.diagnosis.noise import JointNoise
@@ -137,10 +138,10 @@ def test_a_fit_that_sees_what_is_held_out_is_seen(monkeypatch):
 
 def test_a_search_that_looks_at_what_is_held_out_is_seen(monkeypatch):
     law = partial(
-        test_held_out.test_a_cause_settles_where_to_look_without_what_is_held_out, BY_ID["time_delay"]
+        test_held_out.test_a_cause_settles_where_to_look_without_what_is_held_out, BY_ID["external_contact"]
     )
     law()
-    monkeypatch.setattr(misfit, "fitted_rows", lambda look: look.clear)
+    monkeypatch.setattr(external_contact, "fitted_rows", lambda look: look.clear)
     with pytest.raises(AssertionError):
         law()
 
