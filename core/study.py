@@ -143,7 +143,7 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     question = Question(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
     found = find_causes(question, _within(tell, 0.3, 0.5))
     plain = Fitting(data, base, belief=None if reference is None else reference.belief)
-    found = _proven(found, options, plain)
+    found = _proven(found, options, plain, tell)
     as_it_is = None if reference is None else compared(reference, before, data.parts(before.observation))
     if not cures(found):
         return Diagnosed(before, found, None, (), None, "nothing joined the model", as_it_is)
@@ -167,11 +167,11 @@ def _extended(found: Diagnosis, fitting: Fitting) -> Fitting:
     return replace(fitting, data=replace(fitting.data, plan=plan), base=whole, sizes=sizes(found))
 
 
-def _proven(found: Diagnosis, options: IdentifyOptions, fitting: Fitting) -> Diagnosis:
+def _proven(found: Diagnosis, options: IdentifyOptions, fitting: Fitting, tell: Progress) -> Diagnosis:
     """Identify again with causes whose gain the search leaves in doubt."""
 
     def tried(trial: Diagnosis) -> tuple[Observation, BaseParameters]:
-        answer = fitted(options, _extended(trial, fitting), _say_nothing)
+        answer = fitted(options, _extended(trial, fitting), lambda _stage, _done: tell("prove", 0.78))
         return answer.observation, answer.estimate.base
 
     return proven(found, tried, lambda observation: fitting.data.parts(observation)[1])

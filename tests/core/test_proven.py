@@ -22,11 +22,11 @@ def in_doubt(found: Diagnosis) -> Diagnosis:
     return replace(found, findings=(replace(one, gain=replace(one.gain, interval_95=(-1.0, 9.0))),))
 
 
-def studied(monkeypatch: pytest.MonkeyPatch, scene) -> Diagnosed:
+def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Diagnosed:
     """Diagnose a scene where the search doubts that friction of joint 2 differs between the directions."""
     monkeypatch.setattr(core.study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
     logs = (scene.look.motions[0].log,)
-    return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}))
+    return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}), progress)
 
 
 def test_a_cause_in_doubt_joins_the_model_where_unseen_motion_is_surely_predicted_better(monkeypatch):
@@ -38,6 +38,15 @@ def test_a_cause_in_doubt_joins_the_model_where_unseen_motion_is_surely_predicte
     assert "joint 2" in shown.statement
     np.testing.assert_allclose(shown.value, gain.improvement_percent, rtol=0.05)
     assert gain.interval_95[0] > 0.0
+
+
+def test_proving_is_told_of_between_the_search_and_the_cure(monkeypatch):
+    told = []
+    studied(monkeypatch, HIDDEN, lambda stage, done: told.append((stage, done)))
+    stages = [stage for stage, _ in told]
+    assert "prove" in stages
+    assert stages[stages.index("prove") :].count("simulate") == 1
+    assert [done for _, done in told] == sorted(done for _, done in told)
 
 
 def test_a_cause_in_doubt_joins_no_model_where_it_gains_nothing(monkeypatch):
