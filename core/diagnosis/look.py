@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from core.arrays import BlockKey, Indices, JointMask, JointSeries, JointVector, Samples
+from core.arrays import BlockKey, Indices, JointMask, JointSeries, JointVector, Samples, UsableRows
 from core.diagnosis.piece import pieces_of, thinning
 from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
@@ -89,6 +89,10 @@ class Look:
         marks = np.zeros(len(self.time), dtype=bool)
         marks[[stretch.rows.start for stretch in self.stretches]] = True
         return marks
+
+    def follows(self, rows: Indices) -> UsableRows:
+        """Mark which of some rows follow the one before them without a gap."""
+        return np.asarray((np.diff(rows, prepend=-2) == 1) & ~self.starts[rows])
 
     @property
     def block_of_all(self) -> np.ndarray:

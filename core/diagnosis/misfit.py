@@ -4,9 +4,9 @@ A first look only settles where to search; what counts is judged on the compleme
 """
 
 import numpy as np
+from scipy.sparse import csr_array
 
-from core.arrays import Indices, JointSeries, JointVector, Vector
-from core.diagnosis.free import free_of, independent
+from core.arrays import Indices, JointSeries, JointVector, UsableRows, Vector
 from core.diagnosis.look import Look
 from core.diagnosis.noise import learn_noise, places
 from core.dynamics.prediction import Prediction
@@ -25,34 +25,33 @@ def fitted_rows(look: Look) -> np.ndarray:
     return np.asarray(look.clear & ~look.held_out[:, None])
 
 
-def whitened_by_joint(
-    look: Look, columns: np.ndarray, left: JointSeries, mask: np.ndarray
-) -> tuple[np.ndarray, JointSeries]:
-    """Whiten columns (rows x columns x joints) and a misfit, the noise learned from its quieter half.
+def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_array, ...]:
+    """Give, per joint, the inverse covariance of a misfit's noise over the marked rows; zero elsewhere.
 
-    What happens once in a while is not to be learned as noise.
+    The noise is learned from the quieter half: what happens once in a while is not to be learned as noise.
+    Quiet is what brings little that is new, since a slow noise is large for a while by itself.
     """
-    place = places(~look.starts)
-    columns, left = columns.copy(), left.copy()
+    out = []
     for joint in range(look.joints):
-        free = free_of(independent(look.sticking[joint]))
-        left[:, [joint]] = free.cleared(left[:, [joint]])
-        rows = _quiet(look, left[:, joint], np.flatnonzero(mask[:, joint]))
-        follows = (np.diff(rows, prepend=-2) == 1) & ~look.starts[rows]
-        noise = learn_noise(left[rows, joint], places(follows))
-        columns[:, :, joint] = noise.whitened(columns[:, :, joint], place)
-        left[:, joint] = noise.whitened(left[:, [joint]], place)[:, 0]
-    return columns, left
+        rows = np.flatnonzero(mask[:, joint])
+        place = places(look.follows(rows))
+        new = learn_noise(left[rows, joint], place).innovations(left[rows, joint], place)
+        quiet = rows[_quiet(look, new, rows)]
+        noise = learn_noise(left[quiet, joint], places(look.follows(quiet)))
+        white = noise.whitening(place)
+        white = csr_array((white.data, rows[white.indices], white.indptr), (len(rows), len(left)))
+        out.append((white.T @ white).tocsr())
+    return tuple(out)
 
 
-def _quiet(look: Look, left: Vector, rows: Indices) -> Indices:
-    """Keep the rows of the blocks in which a misfit is smaller than in half of them."""
+def _quiet(look: Look, left: Vector, rows: Indices) -> UsableRows:
+    """Mark the rows of the blocks in which what is left is smaller than in half of them."""
     if not len(rows):
-        return rows
+        return np.zeros(0, dtype=bool)
     block = look.block_of_all[rows]
     counts = np.maximum(np.bincount(block), 1)
-    power = np.bincount(block, left[rows] ** 2) / counts
-    return np.asarray(rows[power[block] <= np.median(power[np.unique(block)])])
+    power = np.bincount(block, left**2) / counts
+    return np.asarray(power[block] <= np.median(power[np.unique(block)]))
 
 
 def size_of(left: JointSeries, mask: np.ndarray) -> JointVector:

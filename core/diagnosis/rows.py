@@ -45,12 +45,10 @@ def joint_rows(look: Look, columns: Sequence[Matrix], mask: np.ndarray) -> tuple
     out = []
     for joint in range(look.joints):
         rows = np.flatnonzero(mask[:, joint])
-        follows = np.diff(rows, prepend=-2) == 1
-        follows &= ~look.starts[rows]
         out.append(
             JointRows(
                 rows,
-                places(follows),
+                places(look.follows(rows)),
                 columns[joint][rows],
                 look.torque[rows, joint],
                 free_of(independent(look.sticking[joint][rows])),

@@ -1,62 +1,84 @@
 """Find the spans of time in which a residual follows some columns: short events in a long log.
 
 All spans of doubling length are tried, half a length apart, then the best is shifted and stretched; the next
-one is looked for beside it. Source: Basseville & Nikiforov, Detection of Abrupt Changes (1993), ch. 2.
+one is looked for beside it. A span is worth what a fit under the noise's memory would gain: against noise
+that remembers, how an event swells and fades tells more than how large it is.
+Source: Basseville & Nikiforov, Detection of Abrupt Changes (1993), ch. 2 and 7.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
+from scipy.sparse import csr_array
 
 from core.arrays import JointSeries, Samples
+from core.diagnosis.chance import log_chance
 from core.dynamics.terms.contact import Span, swell
 
 SHORTEST, LONGEST = 0.2, 3.2
 """Lengths in s: shorter events are outliers, longer ones last."""
-LEAST_WORTH = 60.0
-"""Below it, in squares of the residual's RMS, the best span of many is luck."""
+LUCK = 1e-3
+"""Chance that noise alone is worth as much somewhere in a log as an event has to be,"""
+TRIALS_OF_A_SPAN = 2.0
+"""where shifting and stretching the best span doubles what was tried."""
 LEAST_SHARE = 0.2
 """An event is worth at least this share of the best one."""
 HALVINGS = 4
 
 
-def find_events(time: Samples, columns: np.ndarray, left: JointSeries, *, most: int) -> list[Span]:
+def find_events(
+    time: Samples, columns: np.ndarray, left: JointSeries, precisions: Sequence[csr_array], *, most: int
+) -> list[Span]:
     """Find up to `most` spans that do not overlap, the best one first.
 
     Parameters
     ----------
     columns
-        Samples x columns x joints, in units of the residual's RMS; zero where nothing may be looked at.
+        Samples x columns x joints.
     left
         The residual in the same units.
+    precisions
+        Per joint, the inverse covariance of its noise; zero where nothing may be looked at.
     """
-    search = _Search(time, columns, left)
+    search = _Search(time, columns, left, precisions)
     spans = search.spans()
     worths = np.array([search.worth(span) for span in spans])
+    hurdle = np.log(LUCK / max(TRIALS_OF_A_SPAN * len(spans), 1.0))
+    freedom = int(np.count_nonzero(columns.any(axis=(0, 2))))
     found: list[Span] = []
     best = 0.0
     for _ in range(most):
         if not len(spans):
             break
-        index = int(np.argmax(worths))
-        if worths[index] < max(LEAST_WORTH, LEAST_SHARE * best):
+        span = search.refined(spans[int(np.argmax(worths))], found)
+        worth = search.worth(span)
+        if worth < LEAST_SHARE * best or log_chance(worth, freedom) > hurdle:
             break
-        span = search.refined(spans[index])
-        best = max(best, search.worth(span))
+        best = max(best, worth)
         found.append(span)
-        apart = np.array([one[0] >= span[1] or one[1] <= span[0] for one in spans])
+        apart = np.array([_apart(one, [span]) for one in spans])
         spans, worths = [one for one, free in zip(spans, apart, strict=True) if free], worths[apart]
     return found
 
 
+def _apart(span: Span, others: Sequence[Span]) -> bool:
+    return all(span[0] >= one[1] or span[1] <= one[0] for one in others)
+
+
 class _Search:
-    def __init__(self, time: Samples, columns: np.ndarray, left: JointSeries) -> None:
-        self.order = np.argsort(time, kind="stable")
-        self.time = time[self.order]
-        columns, left = columns[self.order], left[self.order]
-        self.gains = np.einsum("raj,rj->ra", columns, left)
-        self.grams = np.einsum("raj,rbj->rab", columns, columns)
+    def __init__(
+        self, time: Samples, columns: np.ndarray, left: JointSeries, precisions: Sequence[csr_array]
+    ) -> None:
+        self.time, self.ordered = time, np.maximum.accumulate(time)
+        known = np.column_stack([one @ left[:, joint] for joint, one in enumerate(precisions)])
+        self.gains = np.einsum("raj,rj->ra", columns, known)
+        # What rows tell together with those 0, 1, ... rows before them, both ways at once.
+        self.grams = np.stack(
+            [_grams(columns, precisions, lag) for lag in range(1 + _reach(precisions))], axis=1
+        )
 
     def spans(self) -> list[Span]:
-        first, last = float(self.time[0]), float(self.time[-1])
+        first, last = float(self.ordered[0]), float(self.ordered[-1])
         lengths = SHORTEST * 2.0 ** np.arange(round(np.log2(LONGEST / SHORTEST)) + 1)
         return [
             (float(start), float(start + length))
@@ -66,16 +88,18 @@ class _Search:
 
     def worth(self, span: Span) -> float:
         """Give the square that the columns explain within a span."""
-        rows = slice(*np.searchsorted(self.time, span))
+        rows = slice(*np.searchsorted(self.ordered, span))
         height = swell(self.time[rows], span)
-        gram = np.tensordot(height**2, self.grams[rows], axes=1)
+        reach = self.grams.shape[1] - 1
+        before = np.pad(height, (reach, 0))[np.arange(len(height))[:, None] + np.arange(reach, -1, -1)]
+        gram = np.tensordot(height[:, None] * before, self.grams[rows], axes=2)
         gain = height @ self.gains[rows]
         scale = np.sqrt(np.maximum(np.diag(gram), 1e-12 * max(float(np.trace(gram)), 1e-30)))
         scaled = gram / np.outer(scale, scale) + 1e-6 * np.eye(len(gain))
         return float((gain / scale) @ np.linalg.solve(scaled, gain / scale))
 
-    def refined(self, span: Span) -> Span:
-        """Shift both ends by smaller and smaller steps as long as that explains more."""
+    def refined(self, span: Span, others: Sequence[Span]) -> Span:
+        """Shift both ends by smaller and smaller steps, apart from others, as long as that explains more."""
         step, best = 0.25 * (span[1] - span[0]), self.worth(span)
         for _ in range(HALVINGS):
             improved = True
@@ -83,7 +107,22 @@ class _Search:
                 improved = False
                 for change in ((-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step)):
                     trial = (span[0] + change[0], span[1] + change[1])
-                    if SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST and self.worth(trial) > best:
+                    if not SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST or not _apart(trial, others):
+                        continue
+                    if self.worth(trial) > best:
                         span, best, improved = trial, self.worth(trial), True
             step /= 2.0
         return span
+
+
+def _reach(precisions: Sequence[csr_array]) -> int:
+    """Say how many rows apart the noise still ties two of them together."""
+    ties = [one.tocoo() for one in precisions]
+    return max(int(np.max(one.row - one.col, initial=0)) for one in ties)
+
+
+def _grams(columns: np.ndarray, precisions: Sequence[csr_array], lag: int) -> np.ndarray:
+    weights = np.column_stack([one.diagonal(-lag) for one in precisions])
+    out = np.zeros((len(columns), columns.shape[1], columns.shape[1]))
+    out[lag:] = (columns[lag:] * weights[:, None, :]) @ np.swapaxes(columns[: len(columns) - lag], 1, 2)
+    return out if lag == 0 else out + np.swapaxes(out, 1, 2)

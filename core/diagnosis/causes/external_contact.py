@@ -10,7 +10,7 @@ from core.diagnosis.causes.common import OwnJointCause, rounded
 from core.diagnosis.causes.events import find_events
 from core.diagnosis.causes.sites import end_links
 from core.diagnosis.look import Look
-from core.diagnosis.misfit import fitted_rows, misfit, whitened_by_joint
+from core.diagnosis.misfit import fitted_rows, misfit, precisions
 from core.diagnosis.spikes import spiked
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -54,8 +54,8 @@ class ExternalContact(OwnJointCause):
         """Find when the residual is a wrench on the link for a while."""
         mask = fitted_rows(look)
         push = pushed(look.robot, end_links(look.robot)[site[0]], look.state)
-        push, left = whitened_by_joint(look, push, misfit(look, believed), mask)
-        found = find_events(look.time, push * mask[:, None, :], left * mask, most=MOST)
+        left = misfit(look, believed)
+        found = find_events(look.time, push, left, precisions(look, left, mask), most=MOST)
         spans = sorted(span for span in found if not spiked(look, span))
         if not spans:
             return []

@@ -8,13 +8,12 @@ import pytest
 from core.diagnosis.cause import Solved
 from core.diagnosis.causes.backlash import Backlash
 from core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
-from core.diagnosis.causes.events import find_events
 from core.diagnosis.causes.external_contact import ExternalContact
 from core.diagnosis.causes.gravity_misalignment import GravityMisalignment
 from core.diagnosis.causes.payload_change import PayloadChange
 from core.diagnosis.causes.sites import end_links, revolute_joints
 from core.diagnosis.causes.waves import amplitude_and_angle
-from core.dynamics.terms.contact import WRENCH, swell
+from core.dynamics.terms.contact import WRENCH
 from tests.tools import random_robot
 
 SPANS = {"start_1": 3.0, "end_1": 3.5, "start_2": 8.0, "end_2": 8.4}
@@ -23,18 +22,6 @@ SPANS = {"start_1": 3.0, "end_1": 3.5, "start_2": 8.0, "end_2": 8.4}
 def solved(values, scalars, *, deviation=0.01, site=(6,)) -> Solved:
     values = np.asarray(values, dtype=float)
     return Solved(site, values, deviation**2 * np.eye(len(values)), scalars, {})
-
-
-def test_events_are_found_where_they_are_and_nothing_else_is():
-    rng = np.random.default_rng(0)
-    time = np.arange(0.0, 30.0, 0.02)
-    columns = np.tile(np.eye(2), (len(time), 1, 1))
-    left = rng.normal(size=(len(time), 2))
-    assert find_events(time, columns, left, most=5) == []
-    for span, push in (((4.0, 4.6), (6.0, 0.0)), ((20.0, 21.0), (-3.0, 5.0))):
-        left += swell(time, span)[:, None] * np.array(push)
-    found = sorted(find_events(time, columns, left, most=5))
-    np.testing.assert_allclose(found, [(4.0, 4.6), (20.0, 21.0)], atol=0.1)
 
 
 def test_a_contact_whose_moment_no_lever_explains_is_impossible():

@@ -1,0 +1,71 @@
+"""Short events are found where they are and nowhere else, whatever the noise remembers."""
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_array
+
+from core.diagnosis.causes.events import find_events
+from core.diagnosis.misfit import fitted_rows, misfit, precisions
+from core.dynamics.terms.contact import swell
+from tests.core.diagnosis.processes import (
+    SLOW,
+    WAVY,
+    WHITE,
+    autocovariance,
+    dense_covariance,
+    drawn,
+    exact_noise,
+)
+from tests.core.diagnosis.scenes import SHOVE, eventful_scene
+
+TIME = np.arange(0.0, 30.0, 0.02)
+PLACE = np.arange(len(TIME))
+PUSHES = (((4.0, 4.6), (12.0, 0.0)), ((20.0, 21.0), (-9.0, 15.0)))
+"""Spans, s, and their peaks over the noise's deviation: large enough for their ends to be well known."""
+
+
+def found_in(weights, left):
+    """Look for events on two joints under noise of the same kind, each of which has a column of its own."""
+    columns = np.tile(np.eye(2), (len(TIME), 1, 1))
+    white = exact_noise(weights).whitening(PLACE)
+    return sorted(find_events(TIME, columns, left, [csr_array(white.T @ white)] * 2, most=5))
+
+
+@pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY])
+def test_events_are_found_where_they_are_and_nothing_else_is(weights):
+    left = drawn(weights, np.random.default_rng(0), len(TIME), 2)
+    assert found_in(weights, left) == []
+    for span, push in PUSHES:
+        left += np.sqrt(autocovariance(weights, 1)) * swell(TIME, span)[:, None] * np.array(push)
+    np.testing.assert_allclose(found_in(weights, left), [span for span, _ in PUSHES], atol=0.1)
+
+
+@pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY])
+def test_a_span_is_taken_as_far_as_its_noise_lets_it_be_seen(weights):
+    """The square that it explains under the noise's dense covariance decides, and nothing else."""
+    span = (4.0, 4.6)
+    shape = swell(TIME, span)[100:400]
+    square = shape @ np.linalg.solve(dense_covariance(weights, PLACE[100:400]), shape)
+    for worth, expected in ((26.0, 0), (36.0, 1)):
+        left = np.zeros((len(TIME), 2))
+        left[:, 0] = np.sqrt(worth / square) * swell(TIME, span)
+        assert len(found_in(weights, left)) == expected
+
+
+def test_noise_that_is_large_for_a_while_by_itself_is_hardly_ever_an_event():
+    """Luck is set to one log of a thousand, and shifting and stretching may find a few times that."""
+    rng = np.random.default_rng(0)
+    found = [found_in((0.98,), drawn((0.98,), rng, len(TIME), 2)) for _ in range(60)]
+    assert sum(map(bool, found)) <= 3
+
+
+def test_the_noise_of_a_misfit_does_not_know_what_happens_once():
+    look, believed = eventful_scene().look, eventful_scene().believed
+    left, mask = misfit(look, believed), fitted_rows(look)
+    found = precisions(look, left, mask)
+    pushed = (look.time > SHOVE[0]) & (look.time < SHOVE[1])
+    calm = left - np.where(pushed[:, None], left, 0.0)
+    for joint, (one, other) in enumerate(zip(found, precisions(look, calm, mask), strict=True)):
+        assert not one[~mask[:, joint]].count_nonzero()
+        ratio = one.diagonal()[mask[:, joint]] / other.diagonal()[mask[:, joint]]
+        assert np.all((ratio > 0.5) & (ratio < 2.0))
