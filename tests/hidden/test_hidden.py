@@ -48,6 +48,22 @@ def test_what_a_clipped_torque_leaves_is_no_push():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    "order",
+    [
+        Order("single", 13100240, "backlash"),  # on a joint whose rotor no fit tells from its link
+        Order("single", 13100191, "torque_filter_lag"),  # the base parameters take up most of it
+        Order("single", 13100057, "external_contact"),  # no larger than what slow noise does by itself
+    ],
+    ids=lambda order: order.cause,
+)
+def test_an_effect_that_was_out_of_sight_once_is_named_and_nothing_else(order):
+    score = scored(order)
+    assert [answer.exact for answer in score.answers] == [True]
+    assert score.extra == ()
+
+
+@pytest.mark.slow
 def test_two_effects_are_both_named():
     score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2"))
     assert [answer.named for answer in score.answers] == [True, True]

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, motor_inertias, named, shown, spread
+from core.diagnosis.causes.common import OwnJointCause, before_the_gear, motor_inertias, named, shown, spread
 from core.diagnosis.causes.sites import revolute_joints
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
@@ -71,8 +71,8 @@ class Backlash(OwnJointCause):
 
     def statement(self, solved: Solved) -> str:
         """Say how wide the gap is."""
-        found = named(self.quantities(solved))["half_width"]
+        found = named(self.quantities(solved))
         return (
             f"Joint {solved.site[0]}'s transmission has play: the link lags or leads its motor by "
-            f"{shown(found)}, on the side from which the load presses"
+            f"{shown(found['half_width'])}, on the side from which the load presses{before_the_gear(found)}"
         )

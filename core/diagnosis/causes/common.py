@@ -1,6 +1,6 @@
 """Share what most causes have in common, so that a cause's file holds only what is its own."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -98,6 +98,14 @@ def spread(low: float, high: float, count: int) -> list[float]:
 def named(quantities: Sequence[Quantity]) -> dict[str, Quantity]:
     """Look quantities up by name."""
     return {one.name: one for one in quantities}
+
+
+def before_the_gear(found: Mapping[str, Quantity]) -> str:
+    """Say what turns with a joint's motor, where that was searched for and is more than nothing."""
+    rotor = found.get("motor_inertia")
+    if rotor is None or rotor.value < 2.0 * rotor.standard_deviation:
+        return ""
+    return f"; of its inertia {shown(rotor)} turns with the motor, before the gear"
 
 
 def shown(quantity: Quantity) -> str:

@@ -3,11 +3,11 @@
 Where a fit cannot tell a rotor's inertia from its link's, this friction can: only the link's is transmitted.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, motor_inertias, named, shown
+from core.diagnosis.cause import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.common import OwnJointCause, before_the_gear, motor_inertias, named, shown
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -49,13 +49,5 @@ class FrictionLoadDependent(OwnJointCause):
         found, unit = named(self.quantities(solved)), solved.unit("N m")
         return (
             f"Joint {solved.site[0]}'s friction grows by {shown(found['load_coefficient'])} {unit} per "
-            f"{unit} of transmitted {'force' if solved.slides else 'torque'}{_rotor(found)}"
+            f"{unit} of transmitted {'force' if solved.slides else 'torque'}{before_the_gear(found)}"
         )
-
-
-def _rotor(found: Mapping[str, Quantity]) -> str:
-    """Say what turns with the motor, where that was searched for and is more than nothing."""
-    rotor = found.get("motor_inertia")
-    if rotor is None or rotor.value < 2.0 * rotor.standard_deviation:
-        return ""
-    return f"; of its inertia {shown(rotor)} turns with the motor, before the gear"

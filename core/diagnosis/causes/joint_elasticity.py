@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, motor_inertias, named, shown, spread
+from core.diagnosis.causes.common import OwnJointCause, before_the_gear, motor_inertias, named, shown, spread
 from core.diagnosis.look import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
@@ -81,5 +81,5 @@ class JointElasticity(OwnJointCause):
         found = named(self.quantities(solved))
         return (
             f"Joint {solved.site[0]}'s gear gives way under load: stiffness {shown(found['stiffness'])} "
-            "between the motor's encoder and the link"
+            f"between the motor's encoder and the link{before_the_gear(found)}"
         )
