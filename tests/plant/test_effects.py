@@ -119,6 +119,14 @@ def test_a_lag_follows_a_slow_torque_by_its_time_constant():
     assert near < 0.3 * far
 
 
+@pytest.mark.parametrize("time_constant", [0.0, 1e-4, 0.002, 0.02])
+def test_a_lag_is_late_on_a_ramp_by_its_time_constant_and_by_no_part_of_a_step(time_constant):
+    plain = world().signals(())
+    ramp = plain.with_torque(np.tile(plain.fine_time[:, None], (1, 3)))
+    late = TorqueFilterLag((1, 2, 3), time_constant).sense(ramp, np.random.default_rng(0))
+    np.testing.assert_allclose((ramp.torque - late.torque)[-1], time_constant, rtol=1e-6, atol=1e-12)
+
+
 def test_a_wrong_gain_a_drift_and_an_offset_are_logged_as_they_are_documented():
     ideal = world().signals(())
     gained = world().signals((TorqueGain((2,), 0.1),))

@@ -59,10 +59,13 @@ class TorqueFilterLag(Effect):
         return cls(all_joints(arm), 0.004)
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
-        """Filter at the simulation's rate, from a settled start."""
-        pole = np.exp(-1.0 / (STEPS_PER_SECOND * self.time_constant)) if self.time_constant > 0.0 else 0.0
-        start = pole * signals.fine_torque[:1]
-        slow, _ = signal.lfilter([1.0 - pole], [1.0, -pole], signals.fine_torque, axis=0, zi=start)
+        """Filter at the simulation's rate what runs straight between its steps, from a settled start."""
+        if self.time_constant <= 0.0:
+            return signals
+        filtering = ([1.0], [self.time_constant, 1.0])
+        ahead, back, _ = signal.cont2discrete(filtering, 1.0 / STEPS_PER_SECOND, method="foh")
+        start = signal.lfilter_zi(ahead[0], back)[:, None] * signals.fine_torque[:1]
+        slow, _ = signal.lfilter(ahead[0], back, signals.fine_torque, axis=0, zi=start)
         return signals.with_torque(slow)
 
 
