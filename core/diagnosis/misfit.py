@@ -6,10 +6,13 @@ A first look only settles where to search; what counts is judged on the compleme
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, JointSeries, JointVector, UsableRows, Vector
+from core.arrays import Indices, JointSeries, UsableRows, Vector
 from core.diagnosis.look import Look
 from core.diagnosis.noise import learn_noise, places
 from core.dynamics.prediction import Prediction
+
+MIDDLE = 1.4826
+"""Deviation of normal numbers over their median size."""
 
 
 def misfit(look: Look, believed: Prediction) -> JointSeries:
@@ -29,7 +32,8 @@ def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_arr
     """Give, per joint, the inverse covariance of a misfit's noise over the marked rows; zero elsewhere.
 
     The noise is learned from the quieter half: what happens once in a while is not to be learned as noise.
-    Quiet is what brings little that is new, since a slow noise is large for a while by itself.
+    Quiet is what brings little that is new, since a slow noise is large for a while by itself. How much is
+    new in the middle of all rows gives its size: rows that were chosen for being quiet are quieter than it.
     """
     out = []
     for joint in range(look.joints):
@@ -39,9 +43,14 @@ def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_arr
         quiet = rows[_quiet(look, new, rows)]
         noise = learn_noise(left[quiet, joint], places(look.follows(quiet)))
         white = noise.whitening(place)
-        white = csr_array((white.data, rows[white.indices], white.indptr), (len(rows), len(left)))
+        size = MIDDLE * _middle(noise.innovations(left[rows, joint], place))
+        white = csr_array((white.data / size, rows[white.indices], white.indptr), (len(rows), len(left)))
         out.append((white.T @ white).tocsr())
     return tuple(out)
+
+
+def _middle(values: Vector) -> float:
+    return float(np.median(np.abs(values))) if len(values) else 1.0
 
 
 def _quiet(look: Look, left: Vector, rows: Indices) -> UsableRows:
@@ -52,9 +61,3 @@ def _quiet(look: Look, left: Vector, rows: Indices) -> UsableRows:
     counts = np.maximum(np.bincount(block), 1)
     power = np.bincount(block, left**2) / counts
     return np.asarray(power[block] <= np.median(power[np.unique(block)]))
-
-
-def size_of(left: JointSeries, mask: np.ndarray) -> JointVector:
-    """Give the RMS of the marked rows per joint, never zero."""
-    counts = np.maximum(mask.sum(axis=0), 1)
-    return np.asarray(np.sqrt(np.maximum((left**2 * mask).sum(axis=0) / counts, 1e-24)))

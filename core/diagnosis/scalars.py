@@ -8,18 +8,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import root_scalar
+from scipy.optimize import minimize_scalar
 
 from core.arrays import Vector
 from core.diagnosis.bench import Bench
 from core.diagnosis.grid import between, neighbours
-from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
+from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed, likeliness
 from core.diagnosis.score import Score
 
-YIELDINGS = 4
-"""Steps by the secant towards columns that yield the size which they are built for,"""
+YIELDINGS = 10
+"""Sizes that columns are built for at most, before one yields itself"""
 SAME_SIZE = 0.01
-"""within this share of it."""
+"""within this share."""
 NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
@@ -35,26 +35,24 @@ def refined(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
 
 
 def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-    """Build the columns where they yield the size that they are built for."""
+    """Build the columns for the size at which they are likeliest to yield it."""
 
-    def off(size: float) -> float:
-        (found,) = bench.scored(under, [_at(candidate, name, size)])
-        return float(found.values[0]) - size
+    def unlikely(size: float) -> float:
+        trial = _at(candidate, name, size)
+        (found,) = bench.scored(under, [trial])
+        return -likeliness(trial, found)
 
-    here = candidate.scalars[name]
-    there = here + off(here)
-    if there == here:
-        return candidate
-    found = root_scalar(off, x0=here, x1=there, method="secant", rtol=SAME_SIZE, maxiter=YIELDINGS)
-    return _at(candidate, name, float(found.root))
+    here, ends = candidate.scalars[name], _bracket(bench, candidate, name)
+    within = SAME_SIZE * abs(here)
+    found = minimize_scalar(
+        unlikely, bounds=ends, method="bounded", options={"maxiter": YIELDINGS, "xatol": within}
+    )
+    return _at(candidate, name, float(found.x))
 
 
 def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-    points = sorted({one.scalars[name] for one in _grid(bench, candidate)})
     here = candidate.scalars[name]
-    # A scalar that is settled again and again may not wander off: it ends one step beyond its grid.
-    ends = neighbours(points, points[0])[0], neighbours(points, points[-1])[1]
-    low, high = np.clip(neighbours(points, here), *ends)
+    low, high = _bracket(bench, candidate, name)
     seen: list[tuple[float, float]] = []
     for _ in range(2):
         values = between(low, high)
@@ -73,6 +71,19 @@ def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -
         deviations={**candidate.deviations, name: max(deviation, _reach(seen, here))},
         slopes={**candidate.slopes, name: slope},
     )
+
+
+def _bracket(bench: Bench, candidate: Candidate, name: str) -> tuple[float, float]:
+    """Give the grid's points on either side of a scalar.
+
+    What is settled again and again may not wander off: it ends one step beyond the grid.
+    """
+    here = candidate.scalars[name]
+    # What is believed may have changed since it was chosen, and the grid with it.
+    points = sorted({one.scalars.get(name, here) for one in _grid(bench, candidate)})
+    ends = neighbours(points, points[0])[0], neighbours(points, points[-1])[1]
+    low, high = np.clip(neighbours(points, here), *ends)
+    return float(low), float(high)
 
 
 def _spread(

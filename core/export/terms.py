@@ -52,8 +52,9 @@ def term_of(kind: str, values: Mapping[str, Any], beliefs: Sequence[Prediction])
     known = known_terms()
     wanted = dict(_own_fields(known[kind])) if kind in known else {}
     if kind not in known or set(values) != set(wanted):
+        told = "is made of other fields" if kind in known else "is not known"
         raise RobotError(
-            f"the model names a torque term that is not known: {kind[:80]}",
+            f"the model names a torque term that {told}: {kind[:80]}",
             evidence={"fields": list(values)[:10], "wanted": list(wanted), "known": sorted(known)},
             remedy="read the file with the version that wrote it",
         )

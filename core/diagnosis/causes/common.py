@@ -13,8 +13,13 @@ from core.robot.model import RobotModel
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""
-MOTOR_SHARES = (0.0, 0.45, 0.9)
-"""Of the least inertia that a joint has in the motion, what may turn with its motor."""
+MOTOR_SHARES = (0.0, 0.5, 0.7)
+"""Of the least inertia that a joint has in the motion, what may turn with its motor.
+
+One that is refined ends a step farther, at 0.98.
+"""
+ABOUT = 3.0
+"""How many times the size that its columns are built for a size may seem, or be taken for."""
 
 
 @dataclass(frozen=True)
@@ -84,10 +89,16 @@ class OwnJointCause:
 
 def motor_inertias(look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
     """Scan the inertia that turns with a joint's motor, where the fit cannot tell it from the link's."""
-    inertia = believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1]
-    if believed.rotor(site[0]) != 0.0 or inertia.min() <= 0.0:
+    if believed.rotor(site[0]) != 0.0:
         return NOTHING
-    return [{"motor_inertia": share * float(inertia.min())} for share in MOTOR_SHARES]
+    least = float(believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1].min())
+    return [{"motor_inertia": share * least} for share in MOTOR_SHARES] if least > 0.0 else NOTHING
+
+
+def yields_itself(solved: Solved) -> bool:
+    """Tell whether columns yield about the size that they are built for."""
+    ratio = solved.values[0] / (solved.scalars["around"] or 1e-300)
+    return bool(1.0 / ABOUT < ratio < ABOUT)
 
 
 def spread(low: float, high: float, count: int) -> list[float]:
@@ -103,7 +114,7 @@ def named(quantities: Sequence[Quantity]) -> dict[str, Quantity]:
 def before_the_gear(found: Mapping[str, Quantity]) -> str:
     """Say what turns with a joint's motor, where that was searched for and is more than nothing."""
     rotor = found.get("motor_inertia")
-    if rotor is None or rotor.value < 2.0 * rotor.standard_deviation:
+    if rotor is None or rotor.value <= 2.0 * rotor.standard_deviation:
         return ""
     return f"; of its inertia {shown(rotor)} turns with the motor, before the gear"
 

@@ -52,7 +52,7 @@ def find_events(
             break
         span = search.refined(spans[int(np.argmax(worths))], found)
         worth = search.worth(span)
-        if worth < LEAST_SHARE * best or log_chance(worth, freedom) > hurdle:
+        if worth < LEAST_SHARE * best or not log_chance(worth, freedom) < hurdle:
             break
         best = max(best, worth)
         found.append(span)

@@ -15,8 +15,11 @@ from tests.core.diagnosis.waves import wave_cause, wave_effect
 
 QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
+HELD_OUT_FROM = 16.0
+"""When the last fifth of the log begins, s."""
 STRONG, WEAK = wave_cause("strong", {QUICK: 1.0}), wave_cause("weak", {QUICKER: 1.0})
 STOPGAP = wave_cause("stopgap", {QUICKER: 1.0, SLOW: 0.8})
+ENDING = wave_cause("ending", {QUICKER: 1.0, SLOW: 2.0})
 
 
 @cache
@@ -47,6 +50,26 @@ def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record(
     assert names == ["strong"]
     assert [(one.action, one.candidate.cause.id) for one in selection.steps] == [("dropped", "stopgap")]
     assert len(standings) == 1
+
+
+@cache
+def a_wave_beside_one_that_ends() -> tuple[Bench, Hypothesis]:
+    """Add to the weak wave what its rival has besides, but only on the rows that are fitted."""
+
+    def effect(state):
+        seen = (state.time < HELD_OUT_FROM)[:, None]
+        return wave_effect({QUICK: 0.6, QUICKER: 0.2})(state) + seen * wave_effect({SLOW: 0.4})(state)
+
+    bench = bench_of(measured_arm(effect), (STRONG, WEAK, ENDING))
+    return bench, nothing_found(bench)
+
+
+def test_a_rival_that_does_not_hold_on_unseen_rows_refutes_nothing():
+    names, _, standings = weighed_from(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
+    assert names == ["strong", "weak"]
+    (told,) = (one for one in standings[1].refuted if one.cause == "ending")
+    assert told.statistic > standings[1].statistic + 6.0
+    assert "no fit has seen" in told.why
 
 
 def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():

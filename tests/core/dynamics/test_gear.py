@@ -8,21 +8,35 @@ import pytest
 from core.dynamics.gear import Gear
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
+from core.dynamics.terms.backlash import Backlash
+from core.dynamics.terms.elasticity import Elasticity
+from core.dynamics.terms.load_friction import LoadFriction
 from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import skew_arm
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 
 ROTOR = 0.7
+TERMS = {
+    "load_friction": lambda believed, rotor: LoadFriction(1, believed, rotor),
+    "spring": lambda believed, rotor: Elasticity(1, believed, 10.0, 20.0, 0.1, rotor),
+    "play": lambda believed, rotor: Backlash(1, believed, 2e-3, 40.0, rotor),
+}
+
+
+def believed_apart_and_joined():
+    """Predict by the link as it is, and by one that a rotor's inertia was joined to."""
+    model = standard_model(skew_arm())
+    apart = true_parameters(model)
+    joined = apart.copy()
+    joined[[one.name for one in model.parameters].index("ZZ1")] += ROTOR
+    return Prediction(model, apart), Prediction(model, joined)
 
 
 @pytest.mark.parametrize("which", ["load", "inertia", "change"])
 def test_a_rotor_that_was_joined_to_its_link_is_taken_out_of_the_load_again(which):
     """The first link's moment about its axis and the rotor's inertia are one number to any fit."""
-    model, state = standard_model(skew_arm()), swinging(3, 2.0)
-    apart = true_parameters(model)
-    joined = apart.copy()
-    joined[[one.name for one in model.parameters].index("ZZ1")] += ROTOR
+    state = swinging(3, 2.0)
     shift = MotionState(*(np.sin(np.outer(state.time, [rate])) for rate in (1.0, 2.0, 3.0)))
 
     def seen(gear):
@@ -32,6 +46,17 @@ def test_a_rotor_that_was_joined_to_its_link_is_taken_out_of_the_load_again(whic
             "change": lambda: gear.change(state, shift),
         }[which]()
 
-    link, both = Gear(Prediction(model, apart), 1), Gear(Prediction(model, joined), 1)
+    link, both = (Gear(one, 1) for one in believed_apart_and_joined())
     np.testing.assert_allclose(seen(replace(both, motor_inertia=ROTOR)), seen(link), rtol=1e-9, atol=1e-9)
     assert np.abs(seen(both) - seen(link)).max() > 0.1 * ROTOR
+
+
+@pytest.mark.parametrize("term", TERMS.values(), ids=TERMS)
+def test_what_acts_on_the_load_does_not_feel_a_rotor_that_is_known(term):
+    state, (apart, joined) = swinging(3, 2.0), believed_apart_and_joined()
+    right, mended, wrong = (
+        term(*one).series(skew_arm(), state) for one in ((apart, 0.0), (joined, ROTOR), (joined, 0.0))
+    )
+    size = np.abs(right).max()
+    np.testing.assert_allclose(mended, right, atol=1e-6 * size)
+    assert np.abs(wrong - right).max() > 0.01 * size

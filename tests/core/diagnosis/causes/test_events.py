@@ -6,6 +6,7 @@ from scipy.sparse import csr_array
 
 from core.diagnosis.causes.events import find_events
 from core.diagnosis.misfit import fitted_rows, misfit, precisions
+from core.diagnosis.noise import places
 from core.dynamics.terms.contact import swell
 from tests.core.diagnosis.processes import (
     SLOW,
@@ -57,6 +58,18 @@ def test_noise_that_is_large_for_a_while_by_itself_is_hardly_ever_an_event():
     rng = np.random.default_rng(0)
     found = [found_in((0.98,), drawn((0.98,), rng, len(TIME), 2)) for _ in range(60)]
     assert sum(map(bool, found)) <= 3
+
+
+def test_slow_noise_is_not_taken_for_quick_noise_because_some_of_it_is_small():
+    look, mask = eventful_scene().look, fitted_rows(eventful_scene().look)
+    left = drawn((0.98,), np.random.default_rng(1), len(look.time), look.joints)
+    for joint, found in enumerate(precisions(look, left, mask)):
+        rows = np.flatnonzero(mask[:, joint])
+        white = exact_noise((0.98,)).whitening(places(look.follows(rows)))
+        for span in ((1.0, 4.0), (5.0, 8.0)):
+            shape = swell(look.time, span)
+            exact = float(np.sum((white @ shape[rows]) ** 2))
+            assert 0.4 * exact < shape @ found @ shape < 2.5 * exact
 
 
 def test_the_noise_of_a_misfit_does_not_know_what_happens_once():

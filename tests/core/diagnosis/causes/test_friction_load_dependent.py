@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 from core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
+from core.diagnosis.grid import neighbours
+from core.diagnosis.hypothesis import Candidate
+from core.diagnosis.scalars import refined
 from core.diagnosis.verdict import diagnose
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
-from tests.core.diagnosis.scenes import measured_arm, skew_arm
+from tests.core.diagnosis.made_up import nothing_found
+from tests.core.diagnosis.scenes import bench_of, measured_arm, skew_arm
 from tests.core.diagnosis.test_verdict import asked
 from tests.core.estimate.worlds import true_parameters
 
@@ -32,6 +36,21 @@ def test_friction_tells_the_rotor_that_no_fit_tells_from_its_link():
     assert abs(rotor.value - ROTOR) < 3.0 * rotor.standard_deviation
     assert rotor.standard_deviation < 0.2 * ROTOR
     assert "turns with the motor" in found.statement
+
+
+def test_a_rotor_is_never_heavier_than_all_that_turns():
+    scene = measured_arm()
+    shares = [one["motor_inertia"] for one in FrictionLoadDependent().grid(scene.look, scene.believed, (1,))]
+    least = scene.believed.slopes(scene.look.state, 0)[2][:, 0].min()
+    farthest = neighbours(shares, shares[-1])[1]
+    assert 0.9 * least < farthest < least
+
+
+def test_a_rotor_that_was_searched_for_once_is_settled_where_no_grid_has_it_any_more():
+    bench = bench_of(measured_arm(), (FrictionLoadDependent(),))
+    none = nothing_found(bench)
+    found = refined(bench, none, Candidate(FrictionLoadDependent(), (3,), {"motor_inertia": 0.1}, 1.0))
+    assert 0.05 <= found.scalars["motor_inertia"] <= 0.2
 
 
 @pytest.mark.parametrize(("joint", "points"), [(1, 3), (3, 1)], ids=["unknown", "known"])
