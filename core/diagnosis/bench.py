@@ -13,7 +13,7 @@ from core.arrays import JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
 from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, whitened
-from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allowed, likeliness
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allowed
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Score, score
@@ -185,12 +185,15 @@ class Bench:
         """
         asked = self._candidates if candidates is None else tuple(candidates)
         found = self.scored(under, asked)
-        best: dict[object, tuple[tuple[bool, float], Scored]] = {}
+        best: dict[object, tuple[bool, Scored]] = {}
         for one, judged in zip(asked, found, strict=True):
             scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
-            rank = allowed(one, judged), likeliness(one, judged)
-            if one.key not in best or rank > best[one.key][0]:
-                best[one.key] = rank, scored
+            possible = allowed(one, judged)
+            if one.key not in best or (possible, scored.statistic) > (
+                best[one.key][0],
+                best[one.key][1].statistic,
+            ):
+                best[one.key] = possible, scored
         return sorted((one for _, one in best.values()), key=lambda one: one.log_p)
 
     def leaves_too_much(self, under: Hypothesis) -> bool:

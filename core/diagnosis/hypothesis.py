@@ -130,12 +130,6 @@ class Hypothesis:
         return {one.key: index for index, one in enumerate(self.members)}
 
 
-def likeliness(candidate: Candidate, judged: Score) -> float:
-    """Give the rise of twice the log-likelihood where scalars that are the size itself are the size found."""
-    off = [float(judged.values[0]) - candidate.scalars[name] for name in candidate.cause.yielded]
-    return judged.statistic - sum(one**2 for one in off) / max(float(judged.covariance[0, 0]), 1e-300)
-
-
 def allowed(candidate: Candidate, judged: Score) -> bool:
     """Tell whether nature allows what a score says of a candidate."""
     solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})

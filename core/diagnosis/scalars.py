@@ -8,18 +8,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+from scipy.optimize import root_scalar
 
 from core.arrays import Vector
 from core.diagnosis.bench import Bench
 from core.diagnosis.grid import between, neighbours
-from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed, likeliness
+from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
 from core.diagnosis.score import Score
 
-YIELDINGS = 10
-"""Sizes that columns are built for at most, before one yields itself"""
+YIELDINGS = 4
+"""Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
-"""within this share."""
+"""within this share of it."""
 NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
@@ -35,24 +35,23 @@ def refined(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
 
 
 def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-    """Build the columns for the size at which they are likeliest to yield it."""
+    """Build the columns where they yield the size that they are built for."""
 
-    def unlikely(size: float) -> float:
-        trial = _at(candidate, name, size)
-        (found,) = bench.scored(under, [trial])
-        return -likeliness(trial, found)
+    def off(size: float) -> float:
+        (found,) = bench.scored(under, [_at(candidate, name, size)])
+        return float(found.values[0]) - size
 
-    here, ends = candidate.scalars[name], _bracket(bench, candidate, name)
-    within = SAME_SIZE * abs(here)
-    found = minimize_scalar(
-        unlikely, bounds=ends, method="bounded", options={"maxiter": YIELDINGS, "xatol": within}
-    )
-    return _at(candidate, name, float(found.x))
+    here = candidate.scalars[name]
+    there = here + off(here)
+    if there == here:
+        return candidate
+    found = root_scalar(off, x0=here, x1=there, method="secant", rtol=SAME_SIZE, maxiter=YIELDINGS)
+    return _at(candidate, name, float(found.root))
 
 
 def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-    here = candidate.scalars[name]
-    low, high = _bracket(bench, candidate, name)
+    here, (points, ends) = candidate.scalars[name], _grid(bench, candidate, name)
+    low, high = np.clip(neighbours(points, here), *ends)
     seen: list[tuple[float, float]] = []
     for _ in range(2):
         values = between(low, high)
@@ -73,17 +72,16 @@ def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -
     )
 
 
-def _bracket(bench: Bench, candidate: Candidate, name: str) -> tuple[float, float]:
-    """Give the grid's points on either side of a scalar.
+def _grid(bench: Bench, candidate: Candidate, name: str) -> tuple[list[float], tuple[float, float]]:
+    """Give the points that a scalar was scanned at, and its ends, one step beyond them.
 
-    What is settled again and again may not wander off: it ends one step beyond the grid.
+    What is settled again and again may not wander off.
     """
-    here = candidate.scalars[name]
+    here, same = candidate.scalars[name], (candidate.cause, candidate.site)
     # What is believed may have changed since it was chosen, and the grid with it.
-    points = sorted({one.scalars.get(name, here) for one in _grid(bench, candidate)})
-    ends = neighbours(points, points[0])[0], neighbours(points, points[-1])[1]
-    low, high = np.clip(neighbours(points, here), *ends)
-    return float(low), float(high)
+    scanned = [one.scalars.get(name, here) for one in bench.candidates if (one.cause, one.site) == same]
+    points = sorted({*scanned} or {here})
+    return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 
 
 def _spread(
@@ -114,11 +112,6 @@ def _beside(bench: Bench, under: Hypothesis, candidate: Candidate, name: str, st
 
 def _at(candidate: Candidate, name: str, value: float) -> Candidate:
     return replace(candidate, scalars={**candidate.scalars, name: value})
-
-
-def _grid(bench: Bench, candidate: Candidate) -> list[Candidate]:
-    same = (candidate.cause, candidate.site)
-    return [one for one in bench.candidates if (one.cause, one.site) == same] or [candidate]
 
 
 def _reach(seen: Sequence[tuple[float, float]], here: float) -> float:

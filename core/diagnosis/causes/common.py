@@ -18,8 +18,6 @@ MOTOR_SHARES = (0.0, 0.5, 0.7)
 
 One that is refined ends a step farther, at 0.98.
 """
-ABOUT = 3.0
-"""How many times the size that its columns are built for a size may seem, or be taken for."""
 
 
 @dataclass(frozen=True)
@@ -93,12 +91,6 @@ def motor_inertias(look: Look, believed: Prediction, site: Site) -> Sequence[Sca
         return NOTHING
     least = float(believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1].min())
     return [{"motor_inertia": share * least} for share in MOTOR_SHARES] if least > 0.0 else NOTHING
-
-
-def yields_itself(solved: Solved) -> bool:
-    """Tell whether columns yield about the size that they are built for."""
-    ratio = solved.values[0] / (solved.scalars["around"] or 1e-300)
-    return bool(1.0 / ABOUT < ratio < ABOUT)
 
 
 def spread(low: float, high: float, count: int) -> list[float]:

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, rounded, yields_itself
+from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.diagnosis.mending import MendsLog, with_torque
 from core.dynamics.prediction import Prediction
@@ -17,7 +17,7 @@ from core.log.model import LogRows
 from core.robot.model import RobotModel
 
 LONGEST_DELAY = 0.05
-STARTS = (-0.03, -0.008, -0.002, 0.002, 0.008, 0.03)
+STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ class TimeDelay(OwnJointCause, MendsLog):
         return Delay(0, believed, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
 
     def possible(self, solved: Solved) -> bool:
-        """Want a delay that leaves a motion in the torque, and about the one that its column is built for."""
-        return bool(abs(solved.values[0]) < LONGEST_DELAY) and yields_itself(solved)
+        """Want a delay that a first-order column can stand for."""
+        return bool(abs(solved.values[0]) < LONGEST_DELAY)
 
     def statement(self, solved: Solved) -> str:
         """Say how late, in milliseconds."""

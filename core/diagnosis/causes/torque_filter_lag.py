@@ -9,7 +9,7 @@ from scipy.signal import oaconvolve
 
 from core.arrays import InstantSeries, JointSeries, Samples
 from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, rounded, yields_itself
+from core.diagnosis.causes.common import OwnJointCause, named, rounded
 from core.diagnosis.look import Look
 from core.diagnosis.mending import MendsLog, with_torque
 from core.dynamics.prediction import Prediction
@@ -71,8 +71,8 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
         return FilterLag(0, believed, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
 
     def possible(self, solved: Solved) -> bool:
-        """Want a filter that lags, by about the time that its column is built for."""
-        return bool(0.0 < solved.values[0] < LONGEST) and yields_itself(solved)
+        """Want a filter that lags."""
+        return bool(0.0 < solved.values[0] < LONGEST)
 
     def statement(self, solved: Solved) -> str:
         """Say with which time constant."""
