@@ -27,6 +27,8 @@ _FINE, _COARSE = 1e-9, 1e-7
 
 Both are relative to an objective near one half, so either is far below what noise does to it.
 """
+_BOLD, _CAREFUL = 0.99, 0.9
+"""Largest share of the way to a cone's edge that a step goes; shorter ones are rounded less."""
 _SHORT_OF_ACCURACY = ("AlmostSolved", "InsufficientProgress", "NumericalError")
 _KINDS = {
     "PrimalInfeasible": "infeasible",
@@ -75,9 +77,9 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     quadratic = sparse.diags(np.concatenate([pull, np.ones(equations)]), format="csc")
     linear = np.concatenate([-pull * programme.prior.centre / programme.prior.scale, np.zeros(equations)])
     problem = (quadratic, linear, sparse.csc_matrix(np.vstack(cones.rows)), np.concatenate(cones.right))
-    answer = clarabel.DefaultSolver(*problem, cones.kinds, _settings(_FINE)).solve()
+    answer = clarabel.DefaultSolver(*problem, cones.kinds, _settings(_FINE, _BOLD)).solve()
     if str(answer.status) in _SHORT_OF_ACCURACY:
-        answer = clarabel.DefaultSolver(*problem, cones.kinds, _settings(_COARSE)).solve()
+        answer = clarabel.DefaultSolver(*problem, cones.kinds, _settings(_COARSE, _CAREFUL)).solve()
     status = str(answer.status)
     if status != "Solved":
         raise refusal(
@@ -87,10 +89,11 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     return Solution(standard, "optimal", int(answer.iterations), "clarabel")
 
 
-def _settings(tolerance: float) -> object:
+def _settings(tolerance: float, step: float) -> object:
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+    settings.max_step_fraction = step
     settings.max_threads = 1
     return settings
 

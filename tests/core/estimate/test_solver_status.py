@@ -95,12 +95,14 @@ def test_an_infeasible_problem_and_an_inaccurate_one_have_different_remedies():
     assert "motion" in remedies["inaccurate"]
 
 
-def test_where_rounding_stops_the_solver_early_a_coarser_accuracy_is_asked_for_before_giving_up(monkeypatch):
+def test_where_rounding_stops_the_solver_less_is_asked_for_in_shorter_steps_before_giving_up(
+    monkeypatch,
+):
     asked = []
 
     class Solver:
         def __init__(self, quadratic: object, *rest: object) -> None:
-            asked.append(rest[-1].tol_gap_rel)
+            asked.append((rest[-1].tol_gap_rel, rest[-1].max_step_fraction))
             self.size = quadratic.shape[0]
 
         def solve(self) -> _Answer:
@@ -108,7 +110,7 @@ def test_where_rounding_stops_the_solver_early_a_coarser_accuracy_is_asked_for_b
 
     monkeypatch.setattr(with_clarabel.clarabel, "DefaultSolver", Solver)
     assert solve_with_clarabel(_programme()).status == "optimal"
-    assert asked == [1e-9, 1e-7]
+    assert asked == [(1e-9, 0.99), (1e-7, 0.9)]
 
 
 def test_an_inaccurate_solution_is_refused_by_cvxpy_as_ours_and_not_by_a_warning(monkeypatch):
