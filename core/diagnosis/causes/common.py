@@ -13,7 +13,7 @@ from core.robot.model import RobotModel
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""
-MOTOR_SHARES = (0.0, 0.5, 0.7)
+MOTOR_SHARES = (0.0, 0.45, 0.9, 0.94)
 """Of the least inertia that a joint has in the motion, what may turn with its motor.
 
 One that is refined ends a step farther, at 0.98.

@@ -31,7 +31,7 @@ def file_of(term: Term) -> str:
 def cures_by_cause(robot: RobotModel | None = None) -> tuple[tuple[Cause, Term], ...]:
     """Give every cause with its term at one site, without and, where they matter, with temperatures.
 
-    What is scanned stands at the beginning of its grid, after a quarter, in the middle and at the end. The
+    What is scanned stands at the beginning of its grid, after an eighth, in the middle and at the end. The
     bodies are those of the scene's arm, on another robot where one is given.
     """
     scene = eventful_scene()
@@ -47,7 +47,7 @@ def cures_by_cause(robot: RobotModel | None = None) -> tuple[tuple[Cause, Term],
         if look is scene.look or cause.id == "friction_temperature"
         for site in [cause.sites(look, own)[-1]]
         for grid in [cause.grid(look, own, site)]
-        for place in sorted({0, len(grid) // 4, len(grid) // 2, len(grid) - 1})
+        for place in sorted({0, len(grid) // 8, len(grid) // 2, len(grid) - 1})
         for scalars in [grid[place]]
     )
 

@@ -53,7 +53,7 @@ def test_a_rotor_that_was_searched_for_once_is_settled_where_no_grid_has_it_any_
     assert 0.05 <= found.scalars["motor_inertia"] <= 0.2
 
 
-@pytest.mark.parametrize(("joint", "points"), [(1, 3), (3, 1)], ids=["unknown", "known"])
+@pytest.mark.parametrize(("joint", "points"), [(1, 4), (3, 1)], ids=["unknown", "known"])
 def test_a_rotor_is_searched_for_only_where_it_is_one_with_the_link(joint, points):
     scene = measured_arm()
     grid = FrictionLoadDependent().grid(scene.look, scene.believed, (joint,))
