@@ -50,7 +50,8 @@ def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_arr
 
 
 def _middle(values: Vector) -> float:
-    return float(np.median(np.abs(values))) if len(values) else 1.0
+    """Give the median size, one where there is none: a dead channel has no noise."""
+    return float(np.median(np.abs(values))) or 1.0 if len(values) else 1.0
 
 
 def _quiet(look: Look, left: Vector, rows: Indices) -> UsableRows:

@@ -72,6 +72,13 @@ def test_slow_noise_is_not_taken_for_quick_noise_because_some_of_it_is_small():
             assert 0.4 * exact < shape @ found @ shape < 2.5 * exact
 
 
+def test_a_channel_that_is_dead_leaves_finite_weights():
+    look, mask = eventful_scene().look, fitted_rows(eventful_scene().look)
+    left = np.random.default_rng(2).normal(size=look.torque.shape)
+    left[:, 1] = 0.0
+    assert all(np.isfinite(one.data).all() for one in precisions(look, left, mask))
+
+
 def test_the_noise_of_a_misfit_does_not_know_what_happens_once():
     look, believed = eventful_scene().look, eventful_scene().believed
     left, mask = misfit(look, believed), fitted_rows(look)
