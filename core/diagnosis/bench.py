@@ -76,7 +76,7 @@ class Bench:
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.fit.values[: len(self.plan.columns)]
         look = self._without_lasting(found)
-        self.believed = Prediction(self.plan.model, standard, inverse_dynamics)
+        self.believed = self._joined_by(found, Prediction(self.plan.model, standard, inverse_dynamics))
         self._believing = {}
         self._candidates = tuple(
             Candidate(cause, site, scalars, cause.trials(grid, scalars))
@@ -85,6 +85,25 @@ class Bench:
             for grid in [tuple(cause.grid(look, self.believed, site))]
             for scalars in grid
         )
+
+    def _joined_by(self, found: Hypothesis, believed: Prediction) -> Prediction:
+        """Give a prediction that knows what joined the model: first what acts in the robot, then its scales.
+
+        What is late is late after that, and is not part of it.
+        """
+        acting, scaling = [], []
+        for index, one in enumerate(found.members):
+            values = found.fit.values[found.columns_of(index)]
+            term = one.cause.term(self.look, believed, one.site, one.scalars)
+            if not term.channel:
+                acting.append((term, values))
+            elif not one.cause.yielded:
+                scaling.append((one, values))
+        acted = replace(believed, joined=tuple(acting))
+        scaled = [
+            (one.cause.term(self.look, acted, one.site, one.scalars), values) for one, values in scaling
+        ]
+        return replace(acted, joined=(*acted.joined, *scaled))
 
     def remembered(self) -> Callable[[], None]:
         """Give what brings back what is believed now, after something else was."""

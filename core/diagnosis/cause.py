@@ -140,8 +140,13 @@ class Cause(Protocol):
         ...
 
     @property
-    def settled(self) -> tuple[str, ...]:
+    def unrefined(self) -> tuple[str, ...]:
         """List scalars that are taken from the grid as they are (a side, a sense), not refined."""
+        ...
+
+    @property
+    def sharp(self) -> tuple[str, ...]:
+        """List scalars, scanned in even steps, whose likelihood has narrow peaks: the instant of an event."""
         ...
 
     @property

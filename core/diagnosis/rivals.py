@@ -89,7 +89,9 @@ def weighed(
         least = min(weak, key=lambda index: found[index].statistic)
         lost.add(found[least].member.key)
         step = Step("dropped", found[least].member, -found[least].statistic)
-        selection = replace(selection, chosen=found[least].without, steps=(*selection.steps, step))
+        bench.believe(found[least].without)
+        kept = bench.tried(found[least].without.members, found[least].without)
+        selection = replace(selection, chosen=kept, steps=(*selection.steps, step))
 
 
 def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) -> bool:

@@ -6,13 +6,14 @@ variable projection. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from scipy.optimize import root_scalar
 
 from core.arrays import Vector
 from core.diagnosis.bench import Bench
-from core.diagnosis.grid import between, neighbours
+from core.diagnosis.grid import between, closely, neighbours
 from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
 from core.diagnosis.score import Score
 
@@ -24,19 +25,27 @@ NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
 
-def refined(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
-    """Settle a candidate's scalars between its grid points, on top of a hypothesis."""
+def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, close: bool = False) -> Candidate:
+    """Settle a candidate's scalars between its grid points, on top of a hypothesis.
+
+    Parameters
+    ----------
+    close
+        Whether to look closely for narrow peaks, where the cause has them.
+    """
     for name in candidate.scalars:
         if name in candidate.cause.yielded:
             candidate = _yielding(bench, under, candidate, name)
-        elif name not in candidate.cause.settled:
-            candidate = _refined(bench, under, candidate, name)
+        elif name not in candidate.cause.unrefined:
+            sharp = close and name in candidate.cause.sharp
+            candidate = _refined(bench, under, candidate, name, sharp=sharp)
     return candidate
 
 
 def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
     """Build the columns where they yield the size that they are built for."""
 
+    @cache
     def off(size: float) -> float:
         (found,) = bench.scored(under, [_at(candidate, name, size)])
         return float(found.values[0]) - size
@@ -49,12 +58,12 @@ def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) 
     return _at(candidate, name, float(found.root))
 
 
-def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str, *, sharp: bool) -> Candidate:
     here, (points, ends) = candidate.scalars[name], _grid(bench, candidate, name)
     low, high = np.clip(neighbours(points, here), *ends)
     seen: list[tuple[float, float]] = []
-    for _ in range(2):
-        values = between(low, high)
+    for turn in range(2):
+        values = closely(points, here) if sharp and not turn else between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
         found = bench.scored(under, trials)
         ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]

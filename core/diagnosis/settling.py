@@ -52,5 +52,5 @@ def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     member, before = now.members[-1], bench.beneath(now)
     same = [one for one in bench.candidates if one.key == member.key]
     found = bench.scanned(before, [*same, member])[0]
-    moved = bench.tried((*before.members, refined(bench, before, found.candidate)), now)
+    moved = bench.tried((*before.members, refined(bench, before, found.candidate, close=True)), now)
     return moved if moved.possible or not now.possible else now

@@ -38,7 +38,7 @@ class Unlisted(OwnJointCause):
     title = "Something follows a pattern that no listed cause has"
     units = ()
     coordinate = "time"
-    settled = ("pattern", "number_0", "number_1", "number_2")
+    unrefined = ("pattern", "number_0", "number_1", "number_2")
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """List all patterns, numbers after their place."""

@@ -44,28 +44,42 @@ class Prediction:
         One value per parameter of the model.
     newton_euler
         How to compute the torque that moves the links: the plain recursion unless a faster one is handed in.
+    joined
+        Terms that joined the model, with their parameters. A torque channel scales and delays theirs like all
+        other torque; what they are made of is the model's prediction alone.
     """
 
     model: DynamicModel
     standard: Parameters
     newton_euler: InverseDynamics = inverse_dynamics
+    joined: tuple[tuple[Term, Weights], ...] = ()
     _loads: WeakKeyDictionary[MotionState, JointSeries] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
     _torques: WeakKeyDictionary[MotionState, JointSeries] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
-
+    _sums: WeakKeyDictionary[MotionState, dict[bool, JointSeries]] = field(
+        default_factory=WeakKeyDictionary, init=False, repr=False
+    )
     _slopes: WeakKeyDictionary[MotionState, dict[int, Slopes]] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
 
     def torque(self, state: MotionState) -> JointSeries:
-        """Give the torque of all terms, N m or N."""
+        """Give the torque of all the model's terms, N m or N."""
         if state not in self._torques:
             others = (part for part in self._parts if not isinstance(part[0], RigidBody))
             self._torques[state] = _kept(self.load(state) + self._sum(others, state))
         return self._torques[state]
+
+    def applied(self, state: MotionState) -> JointSeries:
+        """Give the torque of the model and of what joined it in the robot, N m or N: what channels scale."""
+        return self._with_joined(state, scaled=False)
+
+    def scaled(self, state: MotionState) -> JointSeries:
+        """Give the same as its channel scales it, N m or N: what may come late."""
+        return self._with_joined(state, scaled=True)
 
     def load(self, state: MotionState, robot: RobotModel | None = None) -> JointSeries:
         """Give the torque that moves the links, N m or N: what the gears transmit.
@@ -129,6 +143,13 @@ class Prediction:
                 self._slope(state, joint, (0.0, 0.0, STEPS[2])),
             )
         return known[joint]
+
+    def _with_joined(self, state: MotionState, *, scaled: bool) -> JointSeries:
+        known = self._sums.setdefault(state, {})
+        if scaled not in known:
+            parts = [part for part in self.joined if scaled or not part[0].channel]
+            known[scaled] = _kept(self.torque(state) + self._sum(parts, state))
+        return known[scaled]
 
     def _moved_bodies(self, robot: RobotModel, state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)

@@ -92,7 +92,9 @@ def model_from_document(document: Document) -> IdentifiedRobot:
     try:
         beliefs: list[Prediction] = []
         for one in document["beliefs"]:
-            beliefs.append(Prediction(*_model(one, beliefs)))
+            model, standard = _model(one, beliefs)
+            joined, values = _model({"robot": one["robot"], "terms": one["joined"]}, beliefs)
+            beliefs.append(Prediction(model, standard, joined=joined.split(values)))
         model, standard = _model(document, beliefs)
         return IdentifiedRobot(
             model=model,
@@ -111,7 +113,7 @@ def model_from_document(document: Document) -> IdentifiedRobot:
 
 
 def _beliefs(beliefs: list[Prediction]) -> list[dict[str, object]]:
-    """Write predictions, and those that their own models are built on before them."""
+    """Write predictions; what joined their models is built on those before them."""
     written: list[dict[str, object]] = []
     for one in beliefs:
         inner: list[Prediction] = []
@@ -122,7 +124,15 @@ def _beliefs(beliefs: list[Prediction]) -> list[dict[str, object]]:
                 evidence={"terms": [term.name for term in one.model.terms]},
                 remedy="compare with a standard model",
             )
-        written.append({"robot": to_description(one.model.robot), "terms": terms})
+        joined = DynamicModel(one.model.robot, tuple(term for term, _ in one.joined))
+        values = np.concatenate([np.zeros(0), *(values for _, values in one.joined)])
+        written.append(
+            {
+                "robot": to_description(one.model.robot),
+                "terms": terms,
+                "joined": _terms(joined, values, beliefs),
+            }
+        )
     return written
 
 

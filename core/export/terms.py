@@ -74,6 +74,8 @@ def _own_fields(kind: type) -> Iterator[tuple[str, object]]:
 def _plain(value: object, beliefs: list[Prediction]) -> object:
     if isinstance(value, Prediction):
         if not any(one is value for one in beliefs):
+            for term, _ in value.joined:  # what it is built on comes before it
+                term_fields(term, beliefs)
             beliefs.append(value)
         return next(place for place, one in enumerate(beliefs) if one is value)
     if isinstance(value, Coupling):

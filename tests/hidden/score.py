@@ -1,8 +1,8 @@
 """Score answers against what was hidden: named, exact, missed, extra, size, confidence, with intervals.
 
-A cause is named when a finding on its joint gives it, by its own name or among the rivals that the finding
-says it cannot tell apart; it is exact when it is the finding's own name. Sources: Clopper & Pearson,
-Biometrika 26 (1934), for the intervals; Brier, Monthly Weather Review 78 (1950), for the confidence.
+A cause is named when a finding gives it on its joint, by its own name or among the rivals that the finding
+says it cannot tell apart; it is exact when it is the finding's own name and joint. Sources: Clopper &
+Pearson, Biometrika 26 (1934), for the intervals; Brier, Monthly Weather Review 78 (1950), for the confidence.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -86,12 +86,10 @@ def score(diagnosis: Mapping[str, Any], truth: Sequence[Truth], *, kind: str, no
 
 
 def _answer(truth: Truth, findings: list[Finding], hidden: tuple[Truth, ...], verdict: str) -> Answer:
-    naming = sorted(
-        (one for one in findings if _names(one, truth)), key=lambda one: one["cause"] != truth.cause
-    )
+    naming = sorted((one for one in findings if _names(one, truth)), key=lambda one: not _is(one, truth))
     spare = [one for one in findings if not any(_names(one, other) for other in hidden)]
     here = [one for one in spare if set(one["joints"]) & set(truth.joints)] or spare
-    exact = bool(naming) and naming[0]["cause"] == truth.cause
+    exact = bool(naming) and _is(naming[0], truth)
     instead = max(here, key=lambda one: float(one["confidence"]))["cause"] if here else verdict
     return Answer(
         cause=truth.cause,
@@ -106,9 +104,13 @@ def _answer(truth: Truth, findings: list[Finding], hidden: tuple[Truth, ...], ve
 
 def _names(finding: Finding, truth: Truth) -> bool:
     """Tell whether a finding gives this cause, or lists it as one that it cannot tell apart."""
-    given = {finding["cause"], *(rival["cause"] for rival in finding["ambiguous_with"])}
-    in_place = not truth.local or bool(set(finding["joints"]) & set(truth.joints))
-    return truth.cause in given and in_place
+    return any(_is(one, truth) for one in (finding, *finding["ambiguous_with"]))
+
+
+def _is(given: Finding, truth: Truth) -> bool:
+    """Tell whether a finding or a rival is of this cause and, where the cause is of joints, on them."""
+    in_place = not truth.local or bool(set(given["joints"]) & set(truth.joints))
+    return given["cause"] == truth.cause and in_place
 
 
 def _sizes(truth: Truth, finding: Finding) -> tuple[bool, ...]:

@@ -78,6 +78,8 @@ def test_two_effects_are_both_named():
         Order("combination", 8900759, effects=3),  # columns that run nearly parallel
         Order("combination", 8900766, effects=2),  # on joints that follow each other
         Order("combination", 10100782, effects=2),  # one is ten degrees large
+        Order("combination", 13900765, effects=3),  # the torque of two comes late with all the rest
+        Order("combination", 13900781, effects=3),  # a body joins at an instant beside a held-out block
     ],
     ids=lambda order: str(order.seed),
 )

@@ -29,7 +29,7 @@ DELAY = replace(
 )
 
 
-def finding(cause, joints, *, confidence=0.95, rivals=(), parameters=()):
+def finding(cause, joints, *, confidence=0.95, rivals=(), elsewhere=(), parameters=()):
     named = [
         {"name": name, "joint": joint, "unit": "", "value": value, "standard_deviation": deviation}
         for name, joint, value, deviation in parameters
@@ -39,7 +39,10 @@ def finding(cause, joints, *, confidence=0.95, rivals=(), parameters=()):
         "joints": list(joints),
         "confidence": confidence,
         "parameters": named,
-        "ambiguous_with": [{"cause": rival, "why": "", "separating_experiment": ""} for rival in rivals],
+        "ambiguous_with": [
+            {"cause": rival, "joints": list(elsewhere or joints), "why": "", "separating_experiment": ""}
+            for rival in rivals
+        ],
     }
 
 
@@ -72,6 +75,15 @@ def test_a_declared_rival_names_a_cause_but_not_exactly():
     assert (one.answers[0].named, one.answers[0].exact) == (True, False)
     assert one.answers[0].given == "friction_presliding"
     assert one.extra == ()
+
+
+def test_a_rival_names_a_cause_where_it_acts_and_not_where_the_finding_does():
+    found = finding("friction_stribeck", [1], rivals=["friction_stribeck"], elsewhere=[2])
+    one = scored(diagnosis(found), STRIBECK)
+    assert (one.answers[0].named, one.answers[0].exact, one.answers[0].sizes) == (True, False, ())
+    assert one.extra == ()
+    found = finding("friction_presliding", [2], rivals=["friction_stribeck"], elsewhere=[1])
+    assert not scored(diagnosis(found), STRIBECK).answers[0].named
 
 
 def test_a_cause_of_the_whole_log_need_not_name_its_joints():

@@ -32,7 +32,7 @@ class CableForce(OwnJointCause):
     )
     experiment = "slow moves to both ends of the joint's range"
     coordinate = "position"
-    settled = ("side",)
+    unrefined = ("side",)
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the angle of engagement for pulls above it, then for pulls below it."""

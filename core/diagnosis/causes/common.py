@@ -36,7 +36,8 @@ class OwnJointCause:
     like_position_noise: ClassVar[bool] = False
     excludes: ClassVar[tuple[str, ...]] = ()
     leaves: ClassVar[tuple[str, ...]] = ()
-    settled: ClassVar[tuple[str, ...]] = ()
+    unrefined: ClassVar[tuple[str, ...]] = ()
+    sharp: ClassVar[tuple[str, ...]] = ()
     yielded: ClassVar[tuple[str, ...]] = ()
     inexact: ClassVar[float] = 0.05
 

@@ -73,9 +73,10 @@ class _Search:
         known = np.column_stack([one @ left[:, joint] for joint, one in enumerate(precisions)])
         self.gains = np.einsum("raj,rj->ra", columns, known)
         # What rows tell together with those 0, 1, ... rows before them, both ways at once.
-        self.grams = np.stack(
-            [_grams(columns, precisions, lag) for lag in range(1 + _reach(precisions))], axis=1
-        )
+        rows, count, _ = columns.shape
+        self.grams = np.zeros((rows, 1 + _reach(precisions), count, count))
+        for lag in range(self.grams.shape[1]):
+            self.grams[lag:, lag] = _grams(columns, precisions, lag)
 
     def spans(self) -> list[Span]:
         first, last = float(self.ordered[0]), float(self.ordered[-1])
@@ -123,6 +124,5 @@ def _reach(precisions: Sequence[csr_array]) -> int:
 
 def _grams(columns: np.ndarray, precisions: Sequence[csr_array], lag: int) -> np.ndarray:
     weights = np.column_stack([one.diagonal(-lag) for one in precisions])
-    out = np.zeros((len(columns), columns.shape[1], columns.shape[1]))
-    out[lag:] = (columns[lag:] * weights[:, None, :]) @ np.swapaxes(columns[: len(columns) - lag], 1, 2)
-    return out if lag == 0 else out + np.swapaxes(out, 1, 2)
+    out = (columns[lag:] * weights[:, None, :]) @ np.swapaxes(columns[: len(columns) - lag], 1, 2)
+    return np.asarray(out if lag == 0 else out + np.swapaxes(out, 1, 2))

@@ -33,7 +33,7 @@ class ExternalContact(OwnJointCause):
     id = "external_contact"
     title = "Something pushed against the robot"
     units = (("force", "N"), ("start", "s"), ("end", "s"))
-    settled = tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end"))
+    unrefined = tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end"))
     confusions = (
         Confusion(
             "payload_change",

@@ -30,7 +30,7 @@ class FrictionPositionDependent(OwnJointCause):
     )
     experiment = "slow moves at constant speed over the joint's whole range, in both directions"
     coordinate = "position"
-    settled = ("centre",)
+    unrefined = ("centre",)
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the waves per turn from one upwards."""

@@ -39,7 +39,7 @@ class JointCoupling(OwnJointCause, MendsRobot):
     )
     experiment = "move each of the two joints alone, then both the same way and both against each other"
     coordinate = "other_velocity"
-    settled = ("weight",)
+    unrefined = ("weight",)
 
     def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
         """List pairs of turning joints, at most two apart, that no declared coupling joins."""

@@ -26,7 +26,7 @@ class KinematicError(OwnJointCause, MendsRobot):
     title = "An entry of the kinematic table is wrong"
     cure = "robot"
     units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
-    settled = ("entry",)
+    unrefined = ("entry",)
     # Its columns are those of a small error; what they miss of a larger one is a torque over the angle.
     leaves = ("spring_compensator", "cable_force")
     confusions = (

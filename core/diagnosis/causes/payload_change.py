@@ -41,6 +41,7 @@ class PayloadChange(OwnJointCause):
 
     id = "payload_change"
     leaves = ("external_contact",)
+    sharp = ("time",)
     title = "A body was attached to or taken off a link"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))

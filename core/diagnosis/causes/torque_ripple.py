@@ -41,7 +41,7 @@ class TorqueRipple(OwnJointCause):
     )
     experiment = "slow moves at constant speed over the joint's whole range"
     coordinate = "position"
-    settled = ("centre",)
+    unrefined = ("centre",)
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the waves per turn from two up to what the band shows."""

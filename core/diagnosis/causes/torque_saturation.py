@@ -47,7 +47,7 @@ class TorqueSaturation(OwnJointCause):
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the limit below the largest torque of the motion."""
-        largest = float(np.abs(believed.torque(look.state)[:, site[0] - 1]).max())
+        largest = float(np.abs(believed.applied(look.state)[:, site[0] - 1]).max())
         return [{"limit": share * largest} for share in SHARES]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:

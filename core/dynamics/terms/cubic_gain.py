@@ -27,4 +27,4 @@ class CubicGain(OneJointTerm):
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give the predicted torque cubed."""
         del robot
-        return [self.believed.torque(state)[:, self.joint - 1] ** 3]
+        return [self.believed.applied(state)[:, self.joint - 1] ** 3]

@@ -32,7 +32,7 @@ class Delay(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (late minus plain predicted torque) / delay; for no delay, minus the rate."""
         del robot
-        torque = self.believed.torque(state)
+        torque = self.believed.scaled(state)
         if self.around == 0.0 or state.time is None:
             return [-rates(torque, state)[0]]
         then = np.clip(state.time - self.around, state.time[0], state.time[-1])

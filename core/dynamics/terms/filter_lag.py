@@ -33,7 +33,7 @@ class FilterLag(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (low-passed minus plain predicted torque) / time constant."""
         del robot
-        torque = self.believed.torque(state)
+        torque = self.believed.scaled(state)
         return [(low_passed(torque, step_of(state), self.around) - torque) / self.around]
 
 

@@ -32,7 +32,7 @@ class Saturation(OneJointTerm):
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give parabola and skew over every interval in which the predicted torque is beyond the limit."""
         del robot
-        torque = self.believed.torque(state)[:, self.joint - 1]
+        torque = self.believed.applied(state)[:, self.joint - 1]
         bulge, skew = np.zeros_like(torque), np.zeros_like(torque)
         if state.time is None:
             return [bulge, skew]

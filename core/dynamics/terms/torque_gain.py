@@ -26,7 +26,7 @@ class TorqueGain(OneJointTerm):
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give the joint's predicted torque."""
         del robot
-        return [self.believed.torque(state)[:, self.joint - 1]]
+        return [self.believed.applied(state)[:, self.joint - 1]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,4 +41,4 @@ class CommonGain(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the predicted torque."""
         del robot
-        return [self.believed.torque(state)]
+        return [self.believed.applied(state)]

@@ -12,6 +12,8 @@ from core.dynamics.model import DynamicModel, standard_model
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.coulomb import Coulomb
+from core.dynamics.terms.delay import Delay
+from core.dynamics.terms.load_friction import LoadFriction
 from core.dynamics.terms.payload import Payload
 from core.dynamics.terms.torque_gain import TorqueGain
 from core.errors import RobotError
@@ -81,6 +83,20 @@ def test_a_prediction_that_several_terms_share_is_written_once_and_shared_again(
     first, second = read_model(text).model.terms[-2:]
     assert first.believed is second.believed
     np.testing.assert_array_equal(first.believed.standard, scene.believed.standard)
+
+
+def test_a_prediction_comes_back_with_what_joined_it_and_with_what_that_is_built_on():
+    scene = eventful_scene()
+    friction = (LoadFriction(1, scene.believed), np.array([0.2]))
+    acted = replace(scene.believed, joined=(friction,))
+    scaled = replace(acted, joined=(friction, (TorqueGain(1, acted), np.array([0.1]))))
+    found = extended(Delay(0, scaled, 0.02))
+    again = read_model(write_model(found))
+    state = scene.look.stretches[0].state
+    ours, theirs = (one.model.terms[-1].series(found.robot, state) for one in (found, again))
+    plain = Delay(0, scene.believed, 0.02).series(found.robot, state)
+    assert np.abs(ours - plain).max() > 1e-3
+    np.testing.assert_allclose(theirs, ours, rtol=0, atol=1e-9 * max(1.0, float(np.abs(ours).max())))
 
 
 def test_a_payload_that_was_there_from_the_beginning_has_been_there_for_ever():

@@ -9,7 +9,8 @@ from core.dynamics.prediction import moved
 from core.dynamics.terms.delay import Delay
 from core.dynamics.terms.encoder import EncoderEccentricity, EncoderOffset
 from core.dynamics.terms.filter_lag import FilterLag
-from core.dynamics.terms.torque_gain import TorqueGain
+from core.dynamics.terms.torque_gain import CommonGain, TorqueGain
+from core.dynamics.terms.viscous import Viscous
 from core.signals.state import MotionState
 from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain, exact, motion_of, one_viscous_joint
 
@@ -92,3 +93,27 @@ def test_the_columns_of_an_encoder_do_not_depend_on_where_the_log_begins():
     term = EncoderEccentricity(2, believed)
     for whole, part in zip(term.torques(robot, state), term.torques(robot, later), strict=True):
         np.testing.assert_allclose(whole[4:], part, atol=1e-9)
+
+
+def test_a_channel_scales_and_delays_what_joined_the_model_like_the_model_itself():
+    alone, state = one_viscous_joint(), sine(20.0)
+    robot = alone.model.robot
+    joined = replace(alone, joined=((Viscous(), np.array([3.0])),))
+    heavy = replace(alone, standard=4.0 * alone.standard)
+    for made in (
+        lambda one: Delay(0, one, 0.02),
+        lambda one: FilterLag(0, one, 0.02),
+        lambda one: CommonGain(0, one),
+    ):
+        (ours,), (expected,) = (made(one).torques(robot, state) for one in (joined, heavy))
+        np.testing.assert_allclose(ours, expected, rtol=1e-12)
+
+
+def test_what_is_late_is_the_torque_as_its_channel_scales_it():
+    alone, state = one_viscous_joint(), sine(20.0)
+    robot = alone.model.robot
+    scaled = replace(alone, joined=((TorqueGain(1, alone), np.array([0.5])),))
+    heavy = replace(alone, standard=1.5 * alone.standard)
+    (ours,), (expected,) = (Delay(0, one, 0.02).torques(robot, state) for one in (scaled, heavy))
+    np.testing.assert_allclose(ours, expected, rtol=1e-12)
+    np.testing.assert_array_equal(TorqueGain(1, scaled).columns(robot, state), alone.torque(state).T)
