@@ -18,6 +18,7 @@ from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Score, score
 from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
 
@@ -87,23 +88,18 @@ class Bench:
         )
 
     def _joined_by(self, found: Hypothesis, believed: Prediction) -> Prediction:
-        """Give a prediction that knows what joined the model: first what acts in the robot, then its scales.
+        """Give a prediction that knows what joined the model: loads first, then all else, then its scales.
 
         What is late is late after that, and is not part of it.
         """
-        acting, scaling = [], []
-        for index, one in enumerate(found.members):
-            values = found.fit.values[found.columns_of(index)]
-            term = one.cause.term(self.look, believed, one.site, one.scalars)
-            if not term.channel:
-                acting.append((term, values))
-            elif not one.cause.yielded:
-                scaling.append((one, values))
-        acted = replace(believed, joined=tuple(acting))
-        scaled = [
-            (one.cause.term(self.look, acted, one.site, one.scalars), values) for one, values in scaling
-        ]
-        return replace(acted, joined=(*acted.joined, *scaled))
+        for joins in (_loads, _acts_inside, _scales):
+            terms = []
+            for index, one in enumerate(found.members):
+                term = one.cause.term(self.look, believed, one.site, one.scalars)
+                if joins(term) and not one.cause.yielded:
+                    terms.append((term, found.fit.values[found.columns_of(index)]))
+            believed = replace(believed, joined=(*believed.joined, *terms))
+        return believed
 
     def remembered(self) -> Callable[[], None]:
         """Give what brings back what is believed now, after something else was."""
@@ -276,3 +272,15 @@ class Bench:
                 total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
             squares.append(total)
         return squares[0] / max(squares[1], 1e-300)
+
+
+def _loads(term: Term) -> bool:
+    return term.loads
+
+
+def _acts_inside(term: Term) -> bool:
+    return not term.loads and not term.channel
+
+
+def _scales(term: Term) -> bool:
+    return term.channel

@@ -6,6 +6,8 @@ times the acceleration, and too heavy a link. Source: Spong, J. Dyn. Sys. Meas. 
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from core.arrays import JointSeries, Samples
 from core.dynamics.prediction import Prediction
 from core.robot.model import RobotModel
@@ -31,7 +33,8 @@ class Gear:
     def load(self, state: MotionState, robot: RobotModel | None = None) -> Samples:
         """Give the torque that it transmits, N m (N); on another robot than the believed one if given."""
         own = self.joint - 1
-        return self.believed.load(state, robot)[:, own] - self.motor_inertia * state.acceleration[:, own]
+        transmitted = self.believed.transmitted(state, robot)[:, own]
+        return np.asarray(transmitted - self.motor_inertia * state.acceleration[:, own])
 
     def inertia(self, state: MotionState) -> Samples:
         """Give the inertia that it moves while the other joints stand still, kg m2 (kg)."""

@@ -45,8 +45,8 @@ class Prediction:
     newton_euler
         How to compute the torque that moves the links: the plain recursion unless a faster one is handed in.
     joined
-        Terms that joined the model, with their parameters. A torque channel scales and delays theirs like all
-        other torque; what they are made of is the model's prediction alone.
+        Terms that joined the model, with their parameters. Gears transmit what of theirs acts on the links, a
+        torque channel scales and delays all of it; everything else is the model's alone.
     """
 
     model: DynamicModel
@@ -59,7 +59,7 @@ class Prediction:
     _torques: WeakKeyDictionary[MotionState, JointSeries] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
-    _sums: WeakKeyDictionary[MotionState, dict[bool, JointSeries]] = field(
+    _sums: WeakKeyDictionary[MotionState, dict[str, JointSeries]] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
     _slopes: WeakKeyDictionary[MotionState, dict[int, Slopes]] = field(
@@ -73,16 +73,28 @@ class Prediction:
             self._torques[state] = _kept(self.load(state) + self._sum(others, state))
         return self._torques[state]
 
+    def transmitted(self, state: MotionState, robot: RobotModel | None = None) -> JointSeries:
+        """Give the torque that gears transmit, N m or N: the load, and what joined it on the links.
+
+        Parameters
+        ----------
+        robot
+            The robot to move the model's bodies on, where it is not the believed one.
+        """
+        joined = self._joined("loads", state, [part for part in self.joined if part[0].loads])
+        return np.asarray(self.load(state, robot) + joined)
+
     def applied(self, state: MotionState) -> JointSeries:
         """Give the torque of the model and of what joined it in the robot, N m or N: what channels scale."""
-        return self._with_joined(state, scaled=False)
+        joined = self._joined("robot", state, [part for part in self.joined if not part[0].channel])
+        return np.asarray(self.torque(state) + joined)
 
     def scaled(self, state: MotionState) -> JointSeries:
         """Give the same as its channel scales it, N m or N: what may come late."""
-        return self._with_joined(state, scaled=True)
+        return np.asarray(self.torque(state) + self._joined("all", state, self.joined))
 
     def load(self, state: MotionState, robot: RobotModel | None = None) -> JointSeries:
-        """Give the torque that moves the links, N m or N: what the gears transmit.
+        """Give the torque that moves the model's links, N m or N.
 
         Parameters
         ----------
@@ -144,12 +156,11 @@ class Prediction:
             )
         return known[joint]
 
-    def _with_joined(self, state: MotionState, *, scaled: bool) -> JointSeries:
+    def _joined(self, which: str, state: MotionState, parts: Iterable[tuple[Term, Weights]]) -> JointSeries:
         known = self._sums.setdefault(state, {})
-        if scaled not in known:
-            parts = [part for part in self.joined if scaled or not part[0].channel]
-            known[scaled] = _kept(self.torque(state) + self._sum(parts, state))
-        return known[scaled]
+        if which not in known:
+            known[which] = _kept(self._sum(parts, state))
+        return known[which]
 
     def _moved_bodies(self, robot: RobotModel, state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)

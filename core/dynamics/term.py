@@ -25,10 +25,13 @@ class Term(Protocol):
         Whether the torque depends on the motion before the instant, and not on the instant alone.
     channel
         Whether the torque is only logged and moves nothing: a fault of the torque channel.
+    loads
+        Whether it acts on the links, so that the gears transmit it.
     """
 
     remembers: ClassVar[bool]
     channel: ClassVar[bool]
+    loads: ClassVar[bool]
 
     @property
     def name(self) -> str:

@@ -35,6 +35,7 @@ class _Candidate:
     number: int
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

@@ -29,6 +29,8 @@ class EncoderEccentricity(OwnJointCause, MendsLog):
     cure = "signal"
     units = (("amplitude", "rad"), ("phase", "rad"))
     inexact = 0.1
+    # Of a large wave the second order has a mean.
+    leaves = ("encoder_offset",)
     confusions = (
         Confusion(
             "torque_ripple",

@@ -23,6 +23,7 @@ class Cable(OneJointTerm):
     side: float
     symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", 0.0),)
     kind: ClassVar[str] = "cable_force"
+    loads: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give how far the angle is beyond the engagement, signed as the angle."""

@@ -31,6 +31,7 @@ class Contact(AllJointsTerm):
     link: int
     spans: tuple[Span, ...]
     kind: ClassVar[str] = "external_contact"
+    loads: ClassVar[bool] = True
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]  # one wrench per span

@@ -29,6 +29,7 @@ class Coulomb:
     name: str = "coulomb"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List FC of every joint that has it."""

@@ -25,6 +25,7 @@ class GearCoupling:
     name: str = "coupling"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List IAM, FVM, FCM of every coupling."""

@@ -28,6 +28,7 @@ class OneJointTerm:
     kind: ClassVar[str] = ""
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:
@@ -69,6 +70,7 @@ class AllJointsTerm:
     kind: ClassVar[str] = ""
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

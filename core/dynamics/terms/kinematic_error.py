@@ -25,6 +25,7 @@ class KinematicError(AllJointsTerm):
     believed: Prediction
     entry: EntryName
     kind: ClassVar[str] = "kinematic_error"
+    loads: ClassVar[bool] = True
 
     @property
     def name(self) -> str:

@@ -24,6 +24,7 @@ class LinkChange(AllJointsTerm):
         (f"delta_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
     )
     kind: ClassVar[str] = "link_parameters"
+    loads: ClassVar[bool] = True
 
     @property
     def changes(self) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ class MissingCoupling:
     coupling: Coupling
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

@@ -21,6 +21,7 @@ class Offset:
     name: str = "offset"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List OFF of every joint that has it."""

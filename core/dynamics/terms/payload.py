@@ -30,6 +30,7 @@ class Payload(AllJointsTerm):
         (f"payload_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
     )
     kind: ClassVar[str] = "payload_change"
+    loads: ClassVar[bool] = True
 
     @property
     def changes(self) -> tuple[str, ...]:

@@ -25,6 +25,7 @@ class RigidBody:
     name: str = "rigid_body"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = True
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List ten parameters per link in Khalil's order."""

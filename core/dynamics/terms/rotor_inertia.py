@@ -22,6 +22,7 @@ class RotorInertia:
     name: str = "rotor_inertia"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List IA of every joint that has it."""

@@ -19,6 +19,7 @@ class Spring(OneJointTerm):
 
     symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", None),)
     kind: ClassVar[str] = "spring_compensator"
+    loads: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give q."""

@@ -25,6 +25,7 @@ class Tilt(AllJointsTerm):
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("tilt_x", "rad", None), ("tilt_y", "rad", None))
     kind: ClassVar[str] = "gravity_misalignment"
+    loads: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the weight per rad about either axis."""

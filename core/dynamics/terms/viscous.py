@@ -18,6 +18,7 @@ class Viscous:
     name: str = "viscous"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List FV of every joint that has it."""

@@ -11,6 +11,8 @@ from core.dynamics.prediction import Prediction
 from core.dynamics.terms.backlash import Backlash
 from core.dynamics.terms.elasticity import Elasticity
 from core.dynamics.terms.load_friction import LoadFriction
+from core.dynamics.terms.payload import Payload
+from core.dynamics.terms.viscous import Viscous
 from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import skew_arm
 from tests.core.dynamics.terms.motions import swinging
@@ -60,3 +62,13 @@ def test_what_acts_on_the_load_does_not_feel_a_rotor_that_is_known(term):
     size = np.abs(right).max()
     np.testing.assert_allclose(mended, right, atol=1e-6 * size)
     assert np.abs(wrong - right).max() > 0.01 * size
+
+
+def test_a_gear_transmits_a_body_that_joined_the_model_and_no_friction_that_did():
+    state, (believed, _) = swinging(3, 2.0), believed_apart_and_joined()
+    body = np.array([0.1, 0.0, 0.0, 0.2, 0.0, 0.3, 0.4, 0.1, 0.0, 2.0])
+    heavier = believed.standard.copy()
+    heavier[:10] += body
+    carried = replace(believed, joined=((Payload(1, 1, -np.inf), body), (Viscous(), np.ones(3))))
+    found, expected = (Gear(one, 1).load(state) for one in (carried, replace(believed, standard=heavier)))
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
