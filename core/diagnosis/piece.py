@@ -9,9 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, JointMask
+from core.arrays import Indices, JointMask, JointSeries
+from core.diagnosis.spikes import without_spikes
 from core.diagnosis.sticking import resting, sticking
 from core.diagnosis.stretch import Stretch
+from core.log.model import Defect, JointLog
 from core.robot.model import RobotModel
 from core.signals.condition import Motion
 from core.signals.parallel import ParallelFilter
@@ -77,11 +79,23 @@ def _piece(
         sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),
         time=tile.time,
         block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
-        torque=tile.filtered(np.ascontiguousarray(tile.torque.T)).T,
+        torque=tile.filtered(np.ascontiguousarray(_spikeless(motion.log, tile.torque).T)).T,
         usable=tile.usable,
         clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),
         state=_thinned(tile.state, at),
     )
+
+
+def _spikeless(log: JointLog, torque: JointSeries) -> JointSeries:
+    """Give torque without the spikes of those joints whose channel is known to have some."""
+    own = [one.joint - 1 for one in log.defects if _spiky(one) and one.joint is not None]
+    torque = torque.copy()
+    torque[:, own] = without_spikes(torque[:, own])
+    return torque
+
+
+def _spiky(defect: Defect) -> bool:
+    return (defect.kind, defect.channel) == ("outliers", "torque")
 
 
 def thinning(rate_hz: float, cutoff_hz: float) -> int:

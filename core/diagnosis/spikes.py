@@ -6,8 +6,9 @@ Am. Stat. Assoc. 88, 1993, for outliers against a quantile of what surrounds the
 
 import numpy as np
 
-from core.diagnosis.look import Look
+from core.arrays import JointMask, JointSeries
 from core.dynamics.terms.contact import Span
+from core.log.model import JointLog
 from core.signals.derivative import median
 
 ORDER = 5
@@ -18,18 +19,32 @@ AROUND_S = 2.0
 """Time on either side of a span that says what is usual."""
 
 
-def spiked(look: Look, span: Span) -> bool:
-    """Tell whether a raw sample within a span of the only log is a spike of some joint's torque."""
-    log = look.motions[0].log
+def spiked(log: JointLog, span: Span) -> bool:
+    """Tell whether a raw sample within a span of a log is a spike of some joint's torque."""
     first = float(log.source.rows(0, 1).time[0])
     begin, end = (round((edge - first) * log.rate_hz) for edge in (span[0] - AROUND_S, span[1] + AROUND_S))
     rows = log.source.rows(max(begin, 0), min(end, log.samples))
     effort = rows.current if rows.torque is None else rows.torque
     if effort is None or len(rows.time) <= ORDER:
         return False
+    _, spikes = _split(effort)
+    inside = (rows.time >= span[0]) & (rows.time <= span[1])
+    return bool(spikes[inside].any())
+
+
+def without_spikes(torque: JointSeries) -> JointSeries:
+    """Put the running median in the place of spikes; all other samples stay as they are."""
+    if len(torque) <= ORDER:
+        return torque
+    middle, spikes = _split(torque)
+    return np.where(spikes, middle, torque)
+
+
+def _split(torque: JointSeries) -> tuple[JointSeries, JointMask]:
+    """Give the running median, and mark what stands apart from it; the ends are their own."""
     reach = ORDER // 2
-    remainder = np.abs(effort[reach:-reach] - median(np.ascontiguousarray(effort), ORDER))
-    time = rows.time[reach:-reach]
-    inside = (time >= span[0]) & (time <= span[1])
-    usual = np.maximum(np.quantile(remainder, QUANTILE, axis=0), 1e-300)
-    return bool(np.any(remainder[inside] > MOST * usual))
+    middle = torque.copy()
+    middle[reach:-reach] = median(np.ascontiguousarray(torque), ORDER)
+    remainder = np.abs(torque - middle)
+    usual = np.maximum(np.quantile(remainder[reach:-reach], QUANTILE, axis=0), 1e-300)
+    return middle, remainder > MOST * usual

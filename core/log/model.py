@@ -140,6 +140,10 @@ def whole_rows(log: JointLog) -> LogRows:
     return log.source.rows(0, log.samples)
 
 
+STANDING_ROWS = 20
+"""More repeats than these in a row are a standstill, or a recorder's; fewer are samples that it missed."""
+
+
 def repeated(rows: LogRows) -> np.ndarray:
     """Mark the rows whose positions and torques (currents, where no torque is logged) repeat the row before.
 

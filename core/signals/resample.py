@@ -9,10 +9,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from core.arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
-from core.log.model import LogRows, repeated
+from core.log.model import STANDING_ROWS, LogRows, repeated
 
-STANDING_ROWS = 20
-"""More repeats than these in a row are a standstill, which a spline has to be told of."""
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that stray from a uniform clock by less than a thousandth of a step are uniform."""
 

@@ -151,7 +151,16 @@ class Segment:
         index = np.arange(begin, begin + len(velocity))
         ends: SampleMask = (index < reach) | (index >= self.samples - reach)
         slow = np.abs(velocity) <= self.recipe.still_speed
-        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples))
+        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._silent)
+
+    @cached_property
+    def _silent(self) -> np.ndarray:
+        """Mark the joints whose torque was not measured, though other joints' was."""
+        silent = np.zeros(self.log.joints, dtype=bool)
+        for one in self.log.defects:
+            if one.kind == "missing_torque" and one.joint is not None:
+                silent[one.joint - 1] = True
+        return silent
 
 
 def gap_free(log: JointLog, recipe: Recipe, start: int, stop: int) -> Segment | None:

@@ -56,7 +56,7 @@ class ExternalContact(OwnJointCause):
         push = pushed(look.robot, end_links(look.robot)[site[0]], look.state)
         left = misfit(look, believed)
         found = find_events(look.time, push, left, precisions(look, left, mask), most=MOST)
-        spans = sorted(span for span in found if not spiked(look, span))
+        spans = sorted(span for span in found if not spiked(look.motions[0].log, span))
         if not spans:
             return []
         return [

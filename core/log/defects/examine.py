@@ -13,7 +13,7 @@ from core.log.contract import Contract, check_length
 from core.log.defects.bandwidth import Bandwidth
 from core.log.defects.clock import Clock
 from core.log.defects.plausibility import plausibility_defects
-from core.log.defects.repeats import Repeats
+from core.log.defects.repeats import Repeats, cut
 from core.log.defects.resolution import Resolution
 from core.log.defects.rest import Rest
 from core.log.defects.saturation import Saturation
@@ -51,8 +51,9 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     samples, joints = source.samples, layout.joints
     check_length(samples)
     contract, clock, spread, resolution = Contract(layout), Clock(samples), _Spread(), Resolution(samples)
+    repeats = Repeats()
     finders: list[Finder] = [
-        clock, Repeats(), Spikes(joints), Saturation(joints), resolution, Rest(samples), Bandwidth(joints),
+        clock, repeats, Spikes(joints), Saturation(joints), resolution, Rest(samples), Bandwidth(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
@@ -76,7 +77,7 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
-        segments=clock.segments(),
+        segments=cut(clock.segments(), repeats.frozen),
         defects=(*found, *plausibility_defects(facts)),
     )
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from core.log.defects.runs import Runs
 from core.log.defects.spikes import median_of_five
+from core.log.defects.stretch import STRETCH_ROWS
 from core.log.reader import log_from_arrays
 from tests.core.log.writers import swing
 
@@ -74,6 +75,27 @@ def test_repeated_rows_are_counted_exactly(seed, share):
     (found,) = [d for d in log_of(time, position, torque).defects if d.kind == "repeated_rows"]
     assert found.count == len(copies)
     assert found.joint is None
+
+
+@pytest.mark.parametrize("start", [300, STRETCH_ROWS - 40, STRETCH_ROWS - 5, STRETCH_ROWS + 1])
+def test_a_log_is_cut_where_its_recorder_stood_still_and_the_robot_did_not(start):
+    time, position, torque = healthy(160.0)
+    stop = start + 60
+    position[start:stop], torque[start:stop] = position[start - 1], torque[start - 1]
+    log = log_of(time, position, torque)
+    assert log.segments == ((0, start), (stop, len(time)))
+    (found,) = [one for one in log.defects if one.kind == "repeated_rows"]
+    assert found.statement.endswith("In 1 run of them the robot moved on: the log is cut there.")
+
+
+def test_a_robot_that_stands_still_cuts_nothing():
+    time, position, torque = healthy()
+    half = len(time) // 2
+    position, torque = (
+        np.concatenate([one[:half], np.repeat(one[half - 1 : half], 100, axis=0), one[half:-100]])
+        for one in (position, torque)
+    )
+    assert log_of(time, position, torque).segments == ((0, len(time)),)
 
 
 @given(row=st.integers(2, 4997), joint=st.integers(0, 1), sign=st.sampled_from([-1.0, 1.0]))

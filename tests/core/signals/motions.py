@@ -53,8 +53,8 @@ def turntables(joints: int) -> RobotModel:
 
 
 def log_of(time: np.ndarray, position: np.ndarray, torque: np.ndarray | None = None) -> JointLog:
-    """Log positions (rad) with torques (N m); without any, a torque of one where the joint is positive."""
-    return log_from_arrays("known", time, position, np.sign(position) if torque is None else torque)
+    """Log positions (rad) with torques (N m); without any, with their sines."""
+    return log_from_arrays("known", time, position, np.sin(position) if torque is None else torque)
 
 
 def jittered(rng: np.random.Generator, samples: int, rate_hz: float, share: float) -> np.ndarray:

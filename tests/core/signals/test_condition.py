@@ -227,6 +227,30 @@ def test_a_joint_that_its_drive_holds_while_others_move_counts_as_standing():
     assert usable[:, 1].mean() < 0.05
 
 
+def test_a_joint_whose_torque_was_not_measured_has_no_equations():
+    time, swing = _swing()
+    position = swing.position(time)
+    torque = np.cos(position)
+    torque[:, 1] = 0.0
+    _, _, usable = _kept(_conditioned(log_of(time, position, torque)))
+    assert usable[:, 0].mean() > 0.9
+    assert not usable[:, 1].any()
+
+
+def test_rows_that_a_recorder_copied_while_the_robot_moved_on_bend_nothing():
+    time, swing = _swing()
+    position, torque = swing.position(time), np.cos(swing.position(time))
+    clean = _kept(_conditioned(log_of(time, position, torque), SMOOTH))
+    position[3000:3100], torque[3000:3100] = position[2999], torque[2999]
+    cut = _kept(_conditioned(log_of(time, position, torque), SMOOTH))
+    assert cut[2].mean() > 0.9
+    near = np.abs(cut[0][:, None] - clean[0]).min(axis=1) < 1e-9
+    there = np.searchsorted(clean[0], cut[0][near] - 1e-9)
+    good = cut[2][near] & clean[2][there]
+    assert good.sum() > 0.4 * good.size
+    np.testing.assert_allclose(cut[1][:, near][:, good], clean[1][:, there][:, good], atol=1e-2)
+
+
 def test_samples_that_only_repeat_the_one_before_do_not_bend_an_even_log():
     time, swing = _swing()
     position, torque = swing.position(time), np.cos(swing.position(time))
