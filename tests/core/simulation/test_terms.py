@@ -31,6 +31,7 @@ class Law:
     name: str = "law"
     remembers: ClassVar[bool] = False
     channel: ClassVar[bool] = False
+    loads: ClassVar[bool] = False
 
     def parameters(self, robot):
         return (Parameter("LAW", 1, 1, "N", None),)
