@@ -85,9 +85,11 @@ def cut(segments: Rows, frozen: Rows) -> Rows:
     --------
     >>> cut(((0, 50), (50, 100)), ((60, 70), (80, 100)))
     ((0, 50), (50, 60), (70, 80))
+    >>> cut(((0, 50), (50, 100)), ((40, 60),))
+    ((0, 40), (60, 100))
     """
     out = []
     for start, stop in segments:
-        inside = [edge for rows in frozen if start <= rows[0] < stop for edge in rows]
+        inside = [min(max(edge, start), stop) for rows in frozen for edge in rows]
         out += list(pairwise([start, *inside, stop]))[::2]
     return tuple((start, stop) for start, stop in out if stop > start)
