@@ -32,11 +32,12 @@ def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointS
     effort = rows.torque if rows.torque is not None else rows.current
     if effort is None:
         effort = np.zeros_like(rows.position)
-    if is_uniform(rows.time, rate_hz):
+    even = is_uniform(rows.time, rate_hz)
+    if even and not dropped(rows).any():
         return rows.time, rows.position, effort
-    grid = rows.time[0] + np.arange(int((rows.time[-1] - rows.time[0]) * rate_hz + 1e-6) + 1) / rate_hz
-    position, effort = on_grid(rows, effort, grid)
-    return grid, position, effort
+    count = int((rows.time[-1] - rows.time[0]) * rate_hz + 1e-6) + 1
+    grid = rows.time if even else rows.time[0] + np.arange(count) / rate_hz
+    return grid, *on_grid(rows, effort, grid)
 
 
 def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[InstantSeries, InstantSeries]:
@@ -47,6 +48,16 @@ def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[Instant
     if len(time) < 4:
         return np.column_stack([np.interp(grid, time, column) for column in rows.position[fresh].T]), torque
     return np.asarray(CubicSpline(time, rows.position[fresh], axis=0)(grid)), torque
+
+
+def bridged(rows: LogRows, grid: Instants, longest: float) -> SampleMask:
+    """Mark the instants of a grid that lie where nothing was measured for longer than so many seconds.
+
+    There interpolation only guesses at what moved meanwhile.
+    """
+    fresh = rows.time[~dropped(rows)]
+    after = np.clip(np.searchsorted(fresh, grid), 1, len(fresh) - 1)
+    return np.asarray(fresh[after] - fresh[after - 1] > longest)
 
 
 def dropped(rows: LogRows) -> SampleMask:

@@ -1,21 +1,23 @@
 """Condition one gap-free part of a log, any stretch of it by itself, by the seed's chain.
 
-Running median, zero-phase Butterworth on q, centred differences; what these reach of the ends, and every
-standstill, is marked unusable. Source: the seed paper, section 4.1.
+Running median, zero-phase Butterworth on q, centred differences; what these reach of the ends and of rows
+that are missing for long, and every standstill, is marked unusable. Source: the seed paper, section 4.1.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 from scipy.signal import oaconvolve
 
 from core.arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
+from core.log.defects.clock import GAP_STEPS, SHORT_GAP_S
 from core.log.model import JointLog, LogRows
 from core.signals.derivative import centred_difference, median
 from core.signals.parallel import ParallelFilter
 from core.signals.recipe import Recipe
-from core.signals.resample import dropped, is_uniform, on_grid
+from core.signals.resample import bridged, dropped, is_uniform, on_grid
 from core.signals.state import MotionState
 from core.signals.tile import Tile
 from core.signals.zero_phase import kernel, reach_of
@@ -72,6 +74,11 @@ class Segment:
         """Give the kernel of the filter on q."""
         return kernel(self.recipe.position_cutoff_hz, self.rate_hz, self.recipe.order)
 
+    @cached_property
+    def reach(self) -> int:
+        """Count the samples on either side that bear on a conditioned one."""
+        return reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2
+
     def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
         """Condition the stretch that the kept instants from first up to, not including, last need."""
         step, reach = self.recipe.decimation, self.parallel.reach
@@ -79,7 +86,7 @@ class Segment:
         begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
         # A standstill is known by its length, so the look for it reaches that much further than the filter.
         early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
-        wide, torque = self._conditioned(early, late)
+        wide, torque, unknown = self._conditioned(early, late)
         inner = slice(begin - early, end - early)
         now = self.begin_time + np.arange(begin, end) / self.rate_hz
         state = MotionState(
@@ -89,7 +96,7 @@ class Segment:
             now,
             self._temperature(now),
         )
-        marks = self._unusable(wide.velocity, early)[inner]
+        marks = (self._unusable(wide.velocity, early) | unknown[:, None])[inner]
         influence = self.parallel.influence(marks.T.astype(float), first - begin, last_kept - first_kept)
         return Tile(
             state=state,
@@ -102,10 +109,11 @@ class Segment:
             follows=first_kept > 0,
         )
 
-    def _conditioned(self, begin: int, end: int) -> tuple[MotionState, JointSeries]:
+    def _conditioned(self, begin: int, end: int) -> tuple[MotionState, JointSeries, SampleMask]:
+        """Give state, torque, and what rests on instants at which nothing was measured."""
         halo = self.recipe.median_order // 2 + len(self.low_pass) // 2 + 2
         left, right = max(0, begin - halo), min(self.samples, end + halo)
-        position, torque = self._read(left, right)
+        position, torque, bridge = self._read(left, right)
         padded = _extend(position, halo - (begin - left), halo - (right - end))
         smooth = oaconvolve(
             median(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0
@@ -113,25 +121,32 @@ class Segment:
         velocity = centred_difference(smooth, self.rate_hz)
         acceleration = centred_difference(velocity, self.rate_hz)
         state = MotionState(smooth[2:-2], velocity[1:-1], acceleration)
-        return state, torque[begin - left : len(torque) - (right - end)]
+        inner = slice(begin - left, len(torque) - (right - end))
+        unknown = maximum_filter1d(bridge, 2 * self.reach + 1, mode="constant") if bridge.any() else bridge
+        return state, torque[inner], unknown[inner]
 
-    def _read(self, begin: int, end: int) -> tuple[JointSeries, JointSeries]:
+    def _read(self, begin: int, end: int) -> tuple[JointSeries, JointSeries, SampleMask]:
         if self.stamps is None:
             return self._read_even(begin, end)
         grid = self.begin_time + np.arange(begin, end) / self.rate_hz
         near = np.searchsorted(self.stamps, grid[[0, -1]])
         low, high = max(0, int(near[0]) - _NEIGHBOURS), min(len(self.stamps), int(near[1]) + _NEIGHBOURS)
         rows = self.log.source.rows(self.start + low, self.start + high)
-        return on_grid(rows, _effort(rows), grid)
+        return self._bridging(rows, grid)
 
-    def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries]:
+    def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries, SampleMask]:
         """Take even samples as they are, unless some of them only repeat the one before."""
         low, high = max(0, begin - _NEIGHBOURS), min(self.samples, end + _NEIGHBOURS)
         rows = self.log.source.rows(self.start + low, self.start + high)
         inner = slice(begin - low, end - low)
         if not dropped(rows).any():
-            return rows.position[inner], _effort(rows)[inner]
-        return on_grid(rows, _effort(rows), rows.time[inner])
+            return rows.position[inner], _effort(rows)[inner], np.zeros(end - begin, dtype=bool)
+        return self._bridging(rows, rows.time[inner])
+
+    def _bridging(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
+        """Interpolate at the instants of a grid; copied rows are worth as much as a gap in the stamps."""
+        unknown = bridged(rows, grid, max(SHORT_GAP_S, GAP_STEPS / self.rate_hz))
+        return *on_grid(rows, _effort(rows), grid), unknown
 
     def _temperature(self, now: Instants) -> InstantSeries | None:
         if "temperature" not in self.log.channels:
@@ -147,9 +162,8 @@ class Segment:
         return np.column_stack([np.interp(now, rows.time, column) for column in rows.temperature.T])
 
     def _unusable(self, velocity: JointSeries, begin: int) -> JointMask:
-        reach = reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2
         index = np.arange(begin, begin + len(velocity))
-        ends: SampleMask = (index < reach) | (index >= self.samples - reach)
+        ends: SampleMask = (index < self.reach) | (index >= self.samples - self.reach)
         slow = np.abs(velocity) <= self.recipe.still_speed
         return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._silent)
 

@@ -29,6 +29,13 @@ def frozen(_rng, position, torque):
     return "repeated_rows"
 
 
+def stalled(_rng, position, torque):
+    for first in (1000, 2000, 2900):
+        rows = slice(first, first + 15)
+        position[rows], torque[rows] = position[first - 1], torque[first - 1]
+    return "repeated_rows"
+
+
 def dead(_rng, _position, torque):
     torque[:, 0] = 0.0
     return "missing_torque"
@@ -36,7 +43,7 @@ def dead(_rng, _position, torque):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
-@pytest.mark.parametrize("spoil", [spikes, frozen, dead])
+@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead])
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     rows = measured_arm(hidden).look.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()
@@ -44,7 +51,9 @@ def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     scene = look_at_arm(position, torque)
     assert kind in {one.kind for one in scene.look.motions[0].log.defects}
     found = diagnose(asked(scene))
-    assert [one.cause for one in found.findings] == ([] if hidden is None else ["spring_compensator"])
-    assert found.verdict == ("nothing_found" if hidden is None else "causes_found")
-    for size in (size for one in found.findings for size in one.quantities):
+    told = ["dropped_samples"] if spoil is stalled else []
+    said = [*told, *([] if hidden is None else ["spring_compensator"])]
+    assert [one.cause for one in found.findings] == said
+    assert found.verdict == ("causes_found" if said else "nothing_found")
+    for size in (size for one in found.findings if one.cause not in told for size in one.quantities):
         assert abs(size.value - STIFFNESS) < 3.0 * size.standard_deviation

@@ -251,6 +251,24 @@ def test_rows_that_a_recorder_copied_while_the_robot_moved_on_bend_nothing():
     np.testing.assert_allclose(cut[1][:, near][:, good], clean[1][:, there][:, good], atol=1e-2)
 
 
+def test_what_was_missed_for_longer_than_a_gap_that_is_bridged_is_not_used():
+    time, swing = _swing()
+    position, torque = swing.position(time), np.cos(swing.position(time))
+    clean = _kept(_conditioned(log_of(time, position, torque), SMOOTH))
+    usable = {}
+    for missed in (2, 18):
+        copied, held = position.copy(), torque.copy()
+        copied[3001 : 3001 + missed], held[3001 : 3001 + missed] = copied[3000], held[3000]
+        there = _kept(_conditioned(log_of(time, copied, held), SMOOTH))
+        usable[missed] = there[2]
+        good = there[2] & clean[2]
+        assert good.mean() > 0.9
+        np.testing.assert_allclose(there[1][:, good], clean[1][:, good], atol=2e-3)
+    lost = clean[0][np.any(clean[2] & ~usable[18], axis=1)]
+    assert np.array_equal(usable[2], clean[2])
+    assert lost.min() < time[3001] < time[3019] < lost.max()
+
+
 def test_samples_that_only_repeat_the_one_before_do_not_bend_an_even_log():
     time, swing = _swing()
     position, torque = swing.position(time), np.cos(swing.position(time))
