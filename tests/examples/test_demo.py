@@ -167,6 +167,7 @@ def test_a_log_that_is_not_there_is_named(served, capsys):
 
 def test_a_service_that_does_not_start_says_its_last_words(tmp_path, monkeypatch):
     monkeypatch.setattr(service, "ROOT", tmp_path)  # where there is no app to start
+    monkeypatch.delenv("PYTHONPATH", raising=False)  # nor one to be found elsewhere
     with pytest.raises(ServiceError) as caught, service.running_service(tmp_path / "data"):
         pass
     assert caught.value.cause == "the service did not start"

@@ -74,7 +74,8 @@ def test_tiles_leave_no_seams(monkeypatch, kept, stamped):
     position[2000:2400] = position[2000]
     torque = np.random.default_rng(3).normal(size=position.shape)
     for first, copies in ((1, 1), (700, 3), (1300, 15), (len(time) - 4, 4)):
-        position[first : first + copies], torque[first : first + copies] = position[first - 1], torque[first - 1]
+        position[first : first + copies] = position[first - 1]
+        torque[first : first + copies] = torque[first - 1]
     log = log_of(time, position, torque)
     whole = _filtered(_conditioned(log))
     monkeypatch.setattr(conditioning, "TILE_KEPT", kept)
