@@ -87,12 +87,16 @@ def _counted(motion: Motion) -> list[_Count]:
 
 
 def _count(rows: LogRows, motion: Motion) -> _Count:
+    lost = dropped(rows)
+    # While rows repeat, the robot moved if it is farther on after them.
+    passed = [np.interp(rows.time, rows.time[~lost], column[~lost]) for column in rows.position.T]
+    position = np.column_stack(passed)
     reach = min(5, len(rows.time) - 1)
-    travel = np.zeros_like(rows.position)
-    travel[reach:] = rows.position[reach:] - rows.position[:-reach]
+    travel = np.zeros_like(position)
+    travel[reach:] = position[reach:] - position[:-reach]
     seconds = reach / motion.log.rate_hz
     moving = np.any(np.abs(travel) > motion.recipe.still_speed * seconds, axis=1)
-    lost = dropped(rows) & moving
+    lost &= moving
     fresh = moving & ~lost
     chances = [
         (np.sum((column[1:] == column[:-1]) & fresh[1:]) + 0.5) / (np.sum(fresh) + 1.0)

@@ -95,6 +95,18 @@ def test_lost_rows_are_counted_and_not_taken_for_scattered_instants():
     assert findings("timestamp_jitter", log) == ()
 
 
+@pytest.mark.parametrize("rows", [3, 15])
+def test_every_row_is_counted_that_stands_for_a_lost_one_however_many_follow_each_other(rows):
+    whole = recorded().source.data
+    kept = np.arange(len(whole.time))
+    for first in (1000, 2000, 3000):
+        kept[first : first + rows] = first - 1
+    (found,) = findings(
+        "dropped_samples", log_from_arrays("wheels", whole.time, whole.position[kept], whole.torque[kept])
+    )
+    assert found.statistic == 3 * rows
+
+
 def test_a_coarse_encoder_is_found_on_its_own_joint_with_its_step():
     (found,) = findings("encoder_quantization", recorded(step=5e-3))
     assert found.site == (1,)
