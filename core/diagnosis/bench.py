@@ -17,8 +17,8 @@ from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allo
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Score, score
+from core.diagnosis.suspicion import Suspicion, joined_by
 from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
 
@@ -63,10 +63,9 @@ class Bench:
         self.base = joint_rows(look, columns, mask)
         self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
         self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
-        self.believed = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
+        nothing = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
+        self._now = self._ranked = Suspicion((), look, look, nothing)
         self._lasting: dict[Place, Columns] = {}
-        self._believing: dict[Place, Columns] = {}
-        self._candidates: tuple[Candidate, ...] = ()
         self._ordinary = ordinary
 
     def believe(self, found: Hypothesis) -> None:
@@ -76,37 +75,16 @@ class Bench:
         """
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.fit.values[: len(self.plan.columns)]
-        look = self._without_lasting(found)
-        self.believed = self._joined_by(found, Prediction(self.plan.model, standard, inverse_dynamics))
-        self._believing = {}
-        self._candidates = tuple(
-            Candidate(cause, site, scalars, cause.trials(grid, scalars))
-            for cause in self.causes
-            for site in cause.sites(self.look, self.believed)
-            for grid in [tuple(cause.grid(look, self.believed, site))]
-            for scalars in grid
-        )
-
-    def _joined_by(self, found: Hypothesis, believed: Prediction) -> Prediction:
-        """Give a prediction that knows what joined the model: loads first, then all else, then its scales.
-
-        What is late is late after that, and is not part of it.
-        """
-        for joins in (_loads, _acts_inside, _scales):
-            terms = []
-            for index, one in enumerate(found.members):
-                term = one.cause.term(self.look, believed, one.site, one.scalars)
-                if joins(term) and not one.cause.yielded:
-                    terms.append((term, found.fit.values[found.columns_of(index)]))
-            believed = replace(believed, joined=(*believed.joined, *terms))
-        return believed
+        left = self._without_lasting(found)
+        believed = joined_by(self.look, found, Prediction(self.plan.model, standard, inverse_dynamics))
+        self._now = Suspicion(self.causes, self.look, left, believed)
 
     def remembered(self) -> Callable[[], None]:
         """Give what brings back what is believed now, after something else was."""
-        believed, believing, candidates = self.believed, self._believing, self._candidates
+        now, ranked = self._now, self._ranked
 
         def believe_again() -> None:
-            self.believed, self._believing, self._candidates = believed, believing, candidates
+            self._now, self._ranked = now, ranked
 
         return believe_again
 
@@ -121,27 +99,50 @@ class Bench:
 
     @property
     def candidates(self) -> tuple[Candidate, ...]:
-        """Give everything that is suspected under the present belief."""
-        return self._candidates
+        """Give everything that is suspected, as it was under an earlier belief that ranks it alike."""
+        return (*self._ranked_like_now.lasting, *self._now.events)
+
+    @property
+    def _ranked_like_now(self) -> Suspicion:
+        """Give the earliest suspicion since which no other belief would rank candidates otherwise."""
+        if not self._ranked.ranks_like(self._now):
+            self._ranked = self._now
+        return self._ranked
+
+    def alike(self, candidate: Candidate) -> tuple[Candidate, ...]:
+        """Give the candidates of the same kind, with all scalars that are scanned."""
+        return self._now.of(candidate.cause, candidate.site)
+
+    @property
+    def believed(self) -> Prediction:
+        """Give what is believed: the columns of candidates are built on it."""
+        return self._now.believed
 
     def scored(self, under: Hypothesis, candidates: Sequence[Candidate]) -> list[Score]:
         """Score candidates on top of a hypothesis."""
         return score(under.fit, self.base, self.columns(candidates))
 
+    def _ranked_scores(self, under: Hypothesis) -> list[Score]:
+        """Score everything that is suspected, with columns that are good enough to rank it."""
+        ranked, events = self._ranked_like_now, self._now.events
+        columns = [*self._columns(ranked.lasting, ranked), *self.columns(events)]
+        return score(under.fit, self.base, columns)
+
     @property
     def kinds(self) -> int:
         """Count the pairs of cause and site that are suspected."""
-        return max(len({one.key for one in self._candidates}), 1)
+        return max(len({one.key for one in self.candidates}), 1)
 
     def columns(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """Give the candidates' filtered columns, computing those that are new."""
-        new = [
-            one for one in candidates if one.place not in self._lasting and one.place not in self._believing
-        ]
-        terms = [one.cause.term(self.look, self.believed, one.site, one.scalars) for one in new]
+        return self._columns(candidates, self._now)
+
+    def _columns(self, candidates: Sequence[Candidate], suspicion: Suspicion) -> list[Columns]:
+        known = (self._lasting, suspicion.columns)
+        new = [one for one in candidates if not any(one.place in kept for kept in known)]
+        terms = [one.cause.term(self.look, suspicion.believed, one.site, one.scalars) for one in new]
         for one, term, columns in zip(new, terms, self.look.columns(terms), strict=True):
-            (self._believing if hasattr(term, "believed") else self._lasting)[one.place] = columns
-        known = (self._lasting, self._believing)
+            known[hasattr(term, "believed")][one.place] = columns
         return [next(kept[one.place] for kept in known if one.place in kept) for one in candidates]
 
     def tried(self, members: tuple[Candidate, ...], start: Hypothesis | None = None) -> Hypothesis:
@@ -157,6 +158,16 @@ class Bench:
             if found.possible or start.members == members:
                 return found
         return self._hypothesis(members, columns, fit(rows, belief=self.belief, ordinary=self._ordinary))
+
+    def less(self, now: Hypothesis) -> tuple[Hypothesis, ...]:
+        """Fit a hypothesis without each of its members in turn; kept until another's are asked for."""
+        kept = self._now.less
+        if now not in kept:
+            kept.clear()
+            everyone = range(len(now.members))
+            rest = ((*now.members[:one], *now.members[one + 1 :]) for one in everyone)
+            kept[now] = tuple(self.tried(members, now) for members in rest)
+        return kept[now]
 
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
         """Fit a hypothesis with one more member, learning its noise anew where the member acts.
@@ -196,20 +207,15 @@ class Bench:
     def scanned(self, under: Hypothesis, candidates: Sequence[Candidate] | None = None) -> list[Scored]:
         """Score candidates (all by default) on top of a hypothesis; the best scalars of each kind only.
 
-        Scalars at which nature allows what is found go before those at which it does not.
+        Scalars at which nature allows what is found go before those at which it does not. What all of them
+        score is kept as long as the hypothesis and the belief are.
         """
-        asked = self._candidates if candidates is None else tuple(candidates)
-        found = self.scored(under, asked)
-        best: dict[object, tuple[bool, Scored]] = {}
-        for one, judged in zip(asked, found, strict=True):
-            scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
-            possible = allowed(one, judged)
-            if one.key not in best or (possible, scored.statistic) > (
-                best[one.key][0],
-                best[one.key][1].statistic,
-            ):
-                best[one.key] = possible, scored
-        return sorted((one for _, one in best.values()), key=lambda one: one.log_p)
+        if candidates is not None:
+            return _best_of_kinds(candidates, self.scored(under, candidates))
+        scans = self._now.scans
+        if under not in scans:
+            scans[under] = _best_of_kinds(self.candidates, self._ranked_scores(under))
+        return scans[under]
 
     def leaves_too_much(self, under: Hypothesis) -> bool:
         """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would."""
@@ -274,13 +280,15 @@ class Bench:
         return squares[0] / max(squares[1], 1e-300)
 
 
-def _loads(term: Term) -> bool:
-    return term.loads
-
-
-def _acts_inside(term: Term) -> bool:
-    return not term.loads and not term.channel
-
-
-def _scales(term: Term) -> bool:
-    return term.channel
+def _best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Scored]:
+    """Give the best scalars of each kind, the least likely by luck first."""
+    best: dict[object, tuple[bool, Scored]] = {}
+    for one, judged in zip(asked, found, strict=True):
+        scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
+        possible = allowed(one, judged)
+        if one.key not in best or (possible, scored.statistic) > (
+            best[one.key][0],
+            best[one.key][1].statistic,
+        ):
+            best[one.key] = possible, scored
+    return sorted((one for _, one in best.values()), key=lambda one: one.log_p)

@@ -53,7 +53,7 @@ def finding(
         confidence=confidence(own.statistic, margin, measured),
         p_value=float(np.exp(log_p)),
         explained_fraction=_explained(left, look.usable & ~look.held_out[:, None], joints),
-        evidence=_evidence(own, log_p, member.trials),
+        evidence=(*_evidence(own, log_p, member.trials), *_unseen(bench, chosen, place, own)),
         ambiguous_with=own.ambiguous,
         refuted=own.refuted,
         gain=measured,
@@ -81,6 +81,24 @@ def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...
             own.margin,
         ),
         *_over_nameless(own),
+    )
+
+
+def _unseen(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> tuple[Evidence, ...]:
+    """Say what it brings on rows that no fit has seen, each weighed by the noise there; not of an event.
+
+    The error's RMS, which `gain` is of, may be one of slow torque that hides what is weighed here.
+    """
+    if own.member.cause.event:
+        return ()
+    expected = bench.unseen_share(chosen, place) * own.statistic
+    return (
+        Evidence(
+            "Rise of twice the log-likelihood on rows that no fit has seen; as far as it acts there "
+            f"{expected:.0f} is to be expected",
+            "unseen likelihood ratio",
+            bench.unseen_rise(own.without, chosen),
+        ),
     )
 
 

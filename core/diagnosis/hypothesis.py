@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -47,7 +48,7 @@ class Candidate:
         """Count the scalars that were free."""
         return len(set(self.scalars) - set(self.cause.yielded))
 
-    @property
+    @cached_property
     def place(self) -> Place:
         """Name it with its scalars."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))

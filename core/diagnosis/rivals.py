@@ -141,7 +141,7 @@ def _beaten(own: Standing) -> bool:
 def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[Key] = ()) -> Standing:
     """Weigh a member against the best of all other candidates in its place, but for what was given up."""
     member = chosen.members[index]
-    without = bench.tried((*chosen.members[:index], *chosen.members[index + 1 :]), chosen)
+    without = bench.less(chosen)[index]
     own = bench.tried((*without.members, member), without)
     taken = {*chosen.by_key, *given_up}
     excluded = {name for one in without.members for name in one.cause.excludes}

@@ -4,7 +4,7 @@ One scalar after the other is searched on top of a hypothesis, at its noise, all
 variable projection. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 
@@ -17,6 +17,8 @@ from core.diagnosis.grid import between, closely, neighbours
 from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
 from core.diagnosis.score import Score
 
+ROUNDS = 2
+"""Times that a scalar is looked for closer and closer."""
 YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
@@ -25,11 +27,15 @@ NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
 
-def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, close: bool = False) -> Candidate:
+def refined(
+    bench: Bench, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False, close: bool = False
+) -> Candidate:
     """Settle a candidate's scalars between its grid points, on top of a hypothesis.
 
     Parameters
     ----------
+    on_trial
+        Whether it is enough to know roughly what they are, and not how well they are known.
     close
         Whether to look closely for narrow peaks, where the cause has them.
     """
@@ -38,7 +44,10 @@ def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, close: boo
             candidate = _yielding(bench, under, candidate, name)
         elif name not in candidate.cause.unrefined:
             sharp = close and name in candidate.cause.sharp
-            candidate = _refined(bench, under, candidate, name, sharp=sharp)
+            rounds = 1 if on_trial else ROUNDS
+            candidate, seen = _refined(bench, under, candidate, name, sharp=sharp, rounds=rounds)
+            if not on_trial:
+                candidate = _told(bench, under, candidate, name, seen)
     return candidate
 
 
@@ -58,24 +67,33 @@ def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) 
     return _at(candidate, name, float(found.root))
 
 
-def _refined(bench: Bench, under: Hypothesis, candidate: Candidate, name: str, *, sharp: bool) -> Candidate:
+def _refined(
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, *, sharp: bool, rounds: int
+) -> tuple[Candidate, Mapping[float, float]]:
+    """Settle one scalar, and give the statistics of all values that were tried."""
     here, (points, ends) = candidate.scalars[name], _grid(bench, candidate, name)
     low, high = np.clip(neighbours(points, here), *ends)
-    seen: list[tuple[float, float]] = []
-    for turn in range(2):
+    seen: dict[float, float] = {}
+    for turn in range(rounds):
         values = closely(points, here) if sharp and not turn else between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
         found = bench.scored(under, trials)
         ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
         best = ranks.index(max(ranks))
         here = trials[best].scalars[name]
-        seen += [(trial.scalars[name], rank[1]) for trial, rank in zip(trials, ranks, strict=True)]
-        order = sorted({*values, here})
-        low, high = neighbours(order, here)
-    settled = _at(candidate, name, here)
-    deviation, slope = _spread(bench, under, settled, name, (low, high))
+        seen |= {trial.scalars[name]: rank[1] for trial, rank in zip(trials, ranks, strict=True)}
+        low, high = neighbours(sorted({*values, here}), here)
+    return _at(candidate, name, here), seen
+
+
+def _told(
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, seen: Mapping[float, float]
+) -> Candidate:
+    """Tell how well a settled scalar is known, from what other values are worth."""
+    here = candidate.scalars[name]
+    deviation, slope = _spread(bench, under, candidate, name, neighbours(sorted(seen), here))
     return replace(
-        settled,
+        candidate,
         deviations={**candidate.deviations, name: max(deviation, _reach(seen, here))},
         slopes={**candidate.slopes, name: slope},
     )
@@ -86,9 +104,9 @@ def _grid(bench: Bench, candidate: Candidate, name: str) -> tuple[list[float], t
 
     What is settled again and again may not wander off.
     """
-    here, same = candidate.scalars[name], (candidate.cause, candidate.site)
+    here = candidate.scalars[name]
     # What is believed may have changed since it was chosen, and the grid with it.
-    scanned = [one.scalars.get(name, here) for one in bench.candidates if (one.cause, one.site) == same]
+    scanned = [one.scalars.get(name, here) for one in bench.alike(candidate)]
     points = sorted({*scanned} or {here})
     return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 
@@ -123,13 +141,13 @@ def _at(candidate: Candidate, name: str, value: float) -> Candidate:
     return replace(candidate, scalars={**candidate.scalars, name: value})
 
 
-def _reach(seen: Sequence[tuple[float, float]], here: float) -> float:
+def _reach(seen: Mapping[float, float], here: float) -> float:
     """Give the deviation that the farthest of the values which are nearly as likely stands for.
 
     The likelihood of an instant has edges, and no curvature that tells how well it is known.
     """
-    best = max(statistic for _, statistic in seen)
-    likely = [abs(value - here) for value, statistic in seen if best - statistic < NEARLY**2]
+    best = max(seen.values())
+    likely = [abs(value - here) for value, statistic in seen.items() if best - statistic < NEARLY**2]
     return max(likely) / NEARLY
 
 

@@ -31,8 +31,11 @@ UNCHANGED = 0.9
 """unless, on a joint of its own, it was as clear, within this share, before any other cause was known."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
-RIVALS = 6
-"""The same where one is to take another's place."""
+RIVALS, BETTER = 6, 6.0
+"""The same where one is to take another's place, and by how much its criterion has to be better."""
+RAISED = 8.0
+"""Noise learned anew with a candidate raises what a scan says of it by so much at most (six and a half times
+were seen): what cannot come up to others so is fitted only where these do not hold."""
 FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 MOST = 5
@@ -114,20 +117,59 @@ def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
 
 
 def best_addition(
-    bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING, most: int = TRIED
+    bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING, most: int = TRIED, least: float = 0.0
 ) -> Hypothesis | None:
-    """Give the hypothesis with the cause that deserves it most, of so many tried; None where none does."""
+    """Give the hypothesis with the cause that deserves it most, of so many tried; None where none does.
+
+    Parameters
+    ----------
+    least
+        What its criterion has to gain (see `merit`).
+    """
     excluded = {name for one in now.members for name in one.cause.excludes}
-    taken = {*now.by_key, *(key for key, least in given_up.items() if least == np.inf)}
-    taken |= {one.key for one in bench.candidates if one.cause.id in excluded}
-    scans = [one for one in bench.scanned(now) if one.candidate.key not in taken]
+    taken = {*now.by_key, *(key for key, brings in given_up.items() if brings == np.inf)}
+    scans = [
+        one
+        for one in bench.scanned(now)
+        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
+    ]
     tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
-    trials = [trial for one in tried for trial in [with_candidate(bench, now, one)] if trial.possible]
-    count = len({one.candidate.key for one in scans})
-    likely = sorted(
-        (trial for trial in trials if _deserves(bench, now, trial, count)),
-        key=lambda trial: -merit(now, trial),
-    )
+    found, left = None, [one for one in tried if _may_reach(one, least)]
+    while left and found is None:
+        likely, left = _likely(bench, now, left, least, len(scans))
+        found = _first_to_hold(bench, now, likely, given_up, least)
+    return found
+
+
+def _may_reach(scored: Scored, least: float) -> bool:
+    """Tell whether a candidate may gain so much once it is fitted; a scan says little of an event."""
+    return scored.candidate.cause.event or RAISED * scored.statistic > least
+
+
+def _likely(
+    bench: Bench, now: Hypothesis, scans: Sequence[Scored], least: float, kinds: int
+) -> tuple[list[Hypothesis], list[Scored]]:
+    """Fit the candidates of a scan, and give those that are clear enough, the best ones first.
+
+    Those that cannot be better than others that were are not fitted, and given besides.
+    """
+    likely, left, best = [], [], least
+    for one in scans:
+        if not _may_reach(one, best):
+            left.append(one)
+            continue
+        trial = with_candidate(bench, now, one)
+        gains = merit(now, trial)
+        if trial.possible and gains > least and _deserves(bench, now, trial, kinds):
+            likely.append(trial)
+            best = best if one.candidate.cause.event else max(best, gains)
+    return sorted(likely, key=lambda trial: -merit(now, trial)), left
+
+
+def _first_to_hold(
+    bench: Bench, now: Hypothesis, likely: Sequence[Hypothesis], given_up: GivenUp, least: float
+) -> Hypothesis | None:
+    """Give the best of some trials that holds on unseen rows and is not what others leave."""
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
     whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
     # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
@@ -136,6 +178,7 @@ def best_addition(
         trial
         for trial in ranked
         if trial.possible
+        and merit(now, trial) > least
         and rise(now, trial) > given_up.get(trial.members[-1].key, 0.0)
         and holds_unseen(bench, now, trial)
         and not left_over(bench, trial, len(now.members), now)
@@ -208,9 +251,8 @@ def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
-    """Add a candidate with refined scalars, and fit everything anew."""
-    candidate = refined(bench, now, scored.candidate)
-    return bench.added(now, candidate)
+    """Add a candidate with scalars refined roughly, and fit everything anew."""
+    return bench.added(now, refined(bench, now, scored.candidate, on_trial=True))
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
@@ -230,17 +272,18 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[K
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
-        bench.believe(changed)
-        now = bench.tried(changed.members, changed)
+        if len(changed.members) == len(now.members):
+            now = settled(bench, changed)
+        else:
+            bench.believe(changed)
+            now = bench.tried(changed.members, changed)
     return now
 
 
 def _challenged(
     bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
 ) -> Hypothesis | None:
-    less = [
-        bench.tried((*now.members[:one], *now.members[one + 1 :]), now) for one in range(len(now.members))
-    ]
+    less = bench.less(now)
     brings = [rise(without, now) for without in less]
     weak = [
         index
@@ -253,10 +296,10 @@ def _challenged(
         given_up[now.members[least].key] = np.inf
         return less[least]
     for index, member in enumerate(now.members):
-        rival = best_addition(bench, less[index], given_up, RIVALS)
-        if rival is None or rival.members[-1].key == member.key:
-            continue
-        if merit(less[index], rival) > merit(less[index], now, index) + 6.0:
+        hurdle = merit(less[index], now, index) + BETTER
+        rival = best_addition(bench, less[index], {**given_up, member.key: np.inf}, RIVALS, hurdle)
+        # What acts at picked instants only does not take the place of what acts all the time.
+        if rival is not None and (member.cause.event or not rival.members[-1].cause.event):
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
             given_up[member.key] = BESIDE_SHARE * brings[index]
             return rival

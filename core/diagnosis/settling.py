@@ -26,7 +26,7 @@ def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     now = _settled_once(bench, better)
     if better.possible and not now.allows(-1):
         believe_first()
-        return better
+        return _last_settled(bench, better)
     for _ in range(SETTLINGS - 1):
         believe_before = bench.remembered()
         again = _settled_once(bench, now)
@@ -50,7 +50,6 @@ def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
 
 def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     member, before = now.members[-1], bench.beneath(now)
-    same = [one for one in bench.candidates if one.key == member.key]
-    found = bench.scanned(before, [*same, member])[0]
+    found = bench.scanned(before, [*bench.alike(member), member])[0]
     moved = bench.tried((*before.members, refined(bench, before, found.candidate, close=True)), now)
     return moved if moved.possible or not now.possible else now

@@ -29,21 +29,10 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
     JointSeries
         Torque in N m (revolute) or N (prismatic).
     """
-    samples = len(state.position)
     poses = [_pose(link, state) for link in robot.links]
-    base = (
-        np.zeros((samples, 3)),
-        np.zeros((samples, 3)),
-        np.tile(-np.asarray(robot.gravity, float), (samples, 1)),
-    )
-    spins: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-    forces, moments = [], []
-    for link, pose, body in zip(robot.links, poses, links, strict=True):
-        before = spins[link.antecedent - 1] if link.antecedent else base
-        spins.append(_advance(link, pose, before, state))
-        force, moment = _wrench(body, *spins[-1])
-        forces.append(force)
-        moments.append(moment)
+    spins = _spins(robot, poses, state)
+    wrenches = [_wrench(body, *spin) for body, spin in zip(links, spins, strict=True)]
+    forces, moments = [force for force, _ in wrenches], [moment for _, moment in wrenches]
     torque = np.zeros_like(state.position, dtype=float)
     for index in range(len(robot.links) - 1, -1, -1):
         link, (rotation, shift) = robot.links[index], poses[index]
@@ -56,6 +45,49 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
                 shift, force
             )
     return torque
+
+
+def unit_torques(robot: RobotModel, number: int, state: MotionState) -> np.ndarray:
+    """Give the torque per unit of each of one link's inertial parameters, the others' being zero.
+
+    Only the links that carry it are gone through, with all ten bodies at once.
+
+    Parameters
+    ----------
+    number
+        The link's, from 1.
+
+    Returns
+    -------
+    numpy.ndarray
+        Parameters x samples x joints, N m (revolute) or N (prismatic) per kg m2, kg m, kg.
+    """
+    poses = [_pose(link, state) for link in robot.links]
+    spin = _spins(robot, poses, state)[number - 1]
+    wrenches = [_wrench(body, *spin) for body in np.eye(10)]
+    force, moment = (np.stack(parts, axis=-1) for parts in zip(*wrenches, strict=True))
+    torque = np.zeros((10, *state.position.shape))
+    while number:
+        link, (rotation, shift) = robot.links[number - 1], poses[number - 1]
+        carried = moment if link.kind == "revolute" else force
+        torque[:, :, link.joint - 1] += link.ratio * carried[:, 2].T
+        force, moment = rotation @ force, rotation @ moment
+        moment += np.cross(shift[:, :, None], force, axis=1)
+        number = link.antecedent
+    return torque
+
+
+def _spins(
+    robot: RobotModel, poses: list[tuple[np.ndarray, np.ndarray]], state: MotionState
+) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Give every link's angular velocity, its rate, and its origin's acceleration less gravity's."""
+    still = np.zeros((len(state.position), 3))
+    base = (still, still, np.tile(-np.asarray(robot.gravity, float), (len(still), 1)))
+    spins: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+    for link, pose in zip(robot.links, poses, strict=True):
+        before = spins[link.antecedent - 1] if link.antecedent else base
+        spins.append(_advance(link, pose, before, state))
+    return spins
 
 
 def _pose(link: Link, state: MotionState) -> tuple[np.ndarray, np.ndarray]:

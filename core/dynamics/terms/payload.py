@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from core.arrays import JointSeries
-from core.dynamics.newton_euler import inverse_dynamics
+from core.dynamics.newton_euler import unit_torques
 from core.dynamics.terms.effect import AllJointsTerm, Symbol
 from core.dynamics.terms.rounding import without_rounding
 from core.robot.model import RobotModel
@@ -52,8 +52,6 @@ def body_torques(robot: RobotModel, link: int, state: MotionState) -> np.ndarray
 
     Kept for the last few stretches, because a scan of the instant asks for the same ones again.
     """
-    units = np.zeros((10, len(robot.links), 10))
-    units[np.arange(10), link - 1, np.arange(10)] = 1.0
-    torques = np.array(without_rounding([inverse_dynamics(robot, bodies, state) for bodies in units]))
+    torques = np.array(without_rounding(list(unit_torques(robot, link, state))))
     torques.setflags(write=False)
     return torques

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import BY_ID
-from core.diagnosis.hypothesis import Scored
+from core.diagnosis.hypothesis import Hypothesis, Scored
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
 
@@ -114,5 +115,43 @@ def test_what_was_believed_comes_back_with_everything_that_was_built_on_it():
     bench.believe(replace(none, fit=replace(none.fit, values=2.0 * none.fit.values)))
     assert not np.allclose(bench.scanned(none)[0].values, found[0].values)
     believe_before()
-    assert bench.candidates is suspected
+    assert bench.candidates == suspected
     assert np.array_equal(bench.scanned(none)[0].values, found[0].values)
+
+
+def believed_times(bench: Bench, none: Hypothesis, factor: float) -> None:
+    """Believe in bodies so many times as heavy as those that were found."""
+    bench.believe(replace(none, fit=replace(none.fit, values=factor * none.fit.values)))
+
+
+def test_a_belief_that_hardly_differs_ranks_with_the_columns_of_the_one_before():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    before = bench.scanned(none)
+    believed_times(bench, none, 1.01)
+    after = bench.scanned(none)
+    assert after is not before
+    assert all(np.array_equal(*(one.values for one in pair)) for pair in zip(before, after, strict=True))
+    believed_times(bench, none, 1.1)
+    assert not any(
+        np.array_equal(*(one.values for one in pair))
+        for pair in zip(before, bench.scanned(none), strict=True)
+    )
+
+
+def test_what_is_fitted_has_the_columns_of_what_is_believed_however_little_that_differs():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    (first, *_) = (one.candidate for one in bench.scanned(none))
+    before = bench.added(none, first).fit.values[-1]
+    believed_times(bench, none, 1.01)
+    after = bench.added(none, first).fit.values[-1]
+    # A cube's coefficient falls by the cube of what its argument grows by.
+    np.testing.assert_allclose(after, before / 1.01**3, rtol=0.02)
+    assert after != before
+
+
+def test_a_scan_is_made_once_for_a_hypothesis():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    assert bench.scanned(none) is bench.scanned(none)

@@ -10,7 +10,7 @@ from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.rise import log_p, merit, rise
 from core.diagnosis.rivals import standing
-from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, Selection, clear_enough, select
+from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, RAISED, Selection, clear_enough, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
@@ -74,6 +74,37 @@ def spiky(state):
 def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
     found = select(bench_of(measured_arm(effect), (BY_ID["external_contact"],)))
     assert [name for name, _ in names(found)] == named
+
+
+def only_before_the_unseen_rows(state):
+    """Put a large wave where rows are fitted and its opposite where they are not; a small one all along."""
+    large = wave_effect({QUICK: 0.6})(state) * np.where(state.time < 16.0, 1.0, -1.0)[:, None]
+    return large + wave_effect({QUICKER: 0.06})(state)
+
+
+def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_the_same():
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    bench = bench_of(measured_arm(only_before_the_unseen_rows), causes)
+    none = nothing_found(bench)
+    first, second = bench.scanned(none)
+    assert first.candidate.cause.id == "quick"
+    assert RAISED * second.statistic < merit(none, bench.added(none, first.candidate))
+    assert names(select(bench)) == [("quicker", (2,))]
+
+
+def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_time():
+    lasting = wave_cause("lasting", {QUICK: 1.0})
+    event = wave_cause("event", {QUICK: 1.0, QUICKER: 0.5})
+    type(event).event = True
+    effect = wave_effect({QUICK: 0.6, QUICKER: 0.3})
+    alone = select(bench_of(measured_arm(effect), (event,)))
+    assert names(alone) == [("event", (2,))]
+    both = select(bench_of(measured_arm(effect), (lasting, event)))
+    assert [(step.action, step.candidate.cause.id) for step in both.steps] == [
+        ("added", "lasting"),
+        ("added", "event"),
+        ("dropped", "lasting"),
+    ]
 
 
 @cache

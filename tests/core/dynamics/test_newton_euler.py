@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.dynamics.newton_euler import inverse_dynamics
+from core.dynamics.newton_euler import inverse_dynamics, unit_torques
 from core.robot.inertia import pseudo_inertia
 from core.robot.model import Link, RobotModel
 from core.signals.state import MotionState
@@ -76,6 +76,19 @@ def test_newton_euler_carries_the_torque_of_mimic_links_to_their_joint(engine):
     assert len(robot.joints) == 6
     bodies, motion = random_bodies(rng, 9), random_motion(rng, 6)
     assert relative_difference(_torque(robot, bodies, motion), engine(robot, bodies, motion)) < TOLERANCE
+
+
+@pytest.mark.parametrize("prismatic", [0.0, 0.4, 1.0], ids=["revolute", "mixed", "prismatic"])
+def test_what_each_parameter_of_each_link_brings_adds_up_to_the_torque_of_other_engines(engine, prismatic):
+    rng = np.random.default_rng([8, int(10 * prismatic)])
+    robot = with_mimics(random_robot(rng, 9, tree=True, prismatic=prismatic), rng)
+    bodies, motion = random_bodies(rng, 9), random_motion(rng, len(robot.joints))
+    state = MotionState(motion.position, motion.velocity, motion.acceleration)
+    torque = sum(
+        np.einsum("p,psj->sj", body, unit_torques(robot, number, state))
+        for number, body in enumerate(bodies, start=1)
+    )
+    assert relative_difference(torque, engine(robot, bodies, motion)) < TOLERANCE
 
 
 def test_a_link_without_its_body_is_noticed(engine):

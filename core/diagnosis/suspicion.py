@@ -1,0 +1,113 @@
+"""Keep what is suspected while one prediction is believed, and what was computed for it.
+
+All of it is out of date as soon as something else is believed, and of use again when the first is.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from core.diagnosis.cause import Cause, Site
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored
+from core.diagnosis.look import Look
+from core.diagnosis.rows import Columns
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+
+NEAR = 0.05
+"""Share of every joint's torque within which two predictions rank candidates alike."""
+
+
+@dataclass(frozen=True, eq=False)
+class Suspicion:
+    """Keep what is suspected while one prediction is believed.
+
+    Attributes
+    ----------
+    look, left
+        The rows; and the same with only what is not explained so far for their torque.
+    columns
+        The filtered columns of candidates that are built on the prediction.
+    scans
+        Per hypothesis, what a scan of all candidates on top of it gave.
+    less
+        The last hypotheses that were taken apart, and what each is without either of its members.
+    """
+
+    causes: tuple[Cause, ...]
+    look: Look
+    left: Look
+    believed: Prediction
+    columns: dict[Place, Columns] = field(default_factory=dict)
+    scans: WeakKeyDictionary[Hypothesis, list[Scored]] = field(default_factory=WeakKeyDictionary)
+    less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
+    _kinds: dict[tuple[str, Site], tuple[Candidate, ...]] = field(default_factory=dict)
+
+    @cached_property
+    def lasting(self) -> tuple[Candidate, ...]:
+        """Give what is suspected all along the motion."""
+        return tuple(self._of(cause for cause in self.causes if not cause.event))
+
+    @cached_property
+    def events(self) -> tuple[Candidate, ...]:
+        """Give what may have happened, as what is left tells of it."""
+        return tuple(self._of(cause for cause in self.causes if cause.event))
+
+    def _of(self, causes: Iterable[Cause]) -> Iterator[Candidate]:
+        for cause in causes:
+            for site in cause.sites(self.look, self.believed):
+                yield from self.of(cause, site)
+
+    def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
+        """Give one cause at one site with all scalars that are scanned."""
+        kind = cause.id, site
+        if kind not in self._kinds:
+            grid = tuple(cause.grid(self.left, self.believed, site))
+            self._kinds[kind] = tuple(
+                Candidate(cause, site, scalars, cause.trials(grid, scalars)) for scalars in grid
+            )
+        return self._kinds[kind]
+
+    def ranks_like(self, other: "Suspicion") -> bool:
+        """Tell whether another prediction is so near that candidates built on it rank as those built on this.
+
+        Columns are of first order in what is predicted: they change by no greater share than that does.
+        """
+        if self is other:
+            return True
+        square, change = np.zeros(self.look.joints), np.zeros(self.look.joints)
+        for stretch in self.look.stretches:
+            own, theirs = (one.believed.scaled(stretch.state) for one in (self, other))
+            square += np.sum(own**2, axis=0)
+            change += np.sum((theirs - own) ** 2, axis=0)
+        return bool(np.all(change <= NEAR**2 * square))
+
+
+def joined_by(look: Look, found: Hypothesis, believed: Prediction) -> Prediction:
+    """Give a prediction that knows what joined the model: loads first, then all else, then its scales.
+
+    What is late is late after that, and is not part of it.
+    """
+    for joins in (_loads, _acts_inside, _scales):
+        terms = []
+        for index, one in enumerate(found.members):
+            term = one.cause.term(look, believed, one.site, one.scalars)
+            if joins(term) and not one.cause.yielded:
+                terms.append((term, found.fit.values[found.columns_of(index)]))
+        believed = replace(believed, joined=(*believed.joined, *terms))
+    return believed
+
+
+def _loads(term: Term) -> bool:
+    return term.loads
+
+
+def _acts_inside(term: Term) -> bool:
+    return not term.loads and not term.channel
+
+
+def _scales(term: Term) -> bool:
+    return term.channel
