@@ -67,12 +67,13 @@ def _alike(
         white = own.whitening @ np.hstack([candidates[index][joint][rows.rows] for index in present])
         inside = own.free.inside(white)
         right[present] += (found.left[joint] @ white).reshape(-1, width)
-        squares[present] += np.einsum("ij,ij->j", white, white).reshape(-1, width)
         acting, known, spanned = own.acting
         both = known.T @ white - spanned.T @ inside
         both = both.reshape(len(acting), len(present), width)
         cross[np.array(present)[:, None], acting] += np.moveaxis(both, 0, 1)
-        grams[present] += _grams(white, width) - _grams(inside, width)
+        whole = _grams(white, width)
+        squares[present] += np.diagonal(whole, axis1=1, axis2=2)
+        grams[present] += whole - _grams(inside, width)
     flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
     reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
     return _judged(grams - _grams(reduced, width), right, squares)
