@@ -87,7 +87,10 @@ class ExternalContact(OwnJointCause):
         return bool(np.all(force < STRONGEST) and np.all(moment < LONGEST_LEVER * force + doubt))
 
     def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
-        """Report every contact's force at its peak, when it begins and ends, and first the force known best."""
+        """Report every contact's force at its peak, when it begins and ends, and first the force known best.
+
+        The largest is often that which is known least: what noise adds to a force makes it larger.
+        """
         contacts = _contacts(solved)
         best = min(contacts, key=lambda one: one.doubt)
         found = [Quantity("force", solved.site[0], "N", best.force, best.deviation)]
@@ -126,8 +129,9 @@ class _Contact:
 
 
 def _contacts(solved: Solved) -> list[_Contact]:
+    forces = np.linalg.norm(solved.values.reshape(-1, len(WRENCH))[:, :3], axis=1)
     return [
-        _Contact(span, *_force(solved, slice(len(WRENCH) * number, len(WRENCH) * number + 3)))
+        _Contact(span, float(forces[number]), _deviation(solved, number))
         for number, span in enumerate(_spans(solved.scalars))
     ]
 
@@ -137,14 +141,9 @@ def _spans(scalars: Scalars) -> tuple[Span, ...]:
     return tuple((scalars[f"start_{number}"], scalars[f"end_{number}"]) for number in range(1, count + 1))
 
 
-def _force(solved: Solved, place: slice) -> tuple[float, float]:
-    """Give the size of one contact's force and its deviation, N.
-
-    Noise makes a vector longer, most along directions that the motion hardly shows: its square is too large
-    by the trace of its covariance, and has the variance of a quadratic form of normal numbers.
-    """
-    force, covariance = solved.values[place], solved.covariance[place, place]
-    square = max(float(force @ force - np.trace(covariance)), 0.0)
-    doubt = float(np.sqrt(4.0 * force @ covariance @ force + 2.0 * np.sum(covariance**2)))
-    size = float(np.sqrt(square))
-    return size, 0.5 * doubt / max(size, float(np.sqrt(0.5 * doubt)), 1e-300)
+def _deviation(solved: Solved, number: int) -> float:
+    """Give the deviation of the size of one contact's force, N, to first order: that along the force."""
+    place = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
+    force = solved.values[place]
+    along = force / max(float(np.linalg.norm(force)), 1e-300)
+    return float(np.sqrt(max(along @ solved.covariance[place, place] @ along, 0.0)))
