@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from benchmarks.figures import Figure
+from core.diagnosis.diagnosis import Finding
 from core.log.model import JointLog
 from core.report.diagnosed import Diagnosed
 from core.robot.model import RobotModel
@@ -68,7 +69,7 @@ def _figures(name: str, one: Run) -> list[Figure]:
         *(
             Figure(
                 f"{name}: {finding.cause}, joint {' '.join(map(str, finding.joints))}",
-                f"{finding.gain.total_percent:.0f} % gained on unseen motion" if finding.gain else "",
+                _gained(finding),
                 "",
                 "or " + ", ".join(rival.cause for rival in finding.ambiguous_with)
                 if finding.ambiguous_with
@@ -90,6 +91,15 @@ def _figures(name: str, one: Run) -> list[Figure]:
     ]
     left = ", ".join(f"{100.0 * part.share:.0f}" for part in found.diagnosis.predictable)
     return [*figures, Figure(f"{name}: predictable share of what is left per joint, %", left, ratio=True)]
+
+
+def _gained(finding: Finding) -> str:
+    """Say what a finding takes from the error on unseen rows, and what it brings, weighed by the noise."""
+    if finding.gain is None:
+        return ""
+    error = f"{finding.gain.total_percent:.0f} % gained on unseen motion"
+    weighed = [one.value for one in finding.evidence if one.statistic == "unseen likelihood ratio"]
+    return "; ".join([error, *(f"likelihood ratio {one:.0f} there" for one in weighed)])
 
 
 def _errors(found: Diagnosed) -> tuple[np.ndarray, np.ndarray]:
