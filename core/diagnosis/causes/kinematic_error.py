@@ -1,7 +1,7 @@
 """Suspect that one entry of the robot's table is wrong."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
@@ -82,7 +82,8 @@ class KinematicError(OwnJointCause, MendsRobot):
         """Say which entry is off by how much."""
         found = named(self.quantities(solved))["error"]
         entry = _entry(solved.scalars)
-        return f"Joint {solved.site[0]}'s {entry} in the kinematic table has to grow by {shown(found)}"
+        way, size = ("grow" if found.value > 0.0 else "shrink"), replace(found, value=abs(found.value))
+        return f"Joint {solved.site[0]}'s {entry} in the kinematic table has to {way} by {shown(size)}"
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """Say what the entry becomes."""

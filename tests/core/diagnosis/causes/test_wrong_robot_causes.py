@@ -10,6 +10,7 @@ from core.diagnosis.causes.backlash import Backlash
 from core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
 from core.diagnosis.causes.external_contact import ExternalContact
 from core.diagnosis.causes.gravity_misalignment import GravityMisalignment
+from core.diagnosis.causes.kinematic_error import KinematicError
 from core.diagnosis.causes.payload_change import PayloadChange
 from core.diagnosis.causes.sites import end_links, revolute_joints
 from core.diagnosis.causes.waves import amplitude_and_angle
@@ -47,6 +48,11 @@ def test_a_body_that_is_taken_off_has_a_negative_mass_and_its_centre_where_it_wa
     found = {one.name: one.value for one in quantities}
     assert found == pytest.approx({"mass": -2.0, "com_x": 0.1, "com_y": 0.2, "com_z": -0.3, "time": 4.0})
     assert "has lost 2" in PayloadChange().statement(solved(load, {"time": 4.0}))
+
+
+@pytest.mark.parametrize(("error", "told"), [(-0.02, "shrink by 0.02 "), (0.02, "grow by 0.02 ")])
+def test_an_entry_that_is_too_large_has_to_shrink_and_one_that_is_too_small_to_grow(error, told):
+    assert told in KinematicError().statement(solved([error], {"entry": 0.0}))
 
 
 def test_the_deviation_of_a_mass_centre_is_that_of_a_ratio():
