@@ -13,15 +13,17 @@ from core.arrays import JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
 from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, whitened
-from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, allowed
+from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 from core.diagnosis.look import Look
-from core.diagnosis.rows import Columns, extended, joint_rows
+from core.diagnosis.rows import Columns, JointRows, extended, joint_rows
 from core.diagnosis.score import Score, score
 from core.diagnosis.suspicion import Suspicion, joined_by
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
 
+SCORED_ANEW = 24
+"""Best kinds of a scan that are scored anew where columns are of an earlier belief; fewer are ever fitted."""
 MOST_AT_REST = 0.9
 """A joint whose friction at rest may be anything on more than this share of the rows hardly moves."""
 
@@ -122,12 +124,6 @@ class Bench:
         """Score candidates on top of a hypothesis."""
         return score(under.fit, self.base, self.columns(candidates))
 
-    def _ranked_scores(self, under: Hypothesis) -> list[Score]:
-        """Score everything that is suspected, with columns that are good enough to rank it."""
-        ranked, events = self._ranked_like_now, self._now.events
-        columns = [*self._columns(ranked.lasting, ranked), *self.columns(events)]
-        return score(under.fit, self.base, columns)
-
     @property
     def kinds(self) -> int:
         """Count the pairs of cause and site that are suspected."""
@@ -211,11 +207,22 @@ class Bench:
         score is kept as long as the hypothesis and the belief are.
         """
         if candidates is not None:
-            return _best_of_kinds(candidates, self.scored(under, candidates))
+            return best_of_kinds(candidates, self.scored(under, candidates))
         scans = self._now.scans
         if under not in scans:
-            scans[under] = _best_of_kinds(self.candidates, self._ranked_scores(under))
+            scans[under] = self._scan(under)
         return scans[under]
+
+    def _scan(self, under: Hypothesis) -> list[Scored]:
+        """Score everything that is suspected, the best anew where columns are of an earlier belief."""
+        ranked, events = self._ranked_like_now, self._now.events
+        asked = (*ranked.lasting, *events)
+        columns = [*self._columns(ranked.lasting, ranked), *self.columns(events)]
+        found = best_of_kinds(asked, score(under.fit, self.base, columns))
+        if ranked is self._now:
+            return found
+        again = self.scanned(under, [one.candidate for one in found[:SCORED_ANEW]])
+        return sorted([*again, *found[SCORED_ANEW:]], key=lambda one: one.log_p)
 
     def leaves_too_much(self, under: Hypothesis) -> bool:
         """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would."""
@@ -250,20 +257,29 @@ class Bench:
             shares.append(max(1.0 - ratio * count / (count - taken), 0.0) if moves else np.nan)
         return np.array(shares)
 
-    def unseen_rise(self, now: Hypothesis, trial: Hypothesis) -> float:
+    def unseen_rise(self, now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
         """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise.
 
         What was believed beforehand was not seen by either: by how much less the larger hypothesis departs
         from it counts like rows, in proportion to those that are held out.
         """
-        share = self.unseen_share(trial) if self.belief else 0.0
+        share = self.unseen_share(trial, index) if self.belief else 0.0
+        return self._rise_at(self.unseen, now, trial, share)
+
+    def expected_unseen_rise(self, now: Hypothesis, trial: Hypothesis, index: int) -> float:
+        """Give what `unseen_rise` would be if a member did there what it does on the fitted rows."""
+        return self.unseen_share(trial, index) * self._rise_at(self.base, now, trial, 1.0)
+
+    def _rise_at(
+        self, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, believed: float
+    ) -> float:
         missed = []
         for one in (now, trial):
-            rows = extended(self.unseen, self.columns(one.members))
+            rows = extended(joints, self.columns(one.members))
             white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
             missed.append(sum(float(np.sum(w.left(one.fit.values) ** 2)) for w in white))
             if self.belief:
-                missed[-1] += share * self.belief.departure(one.fit.values)
+                missed[-1] += believed * self.belief.departure(one.fit.values)
         return missed[0] - missed[1]
 
     def unseen_share(self, trial: Hypothesis, index: int = -1) -> float:
@@ -278,17 +294,3 @@ class Bench:
                 total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
             squares.append(total)
         return squares[0] / max(squares[1], 1e-300)
-
-
-def _best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Scored]:
-    """Give the best scalars of each kind, the least likely by luck first."""
-    best: dict[object, tuple[bool, Scored]] = {}
-    for one, judged in zip(asked, found, strict=True):
-        scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
-        possible = allowed(one, judged)
-        if one.key not in best or (possible, scored.statistic) > (
-            best[one.key][0],
-            best[one.key][1].statistic,
-        ):
-            best[one.key] = possible, scored
-    return sorted((one for _, one in best.values()), key=lambda one: one.log_p)

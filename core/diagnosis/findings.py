@@ -91,13 +91,13 @@ def _unseen(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> tupl
     """
     if own.member.cause.event:
         return ()
-    expected = bench.unseen_share(chosen, place) * own.statistic
+    expected = bench.expected_unseen_rise(own.without, chosen, place)
     return (
         Evidence(
             "Rise of twice the log-likelihood on rows that no fit has seen; as far as it acts there "
             f"{expected:.0f} is to be expected",
             "unseen likelihood ratio",
-            bench.unseen_rise(own.without, chosen),
+            bench.unseen_rise(own.without, chosen, place),
         ),
     )
 

@@ -1,6 +1,6 @@
 """Carry what a diagnosis weighs: candidates, and hypotheses made of them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -135,3 +135,17 @@ def allowed(candidate: Candidate, judged: Score) -> bool:
     """Tell whether nature allows what a score says of a candidate."""
     solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
     return candidate.cause.possible(solved)
+
+
+def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Scored]:
+    """Give the best scalars of each kind, the least likely by luck first."""
+    best: dict[object, tuple[bool, Scored]] = {}
+    for one, judged in zip(asked, found, strict=True):
+        scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
+        possible = allowed(one, judged)
+        if one.key not in best or (possible, scored.statistic) > (
+            best[one.key][0],
+            best[one.key][1].statistic,
+        ):
+            best[one.key] = possible, scored
+    return sorted((one for _, one in best.values()), key=lambda one: one.log_p)

@@ -14,9 +14,10 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.diagnosis import Gain, Rival
 from core.diagnosis.gain import gain
 from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.joining import Key, holds_unseen, with_candidate
 from core.diagnosis.leftovers import keeps_beside, left_by_last
 from core.diagnosis.rise import merit, rise
-from core.diagnosis.selection import Key, Selection, Step, holds_unseen, with_candidate
+from core.diagnosis.selection import Selection, Step
 from core.diagnosis.strangers import best_stranger, strangers
 
 INDIFFERENCE = 6.0
@@ -70,7 +71,8 @@ def weighed(
 
     Beside a strong effect whose columns are not exact, much fits what is left a little; a member that another
     candidate would beat in its place, and that was not swapped for it, is such a stopgap. So is one that a
-    pattern without a name beats by far. What was given up is nobody's rival. Gives what remains, with its
+    pattern without a name beats by far, and one whose size nature does not allow once another was given up.
+    What was given up is nobody's rival. Gives what remains, with its
     members' standings.
     """
     suspects, lost = strangers(bench), set(given_up)
@@ -82,7 +84,9 @@ def weighed(
         weak = [
             index
             for index, one in enumerate(found)
-            if _stopgap(bench, selection.chosen, one, alone=one.statistic >= most) or _beaten(one)
+            if not selection.chosen.allows(index)
+            or _stopgap(bench, selection.chosen, one, alone=one.statistic >= most)
+            or _beaten(one)
         ]
         if not weak:
             return selection, found

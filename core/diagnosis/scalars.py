@@ -51,6 +51,18 @@ def refined(
     return candidate
 
 
+def told(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
+    """Tell how well a candidate's scalars are known where they are, on top of a hypothesis."""
+    for name, here in candidate.scalars.items():
+        if name not in (*candidate.cause.yielded, *candidate.cause.unrefined):
+            points, _ = _grid(bench, candidate, name)
+            trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
+            found = bench.scored(under, trials)
+            seen = {trial.scalars[name]: one.statistic for trial, one in zip(trials, found, strict=True)}
+            candidate = _told(bench, under, candidate, name, seen)
+    return candidate
+
+
 def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
     """Build the columns where they yield the size that they are built for."""
 

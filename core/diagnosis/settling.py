@@ -5,10 +5,12 @@ another one once a scale is known to be wrong, and a lag moves an elasticity fou
 it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on settling nonlinear parameters by turns.
 """
 
+from dataclasses import replace
+
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.rise import rise
-from core.diagnosis.scalars import refined
+from core.diagnosis.scalars import refined, told
 
 SETTLINGS = 8
 """Times that what is believed and what is found are settled on each other at most,"""
@@ -49,7 +51,10 @@ def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
 
 
 def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
+    """Settle the last member; where nature would not allow that, leave it and tell how well it is known."""
     member, before = now.members[-1], bench.beneath(now)
     found = bench.scanned(before, [*bench.alike(member), member])[0]
     moved = bench.tried((*before.members, refined(bench, before, found.candidate, close=True)), now)
-    return moved if moved.possible or not now.possible else now
+    if moved.possible or not now.possible:
+        return moved
+    return replace(now, members=(*before.members, told(bench, before, member)))

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.joining import clear_enough, holds_unseen
 from core.diagnosis.rise import merit
-from core.diagnosis.selection import clear_enough, holds_unseen
 from core.diagnosis.unlisted import Unlisted
 
 TRIED = 3

@@ -72,9 +72,9 @@ class Suspicion:
         return self._kinds[kind]
 
     def ranks_like(self, other: "Suspicion") -> bool:
-        """Tell whether another prediction is so near that candidates built on it rank as those built on this.
+        """Tell whether another prediction is so near that candidates built on this one will do to rank them.
 
-        Columns are of first order in what is predicted: they change by no greater share than that does.
+        Roughly: columns made of derivatives may change by a greater share than what is predicted does.
         """
         if self is other:
             return True

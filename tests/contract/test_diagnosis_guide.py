@@ -9,8 +9,9 @@ from pydantic import BaseModel
 
 from app.schemas import diagnosis as contract
 from core.diagnosis.diagnosis import Verdict
+from core.diagnosis.joining import LEVEL
 from core.diagnosis.rivals import INDIFFERENCE
-from core.diagnosis.selection import LEVEL, MOST
+from core.diagnosis.selection import MOST
 from core.diagnosis.verdict import UNEXPLAINED_SHARE
 from tests.core.dynamics.every_term import cures_by_cause
 

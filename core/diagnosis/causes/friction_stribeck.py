@@ -34,9 +34,9 @@ class FrictionStribeck(OwnJointCause):
     experiment = "slow constant-speed moves, 1 % to 20 % of the joint's speed, in both directions"
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the Stribeck velocity from 2 % of the RMS speed to the RMS speed."""
+        """Scan the Stribeck velocity from 3 % of the RMS speed to the RMS speed."""
         del believed
-        speed = float(look.speed[site[0] - 1])
+        speed = max(float(look.speed[site[0] - 1]), 1e-6)
         return [{"stribeck_velocity": value} for value in spread(0.03 * speed, 1.0 * speed, 9)]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:

@@ -28,6 +28,8 @@ from tests.core.diagnosis.scenes import (
     change_with_measurement,
     eventful_scene,
     first_choice,
+    recording,
+    scene_of,
     spoilt_scenes,
 )
 
@@ -59,6 +61,22 @@ every_torque_cause = pytest.mark.parametrize("cause", AGAINST_REFERENCE, ids=lam
 @pytest.fixture(scope="module")
 def scene() -> Scene:
     return eventful_scene()
+
+
+@pytest.fixture(scope="module")
+def parked() -> Scene:
+    """Look at a log whose second joint stands at zero, to the last digit, while the others move."""
+    time, position, torque = recording()
+    position[:, 1] = 0.0
+    return scene_of(time, position, torque)
+
+
+@every_torque_cause
+def test_a_joint_that_never_moves_leaves_every_cause_with_finite_columns(cause, parked):
+    for site in cause.sites(parked.look, parked.believed):
+        for scalars in cause.grid(parked.look, parked.believed, site):
+            (columns,) = parked.look.columns([cause.term(parked.look, parked.believed, site, scalars)])
+            assert all(np.isfinite(one).all() for one in columns.values())
 
 
 def solved(cause: Cause, scene: Scene, value: float) -> Solved:

@@ -8,9 +8,10 @@ import pytest
 
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
+from core.diagnosis.joining import FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
 from core.diagnosis.rise import log_p, merit, rise
-from core.diagnosis.rivals import standing
-from core.diagnosis.selection import FURTHER_LEVEL, LEVEL, RAISED, Selection, clear_enough, select
+from core.diagnosis.rivals import standing, weighed
+from core.diagnosis.selection import Selection, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
@@ -78,7 +79,7 @@ def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
 
 def only_before_the_unseen_rows(state):
     """Put a large wave where rows are fitted and its opposite where they are not; a small one all along."""
-    large = wave_effect({QUICK: 0.6})(state) * np.where(state.time < 16.0, 1.0, -1.0)[:, None]
+    large = wave_effect({QUICK: 2.0})(state) * np.where(state.time < 16.0, 1.0, -1.0)[:, None]
     return large + wave_effect({QUICKER: 0.06})(state)
 
 
@@ -189,6 +190,19 @@ def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
     both, turned = bench.tried((two, one)), bench.tried((one, two))
     assert merit(bench.tried((one,)), both, 0) == pytest.approx(merit(bench.tried((one,)), turned), abs=0.5)
     assert merit(bench.tried((two,)), turned, 0) == pytest.approx(merit(bench.tried((two,)), both), abs=0.5)
+
+
+def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rivals():
+    """As a size that was possible beside another cause, and is not once that one was given up."""
+    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
+    cause = made_up("forbidden", columns, allowed=lambda scalars: False)
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
+    none = nothing_found(bench)
+    forbidden = bench.tried((candidate(cause),))
+    assert not forbidden.possible
+    kept, standings = weighed(bench, Selection(none, forbidden, ()))
+    assert (names(kept), standings) == ([], [])
+    assert not stays(bench, none, forbidden, 0)
 
 
 @pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
