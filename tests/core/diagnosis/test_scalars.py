@@ -25,7 +25,7 @@ def test_a_scalar_that_stays_where_it_is_is_known_as_well_as_one_that_is_settled
     settled = refined(bench, none, candidate(bench.causes[0], {"rate": 7.0}))
     kept = told(bench, none, candidate(bench.causes[0], dict(settled.scalars)))
     assert kept.scalars == settled.scalars
-    assert 0.0 < settled.deviations["rate"] < 0.1
+    assert 0.0 < settled.deviations["rate"] < 0.2
     assert kept.deviations["rate"] == pytest.approx(settled.deviations["rate"], rel=0.5)
 
 
