@@ -111,9 +111,10 @@ class Bench:
             self._ranked = self._now
         return self._ranked
 
-    def alike(self, candidate: Candidate) -> tuple[Candidate, ...]:
-        """Give the candidates of the same kind, with all scalars that are scanned."""
-        return self._now.of(candidate.cause, candidate.site)
+    @property
+    def suspicion(self) -> Suspicion:
+        """Give what is suspected under the present belief."""
+        return self._now
 
     @property
     def believed(self) -> Prediction:

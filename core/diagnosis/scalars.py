@@ -118,7 +118,7 @@ def _grid(bench: Bench, candidate: Candidate, name: str) -> tuple[list[float], t
     """
     here = candidate.scalars[name]
     # What is believed may have changed since it was chosen, and the grid with it.
-    scanned = [one.scalars.get(name, here) for one in bench.alike(candidate)]
+    scanned = [one.scalars.get(name, here) for one in bench.suspicion.of(candidate.cause, candidate.site)]
     points = sorted({*scanned} or {here})
     return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 

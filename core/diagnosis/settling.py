@@ -53,7 +53,7 @@ def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
 def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     """Settle the last member; where nature would not allow that, leave it and tell how well it is known."""
     member, before = now.members[-1], bench.beneath(now)
-    found = bench.scanned(before, [*bench.alike(member), member])[0]
+    found = bench.scanned(before, [*bench.suspicion.of_kind(member.key), member])[0]
     moved = bench.tried((*before.members, refined(bench, before, found.candidate, close=True)), now)
     if moved.possible or not now.possible:
         return moved

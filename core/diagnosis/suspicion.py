@@ -44,7 +44,7 @@ class Suspicion:
     columns: dict[Place, Columns] = field(default_factory=dict)
     scans: WeakKeyDictionary[Hypothesis, list[Scored]] = field(default_factory=WeakKeyDictionary)
     less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
-    _kinds: dict[tuple[str, Site], tuple[Candidate, ...]] = field(default_factory=dict)
+    _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
 
     @cached_property
     def lasting(self) -> tuple[Candidate, ...]:
@@ -63,13 +63,20 @@ class Suspicion:
 
     def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
         """Give one cause at one site with all scalars that are scanned."""
-        kind = cause.id, site
-        if kind not in self._kinds:
+        if (cause, site) not in self._known:
             grid = tuple(cause.grid(self.left, self.believed, site))
-            self._kinds[kind] = tuple(
+            self._known[cause, site] = tuple(
                 Candidate(cause, site, scalars, cause.trials(grid, scalars)) for scalars in grid
             )
-        return self._kinds[kind]
+        return self._known[cause, site]
+
+    def of_kind(self, key: tuple[str, Site]) -> tuple[Candidate, ...]:
+        """Give all causes of one name at one site: against a reference some come in two forms."""
+        name, site = key
+        causes = (
+            one for one in self.causes if one.id == name and site in one.sites(self.look, self.believed)
+        )
+        return tuple(candidate for one in causes for candidate in self.of(one, site))
 
     def ranks_like(self, other: "Suspicion") -> bool:
         """Tell whether another prediction is so near that candidates built on this one will do to rank them.

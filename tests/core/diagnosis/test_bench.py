@@ -8,6 +8,7 @@ import pytest
 
 from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import BY_ID
+from core.diagnosis.causes.payload_change import PayloadChange
 from core.diagnosis.hypothesis import Hypothesis, Scored
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
@@ -177,3 +178,13 @@ def test_a_scan_is_made_once_for_a_hypothesis():
     bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(bench)
     assert bench.scanned(none) is bench.scanned(none)
+
+
+def test_two_causes_of_one_name_are_both_suspected_at_the_same_joint():
+    """As a load that came within the log, and one that is there since the reference."""
+    bench = bench_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
+    nothing_found(bench)
+    last = [one for one in bench.candidates if one.site == (3,)]
+    assert {one.cause.throughout for one in last} == {True, False}
+    assert {one.cause.throughout for one in bench.suspicion.of_kind(last[0].key)} == {True, False}
+    assert {one.cause.throughout for one in bench.suspicion.of(last[0].cause, (3,))} == {True}
