@@ -12,6 +12,7 @@ import numpy as np
 from core.arrays import BlockKey, JointSeries
 from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
+from core.diagnosis.bursts import burst
 from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
 from core.diagnosis.consolidation import consolidated
 from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
@@ -201,7 +202,8 @@ def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiab
 def _stranger(bench: Bench, selection: Selection, left: JointSeries) -> Stranger | None:
     """Give the clearest of what the residual follows though no listed cause would."""
     ways = (strangers(bench), switchings(bench, selection.chosen, left))
-    told = (*(_pattern(bench, selection, one) for one in ways), level_keeper(bench.look, left))
+    patterns = (_pattern(bench, selection, one) for one in ways)
+    told = (*patterns, level_keeper(bench.look, left), burst(bench.look, left))
     return max((one for one in told if one is not None), key=lambda one: one.statistic, default=None)
 
 

@@ -67,6 +67,24 @@ def test_a_finding_brings_everything_that_decided():
     assert abs(size.value - UNEVEN) < 3.0 * size.standard_deviation
 
 
+def jerked(state):
+    """Pull at the second joint for less than a second, all at once, as no contact swells and fades."""
+    return 4.0 * ((state.time > 6.0) & (state.time < 6.8))[:, None] * [0.0, 1.0, 0.0]
+
+
+def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():
+    found = diagnosed(jerked)
+    assert found.verdict == "unexplained"
+    assert "something happened then" in found.stranger.statement
+
+
+def test_a_finding_says_what_it_brings_on_rows_that_no_fit_has_seen_beside_what_was_to_be_expected():
+    (one,) = diagnosed(hidden).findings
+    (unseen,) = (part for part in one.evidence if part.statistic == "unseen likelihood ratio")
+    expected = float(unseen.statement.split("there ")[1].split()[0])
+    assert 0.6 < unseen.value / expected < 1.6
+
+
 def test_the_curve_of_a_finding_shows_what_it_takes_away():
     curve = diagnosed(hidden).findings[0].curve
     assert (curve.coordinate, curve.joint) == ("velocity", 2)
