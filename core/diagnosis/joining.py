@@ -183,7 +183,7 @@ def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
-    """Add a candidate with scalars refined roughly, and fit everything anew."""
+    """Add a candidate with refined scalars, and fit everything anew; how well they are known is left open."""
     return bench.added(now, refined(bench, now, scored.candidate, on_trial=True))
 
 

@@ -17,8 +17,6 @@ from core.diagnosis.grid import between, closely, neighbours
 from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
 from core.diagnosis.score import Score
 
-ROUNDS = 2
-"""Times that a scalar is looked for closer and closer."""
 YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
@@ -35,7 +33,7 @@ def refined(
     Parameters
     ----------
     on_trial
-        Whether it is enough to know roughly what they are, and not how well they are known.
+        Whether it is enough to know what they are, and not how well they are known.
     close
         Whether to look closely for narrow peaks, where the cause has them.
     """
@@ -44,8 +42,7 @@ def refined(
             candidate = _yielding(bench, under, candidate, name)
         elif name not in candidate.cause.unrefined:
             sharp = close and name in candidate.cause.sharp
-            rounds = 1 if on_trial else ROUNDS
-            candidate, seen = _refined(bench, under, candidate, name, sharp=sharp, rounds=rounds)
+            candidate, seen = _refined(bench, under, candidate, name, sharp=sharp)
             if not on_trial:
                 candidate = _told(bench, under, candidate, name, seen)
     return candidate
@@ -80,13 +77,13 @@ def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) 
 
 
 def _refined(
-    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, *, sharp: bool, rounds: int
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, *, sharp: bool
 ) -> tuple[Candidate, Mapping[float, float]]:
     """Settle one scalar, and give the statistics of all values that were tried."""
     here, (points, ends) = candidate.scalars[name], _grid(bench, candidate, name)
     low, high = np.clip(neighbours(points, here), *ends)
     seen: dict[float, float] = {}
-    for turn in range(rounds):
+    for turn in range(2):
         values = closely(points, here) if sharp and not turn else between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
         found = bench.scored(under, trials)

@@ -86,6 +86,7 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
     before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
     stranger = _stranger(bench, selection, after)
     unnamed = 0.0 if stranger is None else stranger.statistic
+    stranger = _clearer(stranger, burst(look, after))
     found = [finding(bench, chosen, place, one, after, unnamed) for place, one in enumerate(standings)] + raw
     most = max((one.statistic for one in standings), default=0.0)
     tell("learn what is left", 0.8)
@@ -202,8 +203,10 @@ def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiab
 def _stranger(bench: Bench, selection: Selection, left: JointSeries) -> Stranger | None:
     """Give the clearest of what the residual follows though no listed cause would."""
     ways = (strangers(bench), switchings(bench, selection.chosen, left))
-    patterns = (_pattern(bench, selection, one) for one in ways)
-    told = (*patterns, level_keeper(bench.look, left), burst(bench.look, left))
+    return _clearer(*(_pattern(bench, selection, one) for one in ways), level_keeper(bench.look, left))
+
+
+def _clearer(*told: Stranger | None) -> Stranger | None:
     return max((one for one in told if one is not None), key=lambda one: one.statistic, default=None)
 
 
