@@ -21,12 +21,12 @@ WORTH_SETTLING = 6.0
 def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     """Believe what a hypothesis found and settle it under that, again and again as long as that helps.
 
-    Columns are of first order: where believing a large effect makes that effect itself larger than nature
-    allows, it is left as it was found.
+    Columns are of first order, and what is believed may be wrong in what the rows do not tell: where
+    believing an effect makes it larger than nature allows, or the rows less likely, it is left as found.
     """
     believe_first = bench.remembered()
     now = _settled_once(bench, better)
-    if better.possible and not now.allows(-1):
+    if better.possible and not now.allows(-1) or rise(better, now) < -WORTH_SETTLING:
         believe_first()
         return _last_settled(bench, better)
     for _ in range(SETTLINGS - 1):

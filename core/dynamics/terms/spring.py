@@ -1,6 +1,7 @@
 """Give the torque that a spring beside the motor takes: the joint's angle times its stiffness.
 
-Where it rests is an offset, which the model has already. Source: Klimchik, Pashkevich et al. 2013
+Where it rests is an offset, which the model has already; so how much of it a gear transmits, where it acts
+behind one, is known up to a constant only, and it is not counted among the loads. Source: Klimchik, Pashkevich et al. 2013
 (counterbalances).
 """
 
@@ -19,7 +20,6 @@ class Spring(OneJointTerm):
 
     symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", None),)
     kind: ClassVar[str] = "spring_compensator"
-    loads: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         """Give q."""
