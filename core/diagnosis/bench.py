@@ -6,6 +6,7 @@ matrix products.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, re
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, JointRows, extended, joint_rows
-from core.diagnosis.score import Score, score
+from core.diagnosis.score import Panel, Score, score
 from core.diagnosis.suspicion import Suspicion, joined_by
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
@@ -68,6 +69,7 @@ class Bench:
         nothing = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
         self._now = self._ranked = Suspicion((), look, look, nothing)
         self._lasting: dict[Place, Columns] = {}
+        self._panels: WeakKeyDictionary[Suspicion, Panel] = WeakKeyDictionary()
         self._ordinary = ordinary
 
     def believe(self, found: Hypothesis) -> None:
@@ -218,12 +220,18 @@ class Bench:
         """Score everything that is suspected, the best anew where columns are of an earlier belief."""
         ranked, events = self._ranked_like_now, self._now.events
         asked = (*ranked.lasting, *events)
-        columns = [*self._columns(ranked.lasting, ranked), *self.columns(events)]
-        found = best_of_kinds(asked, score(under.fit, self.base, columns))
+        scores = [*self._panel(ranked).scores(under.fit), *self.scored(under, events)]
+        found = best_of_kinds(asked, scores)
         if ranked is self._now:
             return found
         again = self.scanned(under, [one.candidate for one in found[:SCORED_ANEW]])
         return sorted([*again, *found[SCORED_ANEW:]], key=lambda one: one.log_p)
+
+    def _panel(self, ranked: Suspicion) -> Panel:
+        """Give what scores all that is suspected all along the motion."""
+        if ranked not in self._panels:
+            self._panels[ranked] = Panel(self.base, self._columns(ranked.lasting, ranked))
+        return self._panels[ranked]
 
     def leaves_too_much(self, under: Hypothesis) -> bool:
         """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would."""

@@ -5,8 +5,7 @@ order. Source: Abramowitz & Stegun, 6.5.32, for the tail of the incomplete gamma
 """
 
 import numpy as np
-from scipy.special import gammaln
-from scipy.stats import chi2
+from scipy.special import chdtrc, gammaln
 
 FAR = 1000.0
 """Beyond this statistic the first terms of the tail's series are exact to rounding for few parameters."""
@@ -22,7 +21,7 @@ def log_chance(statistic: float, width: int) -> float:
     -1500
     """
     if statistic < FAR:
-        return float(chi2.logsf(max(statistic, 0.0), width))
+        return float(np.log(chdtrc(width, max(statistic, 0.0))))
     half, shape = 0.5 * statistic, 0.5 * width
     steps = np.cumprod((shape - np.arange(1, TERMS)) / half)
     return float(-half + (shape - 1.0) * np.log(half) - gammaln(shape) + np.log1p(steps.sum()))

@@ -70,7 +70,7 @@ class Scored:
     values: Vector
     clear_share: float
 
-    @property
+    @cached_property
     def log_p(self) -> float:
         """Give log of (trials times the chance of so large a rise by luck)."""
         return log_chance(self.statistic, self.freedom) + float(np.log(self.candidate.trials))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from core.arrays import EquationRows, Matrix, Weights
+from core.arrays import EquationRows, Indices, Matrix, Weights
 from core.diagnosis.equations import OPEN_SHARE, Fit
 from core.diagnosis.rows import Columns, JointRows
 
@@ -40,43 +40,85 @@ class Score:
     clear_share: float
 
 
+class Panel:
+    """Score the same candidates on top of one fit after the other, their columns put side by side once.
+
+    Parameters
+    ----------
+    joints
+        The rows that are fitted.
+    candidates
+        The candidates' columns, over all rows of the look.
+    """
+
+    def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
+        widths = [next(iter(one.values())).shape[1] for one in candidates]
+        places = [[index for index, one in enumerate(widths) if one == width] for width in set(widths)]
+        self._groups = [
+            (alike, _Alike(joints, [candidates[index] for index in alike], widths[alike[0]]))
+            for alike in places
+        ]
+
+    def scores(self, found: Fit) -> list[Score]:
+        """Score the candidates on top of a fit."""
+        out = {
+            index: one
+            for places, alike in self._groups
+            for index, one in zip(places, alike.scores(found), strict=True)
+        }
+        return [out[index] for index in range(len(out))]
+
+
+class _Alike:
+    """Score candidates of the same number of columns."""
+
+    def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns], width: int) -> None:
+        self._count, self._width = len(candidates), width
+        self._present = [
+            np.array([index for index, one in enumerate(candidates) if joint in one], dtype=int)
+            for joint in range(len(joints))
+        ]
+        self._columns = [
+            _side_by_side([candidates[index][joint] for index in present], rows.rows)
+            for joint, (rows, present) in enumerate(zip(joints, self._present, strict=True))
+        ]
+
+    def scores(self, found: Fit) -> list[Score]:
+        count, size, width = self._count, len(found.values), self._width
+        cross = np.zeros((count, size, width))
+        right, squares = np.zeros((count, width)), np.zeros((count, width))
+        grams = np.zeros((count, width, width))
+        for joint, present in enumerate(self._present):
+            if not len(present):
+                continue
+            own = found.joints[joint]
+            white = own.whitening @ self._columns[joint]
+            inside = own.free.inside(white)
+            right[present] += (found.left[joint] @ white).reshape(-1, width)
+            acting, known, spanned = own.acting
+            both = known.T @ white - spanned.T @ inside
+            both = both.reshape(len(acting), len(present), width)
+            cross[present[:, None], acting] += np.moveaxis(both, 0, 1)
+            whole = _grams(white, width)
+            squares[present] += np.diagonal(whole, axis1=1, axis2=2)
+            grams[present] += whole - _grams(inside, width)
+        flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
+        reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
+        return _judged(grams - _grams(reduced, width), right, squares)
+
+
+def _side_by_side(columns: Sequence[Matrix], rows: Indices) -> Matrix:
+    """Take some rows of columns, and put them beside each other."""
+    width = columns[0].shape[1] if columns else 0
+    out = np.empty((len(rows), width * len(columns)))
+    for place, one in enumerate(columns):
+        np.take(one, rows, axis=0, out=out[:, width * place : width * (place + 1)])
+    return out
+
+
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
     """Score candidates given as columns over all rows of the look."""
-    widths = [next(iter(one.values())).shape[1] for one in candidates]
-    out: dict[int, Score] = {}
-    for width in set(widths):
-        alike = [index for index, one in enumerate(widths) if one == width]
-        scores = _alike(found, joints, [candidates[index] for index in alike], width)
-        out.update(zip(alike, scores, strict=True))
-    return [out[index] for index in range(len(candidates))]
-
-
-def _alike(
-    found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns], width: int
-) -> list[Score]:
-    """Score candidates of the same number of columns."""
-    count, size = len(candidates), len(found.values)
-    cross = np.zeros((count, size, width))
-    right, squares = np.zeros((count, width)), np.zeros((count, width))
-    grams = np.zeros((count, width, width))
-    for joint, rows in enumerate(joints):
-        present = [index for index, one in enumerate(candidates) if joint in one]
-        if not present:
-            continue
-        own = found.joints[joint]
-        white = own.whitening @ np.hstack([candidates[index][joint][rows.rows] for index in present])
-        inside = own.free.inside(white)
-        right[present] += (found.left[joint] @ white).reshape(-1, width)
-        acting, known, spanned = own.acting
-        both = known.T @ white - spanned.T @ inside
-        both = both.reshape(len(acting), len(present), width)
-        cross[np.array(present)[:, None], acting] += np.moveaxis(both, 0, 1)
-        whole = _grams(white, width)
-        squares[present] += np.diagonal(whole, axis1=1, axis2=2)
-        grams[present] += whole - _grams(inside, width)
-    flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
-    reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
-    return _judged(grams - _grams(reduced, width), right, squares)
+    return Panel(joints, candidates).scores(found)
 
 
 def _grams(columns: Matrix, width: int) -> np.ndarray:
