@@ -13,7 +13,7 @@ import numpy as np
 from core.arrays import JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
-from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, whitened
+from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, white_left
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, JointRows, extended, joint_rows
@@ -282,14 +282,17 @@ class Bench:
     def _rise_at(
         self, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, believed: float
     ) -> float:
-        missed = []
-        for one in (now, trial):
-            rows = extended(joints, self.columns(one.members))
-            white = [whitened(part, joint.noise) for part, joint in zip(rows, trial.fit.joints, strict=True)]
-            missed.append(sum(float(np.sum(w.left(one.fit.values) ** 2)) for w in white))
-            if self.belief:
-                missed[-1] += believed * self.belief.departure(one.fit.values)
-        return missed[0] - missed[1]
+        rows = [extended(joints, self.columns(one.members)) for one in (now, trial)]
+        squares = np.zeros(2)
+        for parts, joint in zip(zip(*rows, strict=True), trial.fit.joints, strict=True):
+            left = [
+                part.torque - part.columns @ one.fit.values
+                for part, one in zip(parts, (now, trial), strict=True)
+            ]
+            squares += np.sum(white_left(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
+        if self.belief:
+            squares += [believed * self.belief.departure(one.fit.values) for one in (now, trial)]
+        return float(squares[0] - squares[1])
 
     def unseen_share(self, trial: Hypothesis, index: int = -1) -> float:
         """Give the square of a member's torque on held-out rows over that on the fitted ones."""

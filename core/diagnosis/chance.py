@@ -5,7 +5,7 @@ order. Source: Abramowitz & Stegun, 6.5.32, for the tail of the incomplete gamma
 """
 
 import numpy as np
-from scipy.special import chdtrc, gammaln
+from scipy.special import chdtr, chdtrc, gammaln
 
 FAR = 1000.0
 """Beyond this statistic the first terms of the tail's series are exact to rounding for few parameters."""
@@ -20,8 +20,10 @@ def log_chance(statistic: float, width: int) -> float:
     >>> round(log_chance(3000.0, 2))
     -1500
     """
+    if statistic < width:
+        return float(np.log1p(-chdtr(width, max(statistic, 0.0))))
     if statistic < FAR:
-        return float(np.log(chdtrc(width, max(statistic, 0.0))))
+        return float(np.log(chdtrc(width, statistic)))
     half, shape = 0.5 * statistic, 0.5 * width
     steps = np.cumprod((shape - np.arange(1, TERMS)) / half)
     return float(-half + (shape - 1.0) * np.log(half) - gammaln(shape) + np.log1p(steps.sum()))

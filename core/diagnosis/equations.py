@@ -45,58 +45,56 @@ class Whitened:
     ----------
     whitening
         What makes columns over the joint's rows white.
+    acting
+        Which columns are not all zero on the joint, in rising order: the others are left out below.
     columns, inside
         White columns, and what `free` ones span of them (see `Free.inside`).
+    gram
+        Products of the columns with each other, less what free columns span.
     torque
         White torque, less what free columns span of it.
     """
 
     noise: JointNoise
     whitening: csr_array
-    columns: Matrix
+    acting: Indices
+    columns: EquationRows
     inside: EquationRows
+    gram: SquareMatrix
     torque: Vector
     log_deviations: float
     free: Free
 
-    @cached_property
-    def acting(self) -> tuple[Indices, Matrix, EquationRows]:
-        """List the columns that are not all zero, and give them with what free ones span of them."""
-        acting = np.flatnonzero(self.columns.any(axis=0))
-        return acting, self.columns[:, acting], self.inside[:, acting]
-
-    @cached_property
-    def gram(self) -> SquareMatrix:
-        """Give the products of the columns with each other, less what free columns span."""
-        out = np.zeros((self.columns.shape[1], self.columns.shape[1]))
-        acting, columns, inside = self.acting
-        whole = columns.T @ columns
-        out[np.ix_(acting, acting)] = whole - inside.T @ inside + ROUNDING * np.diag(np.diag(whole))
-        return out
+    def of(self, some: slice) -> EquationRows:
+        """Give those of some columns that are not all zero, white."""
+        return self.columns[:, slice(*np.searchsorted(self.acting, (some.start, some.stop)))]
 
     def left(self, values: Weights) -> Vector:
         """Give what the columns leave of the torque, less what free columns span."""
-        return np.asarray(self.torque - self.free.cleared((self.columns @ values)[:, None])[:, 0])
+        whole = (self.columns @ values[self.acting])[:, None]
+        return np.asarray(self.torque - self.free.cleared(whole)[:, 0])
 
     def missed(self, rows: JointRows, values: Weights) -> Vector:
         """Give what the columns leave of the same rows, N m, what free ones take being judged when white."""
         left = rows.torque - rows.columns @ values
         return np.asarray(left - rows.free.columns @ self.free.coefficients(self.whitening @ left))
 
-    def along(self, left: Vector) -> Weights:
-        """Give the products of the columns with what a fit left: zero where it is the best one."""
-        out = np.zeros(self.columns.shape[1])
-        acting, columns, _ = self.acting
-        out[acting] = columns.T @ left
-        return out
-
     def with_columns(self, kept: int, further: Matrix) -> "Whitened":
         """Keep the first columns and put others, not yet white, beside them."""
-        white, inside = _white(self.whitening, self.free, further)
+        own = int(np.searchsorted(self.acting, kept))
+        before, inside_before = self.columns[:, :own], self.inside[:, :own]
+        new, white, inside = _white(self.whitening, self.free, further)
+        gram = np.empty((own + len(new), own + len(new)))
+        gram[:own, :own] = self.gram[:own, :own]
+        gram[:own, own:] = before.T @ white - inside_before.T @ inside
+        gram[own:, :own] = gram[:own, own:].T
+        gram[own:, own:] = _gram(white, inside)
         return replace(
             self,
-            columns=np.hstack([self.columns[:, :kept], white]),
-            inside=np.hstack([self.inside[:, :kept], inside]),
+            acting=np.append(self.acting[:own], kept + new),
+            columns=np.hstack([before, white]),
+            inside=np.hstack([inside_before, inside]),
+            gram=gram,
         )
 
 
@@ -149,20 +147,44 @@ class Fit:
 
 def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     """Whiten one joint's rows."""
-    whitening = noise.whitening(rows.place)
-    free = free_of(whitening @ rows.free.columns)
-    columns, inside = _white(whitening, free, rows.columns)
+    whitening, free = _noise_of(rows, noise)
+    acting, columns, inside = _white(whitening, free, rows.columns)
     torque = free.cleared((whitening @ rows.torque)[:, None])[:, 0]
-    return Whitened(noise, whitening, columns, inside, torque, noise.log_deviations(rows.place), free)
+    return Whitened(
+        noise=noise,
+        whitening=whitening,
+        acting=acting,
+        columns=columns,
+        inside=inside,
+        gram=_gram(columns, inside),
+        torque=torque,
+        log_deviations=noise.log_deviations(rows.place),
+        free=free,
+    )
 
 
-def _white(whitening: csr_array, free: Free, columns: Matrix) -> tuple[Matrix, EquationRows]:
-    """Whiten columns, and give what free ones span of them; most columns act on other joints."""
+def white_left(rows: JointRows, noise: JointNoise, left: Matrix) -> EquationRows:
+    """Whiten what some fits leave of one joint's rows, a column each, less what free columns span of it."""
+    whitening, free = _noise_of(rows, noise)
+    return free.cleared(whitening @ left)
+
+
+def _noise_of(rows: JointRows, noise: JointNoise) -> tuple[csr_array, Free]:
+    """Give what makes a joint's rows white, and its free columns when white."""
+    whitening = noise.whitening(rows.place)
+    return whitening, free_of(whitening @ rows.free.columns)
+
+
+def _white(whitening: csr_array, free: Free, columns: Matrix) -> tuple[Indices, EquationRows, EquationRows]:
+    """List the columns that act at all, and give them white, with what free ones span of them."""
     acting = np.flatnonzero(columns.any(axis=0))
-    white, inside = np.zeros_like(columns), np.zeros((free.count, columns.shape[1]))
-    white[:, acting] = whitening @ columns[:, acting]
-    inside[:, acting] = free.inside(white[:, acting])
-    return white, inside
+    white = np.asarray(whitening @ columns[:, acting])
+    return acting, white, free.inside(white)
+
+
+def _gram(columns: EquationRows, inside: EquationRows) -> SquareMatrix:
+    whole = columns.T @ columns
+    return np.asarray(whole - inside.T @ inside + ROUNDING * np.diag(np.diag(whole)))
 
 
 def fit(
@@ -184,13 +206,14 @@ def fit(
     ordinary
         Whether noise is learned from what an ordinary fit leaves.
     """
+    size = _size(joints)
     if noise is not None:
-        return _settled(joints, _solved(_whitened(joints, noise), belief), None, rounds)
+        return _settled(joints, _solved(_whitened(joints, noise), size, belief), None, rounds)
     if ordinary:
         plain = _ordinary(joints, belief)
         return _settled(joints, replace(plain, plain=plain), None, rounds + 1)
     first = _white_noise(joints, [rows.torque for rows in joints])
-    return _settled(joints, _solved(_whitened(joints, first), belief), None, rounds + 1)
+    return _settled(joints, _solved(_whitened(joints, first), size, belief), None, rounds + 1)
 
 
 def leaves_too_much(joints: tuple[JointRows, ...], found: Fit) -> bool:
@@ -202,12 +225,17 @@ def leaves_too_much(joints: tuple[JointRows, ...], found: Fit) -> bool:
 
 def _ordinary(joints: tuple[JointRows, ...], belief: Belief | None) -> Fit:
     """Fit under white noise, of the size of what the fit under white noise of the torque's size leaves."""
-    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), belief)
-    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), belief)
+    size = _size(joints)
+    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, belief)
+    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), size, belief)
 
 
 def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[JointNoise, ...]:
     return tuple(learn_noise(one, rows.place, order=0) for one, rows in zip(sized, joints, strict=True))
+
+
+def _size(joints: tuple[JointRows, ...]) -> int:
+    return int(joints[0].columns.shape[1])
 
 
 def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
@@ -240,7 +268,7 @@ def refit(
         for old, rows in zip(before.joints, joints, strict=True)
     )
     plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
-    return _settled(joints, _solved(parts, before.belief, plain), touched, rounds)
+    return _settled(joints, _solved(parts, _size(joints), before.belief, plain), touched, rounds)
 
 
 def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
@@ -261,7 +289,9 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
         learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))
         if learned.departure(known.noise, residual, rows.place) > SETTLED:
             parts[joint] = whitened(rows, learned)
-    return found if tuple(parts) == found.joints else _solved(tuple(parts), found.belief, found.plain)
+    if tuple(parts) == found.joints:
+        return found
+    return _solved(tuple(parts), _size(joints), found.belief, found.plain)
 
 
 def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
@@ -270,19 +300,23 @@ def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
-def _solved(joints: tuple[Whitened, ...], belief: Belief | None, plain: Fit | None = None) -> Fit:
+def _solved(joints: tuple[Whitened, ...], size: int, belief: Belief | None, plain: Fit | None = None) -> Fit:
     """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
-    gram = np.sum([one.gram for one in joints], axis=0)
+    gram = np.zeros((size, size))
+    for one in joints:
+        gram[np.ix_(one.acting, one.acting)] += one.gram
     if belief is not None:
-        size = belief.rows.shape[1]
-        gram[:size, :size] += belief.rows.T @ belief.rows
+        believed = belief.rows.shape[1]
+        gram[:believed, :believed] += belief.rows.T @ belief.rows
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor = cho_factor(scaled, lower=True)
     values = np.zeros(len(gram))
     left = tuple(one.torque for one in joints)
     for _ in range(STEPS):
-        slope = np.sum([one.along(rest) for one, rest in zip(joints, left, strict=True)], axis=0)
+        slope = np.zeros(size)
+        for one, rest in zip(joints, left, strict=True):
+            slope[one.acting] += one.columns.T @ rest
         if belief is not None:
             slope += belief.slope(values)
         step = cho_solve(factor, slope / scale) / scale

@@ -166,7 +166,7 @@ def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
     if trial.members[index].cause.event:
         return True
     own = trial.columns_of(index)
-    acting = [part.columns[:, own].any(axis=1) for part in trial.fit.joints]
+    acting = [part.of(own).any(axis=1) for part in trial.fit.joints]
     return all(float(rows.mean()) < RARE for rows in acting if rows.any())
 
 

@@ -31,7 +31,7 @@ def bounded_rise(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     before = np.insert(now.fit.values, own.start, np.zeros(trial.widths[index]))
     total = 0.0
     for part in trial.fit.joints:
-        rows = part.columns[:, own].any(axis=1) if event else slice(None)
+        rows = part.of(own).any(axis=1) if event else slice(None)
         old, new = (
             np.minimum(part.left(one)[rows] ** 2, MOST_OF_A_ROW) for one in (before, trial.fit.values)
         )

@@ -95,10 +95,9 @@ class _Alike:
             white = own.whitening @ self._columns[joint]
             inside = own.free.inside(white)
             right[present] += (found.left[joint] @ white).reshape(-1, width)
-            acting, known, spanned = own.acting
-            both = known.T @ white - spanned.T @ inside
-            both = both.reshape(len(acting), len(present), width)
-            cross[present[:, None], acting] += np.moveaxis(both, 0, 1)
+            both = own.columns.T @ white - own.inside.T @ inside
+            both = both.reshape(len(own.acting), len(present), width)
+            cross[present[:, None], own.acting] += np.moveaxis(both, 0, 1)
             whole = _grams(white, width)
             squares[present] += np.diagonal(whole, axis1=1, axis2=2)
             grams[present] += whole - _grams(inside, width)
@@ -107,7 +106,7 @@ class _Alike:
         return _judged(grams - _grams(reduced, width), right, squares)
 
 
-def _side_by_side(columns: Sequence[Matrix], rows: Indices) -> Matrix:
+def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
     """Take some rows of columns, and put them beside each other."""
     width = columns[0].shape[1] if columns else 0
     out = np.empty((len(rows), width * len(columns)))

@@ -83,7 +83,7 @@ def continued(
 
 def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
     """Give a hypothesis with one cause of the whole robot besides; None where it is not clear enough."""
-    scans = [one for one in bench.scanned(now) if one.candidate.key == (cause, ())]
+    scans = bench.scanned(now, bench.suspicion.of_kind((cause, ())))
     trials = [with_candidate(bench, now, one) for one in scans]
     clear = (one for one in trials if one.possible and clear_enough(bench, now, one, bench.kinds))
     first = next(clear, None)

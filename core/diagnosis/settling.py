@@ -26,7 +26,7 @@ def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     """
     believe_first = bench.remembered()
     now = _settled_once(bench, better)
-    if better.possible and not now.allows(-1) or rise(better, now) < -WORTH_SETTLING:
+    if (better.possible and not now.allows(-1)) or rise(better, now) < -WORTH_SETTLING:
         believe_first()
         return _last_settled(bench, better)
     for _ in range(SETTLINGS - 1):

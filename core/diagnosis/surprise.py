@@ -11,7 +11,7 @@ import numpy as np
 
 from core.arrays import Indices, Vector
 from core.diagnosis.bench import Bench
-from core.diagnosis.equations import whitened
+from core.diagnosis.equations import white_left
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look
 from core.diagnosis.rows import extended
@@ -26,7 +26,8 @@ def surprised(bench: Bench, found: Hypothesis) -> bool:
     """Tell whether a block that was held out is missed far worse than any that was fitted."""
     unseen = extended(bench.unseen, bench.columns(found.members))
     for part, fitted, seen in zip(unseen, found.fit.joints, bench.base, strict=True):
-        left = whitened(part, fitted.noise).left(found.fit.values)
+        missed = (part.torque - part.columns @ found.fit.values)[:, None]
+        left = white_left(part, fitted.noise, missed)[:, 0]
         known = fitted.left(found.fit.values)
         new, old = (_powers(bench.look, *one) for one in ((part.rows, left), (seen.rows, known)))
         if len(new) and len(old) and new.max() > max(OVER_LARGEST * old.max(), OVER_USUAL * old.mean()):

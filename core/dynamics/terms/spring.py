@@ -1,8 +1,8 @@
 """Give the torque that a spring beside the motor takes: the joint's angle times its stiffness.
 
-Where it rests is an offset, which the model has already; so how much of it a gear transmits, where it acts
-behind one, is known up to a constant only, and it is not counted among the loads. Source: Klimchik, Pashkevich et al. 2013
-(counterbalances).
+Where it rests is an offset, which the model has already; so what a gear transmits of it, where it acts behind
+one, is known up to a constant only, and it is not counted among the loads. Source: Klimchik, Pashkevich et
+al. 2013 (counterbalances).
 """
 
 from dataclasses import dataclass

@@ -37,8 +37,10 @@ def test_a_belief_counts_like_rows_of_a_log_of_its_own(equations):
     rows, target = 10.0 * rng.normal(size=(3, len(BASE))), 10.0 * rng.normal(size=3)
     plain = fit(equations.joints, NOISE, rounds=0)
     found = fit(equations.joints, NOISE, rounds=0, belief=Belief(rows, target))
-    gram = sum(one.gram for one in plain.joints) + rows.T @ rows
-    right = sum(one.along(one.torque) for one in plain.joints) + rows.T @ target
+    gram, right = rows.T @ rows, rows.T @ target
+    for one in plain.joints:
+        gram[np.ix_(one.acting, one.acting)] += one.gram
+        right[one.acting] += one.columns.T @ one.torque
     np.testing.assert_allclose(found.values, np.linalg.solve(gram, right), rtol=1e-6)
     missed = sum(float(np.sum(one.left(found.values) ** 2)) for one in plain.joints)
     missed += float(np.sum((target - rows @ found.values) ** 2))
