@@ -16,19 +16,23 @@ SETTLINGS = 8
 """Times that what is believed and what is found are settled on each other at most,"""
 WORTH_SETTLING = 6.0
 """as long as that raises twice the log-likelihood by as much."""
+KEPT = 0.5
+"""Share of what an effect brings that has to be left of it where it is believed."""
 
 
 def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     """Believe what a hypothesis found and settle it under that, again and again as long as that helps.
 
     Columns are of first order, and what is believed may be wrong in what the rows do not tell: where
-    believing an effect makes it larger than nature allows, or the rows less likely, it is left as found.
+    believing an effect makes it larger than nature allows, or takes most of what it brings, it is left alone.
     """
     believe_first = bench.remembered()
     now = _settled_once(bench, better)
-    if (better.possible and not now.allows(-1)) or rise(better, now) < -WORTH_SETTLING:
-        believe_first()
+    impossible, believe_now = better.possible and not now.allows(-1), bench.remembered()
+    believe_first()
+    if impossible or _costs_too_much(bench, better, now):
         return _last_settled(bench, better)
+    believe_now()
     for _ in range(SETTLINGS - 1):
         believe_before = bench.remembered()
         again = _settled_once(bench, now)
@@ -37,6 +41,14 @@ def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
             break
         now = again
     return now
+
+
+def _costs_too_much(bench: Bench, better: Hypothesis, now: Hypothesis) -> bool:
+    """Tell whether most of what a hypothesis's last member brings is lost where it is believed."""
+    if rise(better, now) > -WORTH_SETTLING:
+        return False
+    without = bench.tried(better.members[:-1], better)
+    return rise(without, now) < KEPT * rise(without, better)
 
 
 def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:

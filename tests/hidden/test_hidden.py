@@ -79,6 +79,7 @@ def test_two_effects_are_both_named():
         Order("combination", 8900766, effects=2),  # on joints that follow each other
         Order("combination", 10100782, effects=2),  # one is ten degrees large
         Order("combination", 13900765, effects=3),  # the torque of two comes late with all the rest
+        Order("combination", 15100784, effects=2),  # a spring beside a joint whose gear does not carry it
         Order("combination", 13900781, effects=3),  # a body joins at an instant beside a held-out block
     ],
     ids=lambda order: str(order.seed),

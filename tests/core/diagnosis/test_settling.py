@@ -1,0 +1,45 @@
+"""Hold the settling of a hypothesis to its law: what is believed may not take away what was found."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.rise import rise
+from core.diagnosis.settling import settled
+from tests.core.diagnosis.made_up import candidate, nothing_found
+from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.waves import WaveCause, WaveTerm, wave_effect
+
+QUICK, QUICKER = 7.0, 11.0
+
+
+class Fickle(WaveCause):
+    """Suspect one wave, and another one as soon as it is believed."""
+
+    id = title = "fickle"
+
+    def term(self, look, believed, site, scalars):
+        return BuiltOn(site[0], {QUICKER if believed.joined else QUICK: 1.0}, believed)
+
+
+class BuiltOn(WaveTerm):
+    """Say what it was built on, so that it is built anew once something else is believed."""
+
+    def __init__(self, joint, waves, believed):
+        super().__init__(joint, waves)
+        object.__setattr__(self, "believed", believed)
+
+
+@pytest.mark.parametrize(
+    ("share", "kept"), [(0.0, QUICK), (1.0, QUICKER)], ids=["takes what it brings", "is worth it"]
+)
+def test_what_is_found_is_believed_unless_that_takes_what_it_brings(share, kept):
+    cause = Fickle()
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.3, QUICKER: share})), (cause,))
+    none = nothing_found(bench)
+    found = bench.added(none, candidate(cause))
+    now = settled(bench, found)
+    assert rise(none, now) > 0.5 * rise(none, found) > 5.0
+    (columns,) = bench.columns(now.members)
+    angle = bench.look.state.position[:, 1]
+    like = [abs(np.corrcoef(columns[1][:, 0], np.sin(rate * angle))[0, 1]) for rate in (QUICK, QUICKER)]
+    assert (QUICK, QUICKER)[int(np.argmax(like))] == kept
