@@ -41,7 +41,8 @@ FORM_SCHEMA = {
     "required": ["file"],
     "properties": {
         "file": file_part(
-            "CSV, Parquet, NPZ or MATLAB; columns time, q_1.., tau_1.. unless a mapping names others"
+            "CSV, Parquet, NPZ, MATLAB, HDF5, MCAP or a ROS bag; columns time, q_1.., tau_1.. unless a "
+            "mapping names others"
         ),
         "mapping": text_part(f"JSON: which column is what, in which unit, e.g. {MAPPING}", default="{}"),
     },
