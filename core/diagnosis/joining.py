@@ -195,4 +195,5 @@ def _share(now: Hypothesis, trial: Hypothesis) -> float:
 def _least_share(bench: Bench, member: Candidate) -> float:
     if not member.cause.like_position_noise:
         return LEAST_SHARE
-    return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in member.site))
+    joints = member.site or range(1, bench.look.joints + 1)
+    return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in joints))

@@ -28,6 +28,7 @@ class TimeDelay(OwnJointCause, MendsLog):
     excludes = ("torque_filter_lag",)
     # A column of first order is late where velocities turn, and lacks what grows with frequency squared.
     leaves = ("friction_presliding", "joint_elasticity")
+    like_position_noise = True
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)

@@ -35,6 +35,7 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
     excludes = ("time_delay",)
     # A column of first order is late where velocities turn, and lacks what grows with frequency squared.
     leaves = ("friction_presliding", "joint_elasticity")
+    like_position_noise = True
     title = "The torque channel is low-pass filtered"
     cure = "signal"
     units = (("time_constant", "s"),)
