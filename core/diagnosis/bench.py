@@ -10,14 +10,14 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import JointSeries, JointVector
+from core.arrays import Indices, JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
 from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, white_left
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns, JointRows, extended, joint_rows
-from core.diagnosis.score import Panel, Score, score
+from core.diagnosis.score import Panel, Score, score, score_from
 from core.diagnosis.suspicion import Suspicion, joined_by
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
@@ -25,6 +25,8 @@ from core.simulation.inverse import inverse_dynamics
 
 SCORED_ANEW = 24
 """Best kinds of a scan that are scored anew where columns are of an earlier belief; fewer are ever fitted."""
+TELLING = 3
+"""Joints that are asked when something began."""
 MOST_AT_REST = 0.9
 """A joint whose friction at rest may be anything on more than this share of the rows hardly moves."""
 
@@ -126,6 +128,22 @@ class Bench:
     def scored(self, under: Hypothesis, candidates: Sequence[Candidate]) -> list[Score]:
         """Score candidates on top of a hypothesis."""
         return score(under.fit, self.base, self.columns(candidates))
+
+    def scored_from(
+        self, under: Hypothesis, candidate: Candidate, some: slice, starts: Indices
+    ) -> list[Score]:
+        """Score some columns of a candidate as if they acted from some row of the look on, for many rows.
+
+        Nearly: on the joints that tell most.
+        """
+        (columns,) = self.columns([candidate])
+        part = {joint: one[:, some] for joint, one in columns.items()}
+        told = {
+            joint: float(np.sum((under.fit.joints[joint].whitening @ one[self.base[joint].rows]) ** 2))
+            for joint, one in part.items()
+        }
+        most = sorted(told, key=lambda joint: -told[joint])[:TELLING]
+        return score_from(under.fit, self.base, {joint: part[joint] for joint in most}, starts)
 
     @property
     def kinds(self) -> int:

@@ -148,8 +148,11 @@ class Cause(Protocol):
         ...
 
     @property
-    def sharp(self) -> tuple[str, ...]:
-        """List scalars, scanned in even steps, whose likelihood has narrow peaks: the instant of an event."""
+    def onset(self) -> Mapping[str, slice]:
+        """Name the scalar, if any, that is the instant from which on its columns act, and those that show it.
+
+        In s; from minus infinity on they act all along.
+        """
         ...
 
     @property

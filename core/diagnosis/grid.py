@@ -7,9 +7,6 @@ import numpy as np
 FINER = 9
 """Points laid between the neighbours of the best grid point, in each of two rounds."""
 
-FINEST = 20
-"""Parts of an even grid's step, where a scalar's likelihood has narrow peaks."""
-
 
 def neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
     """Give the points on either side; beyond an end, as far as the other neighbour."""
@@ -33,14 +30,3 @@ def between(low: float, high: float) -> list[float]:
     if low > 0.0:
         return [float(one) for one in np.geomspace(low, high, FINER + 2)[1:-1]]
     return [float(one) for one in np.linspace(low, high, FINER + 2)[1:-1]]
-
-
-def closely(points: Sequence[float], here: float) -> list[float]:
-    """Subdivide an even grid, up to one of its steps on either side of a value.
-
-    Its points stay the same wherever that is, so that their columns are computed once.
-    """
-    points = sorted(points)
-    step = (points[-1] - points[0]) / max(len(points) - 1, 1)
-    lattice = points[0] + step / FINEST * np.arange(-FINEST + 1, FINEST * len(points))
-    return [float(one) for one in lattice[np.abs(lattice - here) < step]]

@@ -13,7 +13,8 @@ from scipy.optimize import root_scalar
 
 from core.arrays import Vector
 from core.diagnosis.bench import Bench
-from core.diagnosis.grid import between, closely, neighbours
+from core.diagnosis.chance import log_chance
+from core.diagnosis.grid import between, neighbours
 from core.diagnosis.hypothesis import Candidate, Hypothesis, allowed
 from core.diagnosis.score import Score
 
@@ -21,28 +22,27 @@ YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
 """within this share of it."""
+LIKELY, APART = 16, 0.2
+"""Instants at which a cause may begin to act that are looked at closely, so many seconds apart at least."""
+AROUND = np.linspace(-1.0, 1.0, 21)
+"""From a settled instant to others that are asked how likely they are, s."""
 NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
 
-def refined(
-    bench: Bench, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False, close: bool = False
-) -> Candidate:
+def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False) -> Candidate:
     """Settle a candidate's scalars between its grid points, on top of a hypothesis.
 
     Parameters
     ----------
     on_trial
         Whether it is enough to know what they are, and not how well they are known.
-    close
-        Whether to look closely for narrow peaks, where the cause has them.
     """
     for name in candidate.scalars:
         if name in candidate.cause.yielded:
             candidate = _yielding(bench, under, candidate, name)
         elif name not in candidate.cause.unrefined:
-            sharp = close and name in candidate.cause.sharp
-            candidate, seen = _refined(bench, under, candidate, name, sharp=sharp)
+            candidate, seen = _refined(bench, under, candidate, name)
             if not on_trial:
                 candidate = _told(bench, under, candidate, name, seen)
     return candidate
@@ -77,14 +77,17 @@ def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) 
 
 
 def _refined(
-    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, *, sharp: bool
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str
 ) -> tuple[Candidate, Mapping[float, float]]:
     """Settle one scalar, and give the statistics of all values that were tried."""
-    here, (points, ends) = candidate.scalars[name], _grid(bench, candidate, name)
-    low, high = np.clip(neighbours(points, here), *ends)
+    points, ends = _grid(bench, candidate, name)
+    around = neighbours(points, candidate.scalars[name])
+    if name in candidate.cause.onset and _beyond_luck(bench, under, candidate):
+        candidate, around = _begun(bench, under, candidate, name)
+    here, (low, high) = candidate.scalars[name], np.clip(around, *ends)
     seen: dict[float, float] = {}
-    for turn in range(2):
-        values = closely(points, here) if sharp and not turn else between(low, high)
+    for _ in range(2):
+        values = between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
         found = bench.scored(under, trials)
         ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
@@ -95,17 +98,54 @@ def _refined(
     return _at(candidate, name, here), seen
 
 
+def _beyond_luck(bench: Bench, under: Hypothesis, candidate: Candidate) -> bool:
+    """Tell whether so large a rise is less to be expected than not: instants are sought at some cost."""
+    (one,) = bench.scored(under, [candidate])
+    return log_chance(one.statistic, one.freedom) + float(np.log(candidate.trials)) < 0.0
+
+
+def _begun(
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str
+) -> tuple[Candidate, tuple[float, float]]:
+    """Let a candidate begin to act at the likeliest row of all, and give the instants beside it.
+
+    The likelihood of an instant has narrow peaks: under noise that remembers for long a step shows where it
+    is, and hardly later. No grid that is scanned with all else is as fine.
+    """
+    time, rows = bench.look.time, np.arange(1, len(bench.look.time))
+    throughout, some = _at(candidate, name, -np.inf), candidate.cause.onset[name]
+    worth = np.array([one.statistic for one in bench.scored_from(under, throughout, some, rows)])
+    peaks: list[int] = []
+    for place in np.argsort(-worth, kind="stable"):
+        if len(peaks) < LIKELY and all(abs(time[rows[place]] - time[rows[one]]) > APART for one in peaks):
+            peaks.append(int(place))
+    trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
+    found = bench.scored(under, trials)
+    ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
+    best, row = trials[ranks.index(max(ranks))], float(np.median(np.diff(time)))
+    return best, (best.scalars[name] - row, best.scalars[name] + row)
+
+
 def _told(
     bench: Bench, under: Hypothesis, candidate: Candidate, name: str, seen: Mapping[float, float]
 ) -> Candidate:
     """Tell how well a settled scalar is known, from what other values are worth."""
     here = candidate.scalars[name]
     deviation, slope = _spread(bench, under, candidate, name, neighbours(sorted(seen), here))
+    if name in candidate.cause.onset:
+        seen = {**seen, **_farther(bench, under, candidate, name)}
     return replace(
         candidate,
         deviations={**candidate.deviations, name: max(deviation, _reach(seen, here))},
         slopes={**candidate.slopes, name: slope},
     )
+
+
+def _farther(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> dict[float, float]:
+    """Give what a settled instant and others before and after it are worth."""
+    values = (candidate.scalars[name] + AROUND).tolist()
+    found = bench.scored(under, [_at(candidate, name, value) for value in values])
+    return {value: one.statistic for value, one in zip(values, found, strict=True)}
 
 
 def _grid(bench: Bench, candidate: Candidate, name: str) -> tuple[list[float], tuple[float, float]]:

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from core.arrays import EquationRows, Indices, Matrix, Weights
-from core.diagnosis.equations import OPEN_SHARE, Fit
+from core.diagnosis.equations import OPEN_SHARE, Fit, Whitened
 from core.diagnosis.rows import Columns, JointRows
 
 
@@ -118,6 +118,83 @@ def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRow
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
     """Score candidates given as columns over all rows of the look."""
     return Panel(joints, candidates).scores(found)
+
+
+def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, starts: Indices) -> list[Score]:
+    """Score columns that act from one row of the look on, for each of many such rows.
+
+    What is white from a row on is what is white all along, but for the first rows, as many as the noise
+    remembers: there nothing comes before.
+    """
+    count, size, width = len(starts), len(found.values), next(iter(columns.values())).shape[1]
+    cross = np.zeros((count, size, width))
+    right, squares = np.zeros((count, width)), np.zeros((count, width))
+    grams = np.zeros((count, width, width))
+    for joint, one in columns.items():
+        own = found.joints[joint]
+        first = np.searchsorted(joints[joint].rows, starts)
+        sums = _Begun(own, found.left[joint], first, width)
+        taken = one[joints[joint].rows]
+        sums.add_tails(own.whitening @ taken, own.noise.order)
+        begun = np.zeros_like(taken)
+        for lag in range(own.noise.order):
+            begun[lag:] += own.whitening.diagonal(-lag)[:, None] * taken[: len(taken) - lag]
+            sums.add_row(begun, lag)
+        inside = own.free.along(np.moveaxis(sums.free, 0, 1).reshape(own.free.count, -1))
+        right += sums.right
+        squares += np.diagonal(sums.grams, axis1=1, axis2=2)
+        grams += sums.grams - _grams(inside, width)
+        spanned = (own.inside.T @ inside).reshape(len(own.acting), count, width)
+        cross[:, own.acting] += sums.fitted - np.moveaxis(spanned, 0, 1)
+    flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
+    reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
+    return _judged(grams - _grams(reduced, width), right, squares)
+
+
+class _Begun:
+    """Sum products of one joint's columns over the rows from some first one on, for many first ones.
+
+    Attributes
+    ----------
+    right, grams, fitted, free
+        Products with what is left, with each other, with the fitted columns, and with the free ones.
+    """
+
+    def __init__(self, own: Whitened, left: Weights, first: Indices, width: int) -> None:
+        self.own, self.left, self.first = own, left, first
+        self.right = np.zeros((len(first), width))
+        self.grams = np.zeros((len(first), width, width))
+        self.fitted = np.zeros((len(first), len(own.acting), width))
+        self.free = np.zeros((len(first), own.free.count, width))
+        self.loose = own.free.columns.toarray()
+        self.rests = np.diff(own.free.columns.indptr) > 0
+
+    def add_tails(self, white: EquationRows, beyond: int) -> None:
+        """Add all rows from so many beyond the first ones on."""
+        after = np.minimum(self.first + beyond, len(white))
+        self.right += _tails(self.left[:, None] * white)[after]
+        self.grams += _tails(white[:, :, None] * white[:, None, :])[after]
+        self.fitted += _tails(self.own.columns[:, :, None] * white[:, None, :])[after]
+        self.free += _tails(self.loose[:, :, None] * white[:, None, :])[after]
+
+    def add_row(self, white: EquationRows, beyond: int) -> None:
+        """Add the row that is so many beyond each first one, where there is one."""
+        there = np.flatnonzero(self.first + beyond < len(white))
+        rows = self.first[there] + beyond
+        part = white[rows]
+        self.right[there] += self.left[rows][:, None] * part
+        self.grams[there] += part[:, :, None] * part[:, None, :]
+        self.fitted[there] += self.own.columns[rows][:, :, None] * part[:, None, :]
+        resting = self.rests[rows]
+        loose = self.loose[rows[resting]][:, :, None] * part[resting][:, None, :]
+        self.free[there[resting]] += loose
+
+
+def _tails(parts: np.ndarray) -> np.ndarray:
+    """Sum from every row to the last one; after that nothing is left."""
+    sums = np.zeros((len(parts) + 1, *parts.shape[1:]))
+    np.cumsum(parts[::-1], axis=0, out=sums[-2::-1])
+    return sums
 
 
 def _grams(columns: Matrix, width: int) -> np.ndarray:

@@ -66,7 +66,7 @@ def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
     """Settle the last member; where nature would not allow that, leave it and tell how well it is known."""
     member, before = now.members[-1], bench.beneath(now)
     found = bench.scanned(before, [*bench.suspicion.of_kind(member.key), member])[0]
-    moved = bench.tried((*before.members, refined(bench, before, found.candidate, close=True)), now)
+    moved = bench.tried((*before.members, refined(bench, before, found.candidate)), now)
     if moved.possible or not now.possible:
         return moved
     return replace(now, members=(*before.members, told(bench, before, member)))

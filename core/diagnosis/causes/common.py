@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
@@ -38,7 +39,7 @@ class OwnJointCause:
     excludes: ClassVar[tuple[str, ...]] = ()
     leaves: ClassVar[tuple[str, ...]] = ()
     unrefined: ClassVar[tuple[str, ...]] = ()
-    sharp: ClassVar[tuple[str, ...]] = ()
+    onset: ClassVar[Mapping[str, slice]] = MappingProxyType({})
     yielded: ClassVar[tuple[str, ...]] = ()
     inexact: ClassVar[float] = 0.05
 

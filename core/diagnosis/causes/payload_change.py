@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS
 
 INSTANTS = 30
+TOLD_APART = 60
+"""Instants between two of these that are told apart once they come into question."""
 HEAVIEST = 500.0
 UNKNOWN = 1.0
 """A coordinate of the mass centre, m, that is known worse is not told: a planar arm sees two only."""
@@ -41,7 +44,8 @@ class PayloadChange(OwnJointCause):
 
     id = "payload_change"
     leaves = ("external_contact",)
-    sharp = ("time",)
+    # What a body weighs shows when it came; its inertia hardly does.
+    onset: ClassVar = {"time": slice(_FIRST, None)}
     title = "A body was attached to or taken off a link"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))
@@ -77,6 +81,10 @@ class PayloadChange(OwnJointCause):
             return NOTHING
         instants = np.linspace(look.time.min(), look.time.max(), INSTANTS, endpoint=False)[1:]
         return [{"time": float(value)} for value in instants]
+
+    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
+        """Count the instants that are told apart."""
+        return float(len(grid) * TOLD_APART) if scalars else super().trials(grid, scalars)
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
