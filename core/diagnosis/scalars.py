@@ -22,7 +22,7 @@ YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
 """within this share of it."""
-LIKELY, APART = 16, 0.2
+LIKELY, APART = 12, 0.2
 """Instants at which a cause may begin to act that are looked at closely, so many seconds apart at least."""
 AROUND = np.linspace(-1.0, 1.0, 21)
 """From a settled instant to others that are asked how likely they are, s."""
@@ -81,10 +81,12 @@ def _refined(
 ) -> tuple[Candidate, Mapping[float, float]]:
     """Settle one scalar, and give the statistics of all values that were tried."""
     points, ends = _grid(bench, candidate, name)
-    around = neighbours(points, candidate.scalars[name])
-    if name in candidate.cause.onset and _beyond_luck(bench, under, candidate):
-        candidate, around = _begun(bench, under, candidate, name)
-    here, (low, high) = candidate.scalars[name], np.clip(around, *ends)
+    if name in candidate.cause.onset:
+        candidate = _begun(bench, under, candidate, name)
+    here = candidate.scalars[name]
+    low, high = np.clip(neighbours(points, here), *ends)
+    if name in candidate.cause.onset and here not in points:
+        low, high = here - _row(bench), here + _row(bench)
     seen: dict[float, float] = {}
     for _ in range(2):
         values = between(low, high)
@@ -98,20 +100,15 @@ def _refined(
     return _at(candidate, name, here), seen
 
 
-def _beyond_luck(bench: Bench, under: Hypothesis, candidate: Candidate) -> bool:
-    """Tell whether so large a rise is less to be expected than not: instants are sought at some cost."""
-    (one,) = bench.scored(under, [candidate])
-    return log_chance(one.statistic, one.freedom) + float(np.log(candidate.trials)) < 0.0
-
-
-def _begun(
-    bench: Bench, under: Hypothesis, candidate: Candidate, name: str
-) -> tuple[Candidate, tuple[float, float]]:
-    """Let a candidate begin to act at the likeliest row of all, and give the instants beside it.
+def _begun(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+    """Let a candidate that is not there by luck begin to act at the likeliest row of all.
 
     The likelihood of an instant has narrow peaks: under noise that remembers for long a step shows where it
     is, and hardly later. No grid that is scanned with all else is as fine.
     """
+    (alone,) = bench.scored(under, [candidate])
+    if log_chance(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
+        return candidate
     time, rows = bench.look.time, np.arange(1, len(bench.look.time))
     throughout, some = _at(candidate, name, -np.inf), candidate.cause.onset[name]
     worth = np.array([one.statistic for one in bench.scored_from(under, throughout, some, rows)])
@@ -122,8 +119,12 @@ def _begun(
     trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
     found = bench.scored(under, trials)
     ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
-    best, row = trials[ranks.index(max(ranks))], float(np.median(np.diff(time)))
-    return best, (best.scalars[name] - row, best.scalars[name] + row)
+    return trials[ranks.index(max(ranks))]
+
+
+def _row(bench: Bench) -> float:
+    """Give the time from row to row, s."""
+    return float(np.median(np.diff(bench.look.time)))
 
 
 def _told(

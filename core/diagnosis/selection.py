@@ -21,9 +21,6 @@ RIVALS, BETTER = 6, 6.0
 """Candidates fitted where one is to take a member's place, and by how much its criterion has to be better."""
 MOST = 5
 """Causes looked for at most."""
-AS_BEFORE = 0.05
-"""A member that brings as much as when it defended its place, within this share, owes nothing to what joined
-since, and what might take its place does not either: it need not defend it again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +59,7 @@ def continued(
     progress: Callable[[float], None] | None = None,
 ) -> Selection:
     """Search for more causes than those found so far."""
-    now, steps, defended = so_far.chosen, list(so_far.steps), dict[Key, float]()
+    now, steps = so_far.chosen, list(so_far.steps)
     for number in range(len(now.members), MOST):
         if progress is not None:
             progress(number / MOST)
@@ -77,7 +74,7 @@ def continued(
             given_up[better.members[-1].key] = np.inf
             bench.believe(now)
             continue
-        now = _defended(bench, larger, steps, given_up, defended)
+        now = _defended(bench, larger, steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
 
 
@@ -90,25 +87,15 @@ def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
     return None if first is None else settled(bench, first)
 
 
-def _defended(
-    bench: Bench,
-    now: Hypothesis,
-    steps: list[Step],
-    given_up: dict[Key, float],
-    defended: dict[Key, float],
-) -> Hypothesis:
-    """Let every member defend its place against being dropped and against its rivals.
-
-    Parameters
-    ----------
-    defended
-        What members brought when they last defended their place.
-    """
+def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
+    """Let every member defend its place against being dropped and against its rivals."""
     for _ in range(2 * MOST):
-        changed = _challenged(bench, now, steps, given_up, defended)
+        changed = _challenged(bench, now, steps, given_up)
         if changed is None:
             return now
         if len(changed.members) == len(now.members):
+            # What was swapped out is not believed any more, even where the new one is left alone.
+            bench.believe(bench.tried(changed.members[:-1], changed))
             now = settled(bench, changed)
         else:
             bench.believe(changed)
@@ -117,11 +104,7 @@ def _defended(
 
 
 def _challenged(
-    bench: Bench,
-    now: Hypothesis,
-    steps: list[Step],
-    given_up: dict[Key, float],
-    defended: dict[Key, float],
+    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
 ) -> Hypothesis | None:
     less = bench.less(now)
     brings = [rise(without, now) for without in less]
@@ -136,9 +119,6 @@ def _challenged(
         given_up[now.members[least].key] = np.inf
         return less[least]
     for index, member in enumerate(now.members):
-        before = defended.get(member.key, 0.0)
-        if abs(brings[index] - before) < AS_BEFORE * before:
-            continue
         closed = {**given_up, member.key: np.inf}
         if not member.cause.event:
             # What acts at picked instants only does not take the place of what acts all the time.
@@ -149,5 +129,4 @@ def _challenged(
             steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
             given_up[member.key] = BESIDE_SHARE * brings[index]
             return rival
-        defended[member.key] = brings[index]
     return None

@@ -17,8 +17,8 @@ from core.dynamics.terms.payload import Payload
 from core.robot.model import RobotModel
 from core.robot.parameters import INERTIAL_SYMBOLS
 
-INSTANTS = 30
-TOLD_APART = 60
+INSTANTS = 16
+TOLD_APART = 120
 """Instants between two of these that are told apart once they come into question."""
 HEAVIEST = 500.0
 UNKNOWN = 1.0
