@@ -13,10 +13,10 @@ import numpy as np
 from core.arrays import Indices, JointSeries, JointVector
 from core.diagnosis.belief import Belief
 from core.diagnosis.cause import Cause
-from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit, white_left
+from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 from core.diagnosis.look import Look
-from core.diagnosis.rows import Columns, JointRows, extended, joint_rows
+from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Panel, Score, score, score_from
 from core.diagnosis.suspicion import Suspicion, joined_by
 from core.dynamics.prediction import Prediction
@@ -283,44 +283,3 @@ class Bench:
             moves = taken < MOST_AT_REST * count
             shares.append(max(1.0 - ratio * count / (count - taken), 0.0) if moves else np.nan)
         return np.array(shares)
-
-    def unseen_rise(self, now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
-        """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise.
-
-        What was believed beforehand was not seen by either: by how much less the larger hypothesis departs
-        from it counts like rows, in proportion to those that are held out.
-        """
-        share = self.unseen_share(trial, index) if self.belief else 0.0
-        return self._rise_at(self.unseen, now, trial, share)
-
-    def expected_unseen_rise(self, now: Hypothesis, trial: Hypothesis, index: int) -> float:
-        """Give what `unseen_rise` would be if a member did there what it does on the fitted rows."""
-        return self.unseen_share(trial, index) * self._rise_at(self.base, now, trial, 1.0)
-
-    def _rise_at(
-        self, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, believed: float
-    ) -> float:
-        rows = [extended(joints, self.columns(one.members)) for one in (now, trial)]
-        squares = np.zeros(2)
-        for parts, joint in zip(zip(*rows, strict=True), trial.fit.joints, strict=True):
-            left = [
-                part.torque - part.columns @ one.fit.values
-                for part, one in zip(parts, (now, trial), strict=True)
-            ]
-            squares += np.sum(white_left(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
-        if self.belief:
-            squares += [believed * self.belief.departure(one.fit.values) for one in (now, trial)]
-        return float(squares[0] - squares[1])
-
-    def unseen_share(self, trial: Hypothesis, index: int = -1) -> float:
-        """Give the square of a member's torque on held-out rows over that on the fitted ones."""
-        columns = self.columns(trial.members)[index]
-        values = trial.fit.values[trial.columns_of(index % len(trial.members))]
-        squares = []
-        for part in (self.unseen, self.base):
-            total = 0.0
-            for joint, one in columns.items():
-                torque = (one[part[joint].rows] @ values)[:, None]
-                total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
-            squares.append(total)
-        return squares[0] / max(squares[1], 1e-300)

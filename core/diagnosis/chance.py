@@ -21,6 +21,7 @@ def log_chance(statistic: float, width: int) -> float:
     -1500
     """
     if statistic < width:
+        # The chance is nearly one, and what it lacks of that is what is known.
         return float(np.log1p(-chdtr(width, max(statistic, 0.0))))
     if statistic < FAR:
         return float(np.log(chdtrc(width, statistic)))

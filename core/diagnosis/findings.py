@@ -15,6 +15,7 @@ from core.diagnosis.look import Look
 from core.diagnosis.raw import RawCause, RawFinding
 from core.diagnosis.rise import log_p_of
 from core.diagnosis.rivals import Standing
+from core.diagnosis.unseen import expected_unseen_rise, unseen_rise
 
 
 def finding(
@@ -91,13 +92,13 @@ def _unseen(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> tupl
     """
     if own.member.cause.event:
         return ()
-    expected = bench.expected_unseen_rise(own.without, chosen, place)
+    expected = expected_unseen_rise(bench, own.without, chosen, place)
     return (
         Evidence(
             "Rise of twice the log-likelihood on rows that no fit has seen; as far as it acts there "
             f"{expected:.0f} is to be expected",
             "unseen likelihood ratio",
-            bench.unseen_rise(own.without, chosen, place),
+            unseen_rise(bench, own.without, chosen, place),
         ),
     )
 

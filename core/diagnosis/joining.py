@@ -14,6 +14,7 @@ from core.diagnosis.hypothesis import Candidate, Hypothesis, Scored
 from core.diagnosis.leftovers import left_over
 from core.diagnosis.rise import bounded_rise, log_p, merit, rise, weight
 from core.diagnosis.scalars import refined
+from core.diagnosis.unseen import unseen_rise, unseen_share
 
 Key = tuple[str, Site]
 GivenUp = Mapping[Key, float]
@@ -177,9 +178,9 @@ def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
     """
     if trial.members[-1].cause.event:
         return True
-    expected = bench.unseen_share(trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
+    expected = unseen_share(bench, trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
     luck = 2.0 * float(np.sqrt(max(expected, 1.0)))
-    return bench.unseen_rise(now, trial) >= min(UNSEEN_SHARE * expected, expected - UNLUCKY * luck)
+    return unseen_rise(bench, now, trial) >= min(UNSEEN_SHARE * expected, expected - UNLUCKY * luck)
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:

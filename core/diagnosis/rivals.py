@@ -19,6 +19,7 @@ from core.diagnosis.leftovers import keeps_beside, left_by_last
 from core.diagnosis.rise import merit, rise
 from core.diagnosis.selection import Selection, Step
 from core.diagnosis.strangers import best_stranger, strangers
+from core.diagnosis.unseen import unseen_share
 
 INDIFFERENCE = 6.0
 OTHER_SHARE = 0.03
@@ -108,7 +109,7 @@ def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) ->
         return True
     if own.member.cause.event or bench.belief is not None:
         return False
-    expected = bench.unseen_share(chosen, chosen.by_key[own.member.key]) * own.statistic
+    expected = unseen_share(bench, chosen, chosen.by_key[own.member.key]) * own.statistic
     look, left = bench.look, (bench.residual(own.without), bench.residual(chosen))
     unseen, fitted = (look.usable & (look.held_out == held)[:, None] for held in (True, False))
     # What shared parameters take up where a cause acts, they spoil on the other joints.

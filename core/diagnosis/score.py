@@ -13,8 +13,9 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from core.arrays import EquationRows, Indices, Matrix, Weights
-from core.diagnosis.equations import OPEN_SHARE, Fit, Whitened
+from core.diagnosis.equations import OPEN_SHARE, Fit
 from core.diagnosis.rows import Columns, JointRows
+from core.diagnosis.whitened import Whitened
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +141,7 @@ def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, star
         for lag in range(own.noise.order):
             begun[lag:] += own.whitening.diagonal(-lag)[:, None] * taken[: len(taken) - lag]
             sums.add_row(begun, lag)
-        inside = own.free.along(np.moveaxis(sums.free, 0, 1).reshape(own.free.count, -1))
+        inside = own.free.along(np.moveaxis(sums.free, 0, 1).reshape(own.free.count, count * width))
         right += sums.right
         squares += np.diagonal(sums.grams, axis1=1, axis2=2)
         grams += sums.grams - _grams(inside, width)

@@ -11,10 +11,10 @@ import numpy as np
 
 from core.arrays import Indices, Vector
 from core.diagnosis.bench import Bench
-from core.diagnosis.equations import white_left
 from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.look import Look
 from core.diagnosis.rows import extended
+from core.diagnosis.whitened import white_left
 
 OVER_LARGEST, OVER_USUAL = 2.5, 6.0
 """How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""

@@ -55,8 +55,10 @@ def test_what_a_clipped_torque_leaves_is_no_push():
         Order("single", 13100191, "torque_filter_lag"),  # the base parameters take up most of it
         Order("single", 13100057, "external_contact"),  # no larger than what slow noise does by itself
         Order("single", 15700714, "timestamp_jitter", 0.3),  # the noise of positions looks like a filter
+        Order("single", 15700199, "payload_change"),  # the likelihood of its instant has a narrow peak
+        Order("single", 15700605, "payload_change", 3.0),  # and hardly more than that peak
     ],
-    ids=lambda order: order.cause,
+    ids=lambda order: f"{order.cause}-{order.seed}",
 )
 def test_an_effect_that_was_out_of_sight_once_is_named_and_nothing_else(order):
     score = scored(order)

@@ -11,9 +11,10 @@ from core.diagnosis import selection
 from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.causes import external_contact
 from core.diagnosis.causes.torque_gain import TorqueGain
-from core.diagnosis.equations import Whitened, refit
+from core.diagnosis.equations import refit
 from core.diagnosis.noise import JointNoise
 from core.diagnosis.rows import joint_rows
+from core.diagnosis.whitened import Whitened
 from core.dynamics.terms.effect import OneJointTerm
 from tests.core.diagnosis import (
     equations_world,

@@ -6,7 +6,7 @@ from scipy.stats import binom, chi2, kstest
 
 from core.diagnosis.equations import fit
 from core.diagnosis.rows import Columns, extended
-from core.diagnosis.score import score
+from core.diagnosis.score import score, score_from
 from tests.core.diagnosis.equations_world import NOISE, Equations, smooth
 
 
@@ -64,6 +64,23 @@ def test_what_the_model_or_sticking_friction_can_stand_for_is_no_evidence(equati
     found = score(before, equations.joints, [spanned, {1: equations.free[:, :1]}])
     assert [one.statistic for one in found] == [0.0, 0.0]
     assert [one.clear_share for one in found] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("rests", [False, True], ids=["moving", "resting half of the time"])
+def test_columns_that_begin_to_act_at_a_row_score_as_if_they_were_written_so(equations, rests):
+    rng = np.random.default_rng(6)
+    joints = equations.with_rests() if rests else equations.joints
+    before = fit(joints, NOISE, rounds=0)
+    whole = {joint: smooth(rng, equations.count, 2) for joint in (0, 2)}
+    starts = np.array([0, 1, 2, 57, 58, 300, equations.count - 40])
+    begun = [
+        {joint: one * (np.arange(equations.count) >= start)[:, None] for joint, one in whole.items()}
+        for start in starts
+    ]
+    written = score(before, joints, begun)
+    for at_once, one in zip(score_from(before, joints, whole, starts), written, strict=True):
+        assert at_once.statistic == pytest.approx(one.statistic, rel=1e-6, abs=1e-6)
+        np.testing.assert_allclose(at_once.values, one.values, rtol=1e-5, atol=1e-8)
 
 
 def test_where_nothing_is_hidden_and_the_noise_is_known_chances_are_uniform():

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from core.diagnosis.rise import rise
+from core.diagnosis.selection import select
 from core.diagnosis.settling import settled
 from tests.core.diagnosis.made_up import candidate, nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
-from tests.core.diagnosis.waves import WaveCause, WaveTerm, wave_effect
+from tests.core.diagnosis.waves import WaveCause, WaveTerm, wave_cause, wave_effect
 
-QUICK, QUICKER = 7.0, 11.0
+QUICK, QUICKER, SLOW, OTHER = 7.0, 11.0, 4.5, 4.0
 
 
 class Fickle(WaveCause):
@@ -18,7 +19,8 @@ class Fickle(WaveCause):
     id = title = "fickle"
 
     def term(self, look, believed, site, scalars):
-        return BuiltOn(site[0], {QUICKER if believed.joined else QUICK: 1.0}, believed)
+        believes = any(isinstance(one, BuiltOn) for one, _ in believed.joined)
+        return BuiltOn(site[0], {SLOW if believes else QUICK: 1.0}, believed)
 
 
 class BuiltOn(WaveTerm):
@@ -30,16 +32,27 @@ class BuiltOn(WaveTerm):
 
 
 @pytest.mark.parametrize(
-    ("share", "kept"), [(0.0, QUICK), (1.0, QUICKER)], ids=["takes what it brings", "is worth it"]
+    ("share", "kept"), [(0.0, QUICK), (1.0, SLOW)], ids=["takes what it brings", "is worth it"]
 )
 def test_what_is_found_is_believed_unless_that_takes_what_it_brings(share, kept):
     cause = Fickle()
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.3, QUICKER: share})), (cause,))
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.3, SLOW: share})), (cause,))
     none = nothing_found(bench)
     found = bench.added(none, candidate(cause))
     now = settled(bench, found)
     assert rise(none, now) > 0.5 * rise(none, found) > 5.0
     (columns,) = bench.columns(now.members)
     angle = bench.look.state.position[:, 1]
-    like = [abs(np.corrcoef(columns[1][:, 0], np.sin(rate * angle))[0, 1]) for rate in (QUICK, QUICKER)]
-    assert (QUICK, QUICKER)[int(np.argmax(like))] == kept
+    like = [abs(np.corrcoef(columns[1][:, 0], np.sin(rate * angle))[0, 1]) for rate in (QUICK, SLOW)]
+    assert (QUICK, SLOW)[int(np.argmax(like))] == kept
+
+
+def test_what_was_swapped_out_is_not_believed_any_more_even_if_the_other_is_left_alone():
+    nearly = wave_cause("nearly", {QUICK: 1.0, QUICKER: 1.0, OTHER: 0.5})
+    causes = (Fickle(), wave_cause("quicker", {QUICKER: 1.0}), nearly)
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes)
+    found = select(bench)
+    assert ("swapped", "fickle") in [(step.action, step.candidate.cause.id) for step in found.steps]
+    assert [one.cause.id for one in found.chosen.members] == ["quicker", "fickle"]
+    (believed,) = [term.waves for term, _ in bench.believed.joined]
+    assert believed == {QUICKER: 1.0}

@@ -12,6 +12,7 @@ from core.dynamics.terms.backlash import Backlash
 from core.dynamics.terms.elasticity import Elasticity
 from core.dynamics.terms.load_friction import LoadFriction
 from core.dynamics.terms.payload import Payload
+from core.dynamics.terms.spring import Spring
 from core.dynamics.terms.viscous import Viscous
 from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import skew_arm
@@ -72,3 +73,10 @@ def test_a_gear_transmits_a_body_that_joined_the_model_and_no_friction_that_did(
     carried = replace(believed, joined=((Payload(1, 1, -np.inf), body), (Viscous(), np.ones(3))))
     found, expected = (Gear(one, 1).load(state) for one in (carried, replace(believed, standard=heavier)))
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+
+
+def test_a_gear_is_not_known_to_transmit_a_spring_of_which_nobody_knows_where_it_rests():
+    state, (believed, _) = swinging(3, 2.0), believed_apart_and_joined()
+    sprung = replace(believed, joined=((Spring(1), np.array([30.0])),))
+    np.testing.assert_array_equal(Gear(sprung, 1).load(state), Gear(believed, 1).load(state))
+    assert np.abs(sprung.applied(state) - believed.applied(state)).max() > 1.0
