@@ -4,7 +4,7 @@ import numpy as np
 
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.rise import rise_by_joint
+from core.diagnosis.rise import rise, rise_by_joint
 
 BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
@@ -19,7 +19,7 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
 
     It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
     on a joint of its own it has to be half as clear as the other. An event does where it happens only while
-    the other acts.
+    the other acts, and brings less.
 
     Parameters
     ----------
@@ -29,11 +29,13 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
     own, own_rise = whole.members[index].cause, rise_by_joint(less, whole)
     for place, other in enumerate(whole.members):
         if place != index and own.id in other.cause.leaves:
-            if own.event:
-                if _acts_within(whole, index, place):
-                    return True
+            if own.event and not _acts_within(whole, index, place):
                 continue
             without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
+            if own.event:
+                if own_rise.sum() < rise(without, whole):
+                    return True
+                continue
             left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
             if np.maximum(own_rise - left, 0.0).sum() < CLEAR_SHARE * own_rise.sum():
                 return True

@@ -41,6 +41,12 @@ def test_a_burst_of_heavy_tailed_noise_is_no_clipped_torque():
 
 
 @pytest.mark.slow
+def test_a_push_is_not_what_a_far_weaker_cause_leaves():
+    score = scored(Order("single", 15700666, "external_contact", 3.0))
+    assert [answer.exact for answer in score.answers] == [True]
+
+
+@pytest.mark.slow
 def test_what_a_clipped_torque_leaves_is_no_push():
     score = scored(Order("single", 5300508, "torque_saturation"))
     assert [answer.exact for answer in score.answers] == [True]

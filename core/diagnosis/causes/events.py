@@ -100,7 +100,10 @@ class _Search:
         return float((gain / scale) @ np.linalg.solve(scaled, gain / scale))
 
     def refined(self, span: Span, others: Sequence[Span]) -> Span:
-        """Shift both ends by smaller and smaller steps, apart from others, as long as that explains more."""
+        """Shift both ends by smaller and smaller steps, apart from others, as long as that explains more.
+
+        The peak stays within the log: nothing tells how high one was that nobody saw.
+        """
         step, best = 0.25 * (span[1] - span[0]), self.worth(span)
         for _ in range(HALVINGS):
             improved = True
@@ -108,7 +111,9 @@ class _Search:
                 improved = False
                 for change in ((-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step)):
                     trial = (span[0] + change[0], span[1] + change[1])
-                    if not SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST or not _apart(trial, others):
+                    lasts = SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST
+                    seen = self.ordered[0] <= 0.5 * (trial[0] + trial[1]) <= self.ordered[-1]
+                    if not (lasts and seen and _apart(trial, others)):
                         continue
                     if self.worth(trial) > best:
                         span, best, improved = trial, self.worth(trial), True
