@@ -10,6 +10,8 @@ BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
 LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
 """A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
+LEAST_EVENT = 0.05
+"""An event fits a little of anything: it brings this share at least of what any other cause does."""
 WITHIN = 0.9
 """Share of an event's rows in which another cause acts, from which on it is what that one leaves."""
 
@@ -19,7 +21,7 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
 
     It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
     on a joint of its own it has to be half as clear as the other. An event does where it happens only while
-    the other acts, and brings less.
+    the other acts, and brings less, and beside whatever brings many times as much.
 
     Parameters
     ----------
@@ -28,17 +30,18 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
     """
     own, own_rise = whole.members[index].cause, rise_by_joint(less, whole)
     for place, other in enumerate(whole.members):
-        if place != index and own.id in other.cause.leaves:
-            if own.event and not _acts_within(whole, index, place):
-                continue
-            without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
-            if own.event:
-                if own_rise.sum() < rise(without, whole):
-                    return True
-                continue
-            left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
-            if np.maximum(own_rise - left, 0.0).sum() < CLEAR_SHARE * own_rise.sum():
+        leaves = own.id in other.cause.leaves
+        if place == index or not (leaves or own.event):
+            continue
+        without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
+        if own.event:
+            least = 1.0 if leaves and _acts_within(whole, index, place) else LEAST_EVENT
+            if own_rise.sum() < least * rise(without, whole):
                 return True
+            continue
+        left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
+        if np.maximum(own_rise - left, 0.0).sum() < CLEAR_SHARE * own_rise.sum():
+            return True
     return False
 
 

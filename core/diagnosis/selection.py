@@ -88,7 +88,12 @@ def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
 
 
 def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
-    """Let every member defend its place against being dropped and against its rivals."""
+    """Let every member defend its place against being dropped and against its rivals.
+
+    Two causes can each look better than the other where the other is believed: a swap that leads back to
+    what was settled before ends the matter.
+    """
+    settled_before = [now.by_key.keys()]
     for _ in range(2 * MOST):
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
@@ -100,6 +105,9 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[K
         else:
             bench.believe(changed)
             now = bench.tried(changed.members, changed)
+        if now.by_key.keys() in settled_before:
+            return now
+        settled_before.append(now.by_key.keys())
     return now
 
 

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.hidden.plan import Order, run
+from tests.hidden.plan import Order, answered, drawn, run
+from tests.hidden.score import score
 
 SINGLES = (
     Order("single", 7001, "friction_stribeck", 3.0, robot="planar-3"),
@@ -63,6 +64,7 @@ def test_what_a_clipped_torque_leaves_is_no_push():
         Order("single", 15700714, "timestamp_jitter", 0.3),  # the noise of positions looks like a filter
         Order("single", 15700199, "payload_change"),  # the likelihood of its instant has a narrow peak
         Order("single", 15700605, "payload_change", 3.0),  # and hardly more than that peak
+        Order("single", 15700597, "torque_filter_lag", 3.0),  # what it leaves of a jerk looks like pushes
     ],
     ids=lambda order: f"{order.cause}-{order.seed}",
 )
@@ -76,6 +78,17 @@ def test_an_effect_that_was_out_of_sight_once_is_named_and_nothing_else(order):
 def test_two_effects_are_both_named():
     score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2"))
     assert [answer.named for answer in score.answers] == [True, True]
+
+
+@pytest.mark.slow
+def test_two_that_look_better_than_each_other_are_swapped_no_more_than_once():
+    order = Order("combination", 16700779, effects=3)
+    case = drawn(order)
+    document = answered(case)
+    swapped = [(one["cause"], *one["joints"]) for one in document["search"] if one["action"] == "swapped"]
+    assert len(set(swapped)) == len(swapped) > 0
+    found = score(document, case.truth, kind=order.kind, noise=case.noise, seed=order.seed)
+    assert [answer.exact for answer in found.answers] == [True] * order.effects
 
 
 @pytest.mark.slow
