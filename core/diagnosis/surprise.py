@@ -1,10 +1,12 @@
 """See whether held-out rows hold something that the fitted rows never showed: a short event, mostly.
 
 What is held out is spread evenly, so that any lasting effect shows on both sides; what happened once may lie
-on the wrong one. Then other blocks are held out, and the search begins anew. Source: Stone, J. R. Stat. Soc.
-B 36(2), 1974, for exchanging the parts of a log.
+on the wrong one. Then other blocks are held out: before anything is searched where a plain fit shows it, and
+where only what was found shows it the search begins anew. Source: Stone, J. R. Stat. Soc. B 36(2), 1974, for
+exchanging the parts of a log.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +18,8 @@ from core.diagnosis.look import Look
 from core.diagnosis.rows import extended
 from core.diagnosis.whitened import white_left
 
+Fitted = tuple[Bench, Hypothesis]
+"""A bench and a hypothesis that was fitted on it."""
 OVER_LARGEST, OVER_USUAL = 2.5, 6.0
 """How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
 LEAST_ROWS = 8
@@ -33,6 +37,20 @@ def surprised(bench: Bench, found: Hypothesis) -> bool:
         if len(new) and len(old) and new.max() > max(OVER_LARGEST * old.max(), OVER_USUAL * old.mean()):
             return True
     return False
+
+
+def unsurprising(look: Look, plain: Fitted, fit: Callable[[Look], Fitted]) -> Look:
+    """Hold other blocks out from the first where what is held out surprises, and those would not.
+
+    Parameters
+    ----------
+    plain
+        The look's rows with nothing suspected, and their fit.
+    fit
+        Gives the same of other rows.
+    """
+    other = turned(look) if surprised(*plain) else None
+    return look if other is None or surprised(*fit(other)) else other
 
 
 def turned(look: Look) -> Look | None:

@@ -6,6 +6,7 @@ and is shown over the coordinate that explains it. A generic learner says what i
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from core.diagnosis.rise import log_p, rise
 from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, continued, select
 from core.diagnosis.strangers import best_stranger, strangers
-from core.diagnosis.surprise import surprised, turned
+from core.diagnosis.surprise import surprised, turned, unsurprising
 from core.diagnosis.switching import switchings
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
@@ -158,28 +159,33 @@ def _bench(question: Question, look: Look, *, ordinary: bool = False) -> Bench:
 def _looked(question: Question) -> tuple[list[Finding], Look]:
     """Examine the raw samples in a wide look, then narrow it to where positions are not all noise."""
     looks: list[Fitted] = []
+    plain: list[tuple[Bench, Hypothesis]] = []
 
     def look_again(width: float) -> Fitted:
         look = look_at(
             question.model, question.logs, held_out=question.held_out, blocks=question.blocks, width=width
         )
         bench, found = _bare(question, look)
-        if bench.leaves_too_much(found):
-            bench, found = _bare(question, look, ordinary=True)
         bench.believe(found)
+        plain.append((bench, found))
         looks.append((look, bench.believed, tuple(one.noise for one in found.fit.joints)))
         return looks[-1]
 
     look, _, _ = narrowed(look_again)
     wide, believed, _ = looks[0]
     raw = [raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
-    return raw, look
+    return raw, unsurprising(look, plain[-1], partial(_bare, question))
 
 
-def _bare(question: Question, look: Look, *, ordinary: bool = False) -> tuple[Bench, Hypothesis]:
-    """Fit the model with nothing suspected."""
-    bench = Bench(look, question.plan, (), look.usable & ~look.held_out[:, None], ordinary=ordinary)
-    return bench, bench.tried(())
+def _bare(question: Question, look: Look) -> tuple[Bench, Hypothesis]:
+    """Fit the model with nothing suspected, under ordinary noise where that is left too much."""
+    mask = look.usable & ~look.held_out[:, None]
+    bench = Bench(look, question.plan, (), mask)
+    found = bench.tried(())
+    if bench.leaves_too_much(found):
+        bench = Bench(look, question.plan, (), mask, ordinary=True)
+        found = bench.tried(())
+    return bench, found
 
 
 def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiable, ...]:

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.surprise import surprised, turned
+from core.diagnosis.look import Look
+from core.diagnosis.surprise import Fitted, surprised, turned, unsurprising
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 
@@ -13,20 +14,43 @@ PUSH = 3.0
 """N m, on one joint for as long as a block."""
 
 
-def is_surprised(*, held_out: bool | None) -> bool:
-    """Push in one block that is held out, or in one that is fitted, or in none."""
-    scene = measured_arm()
-    torque = scene.look.torque.copy()
-    if held_out is not None:
-        block = scene.look.block[scene.look.held_out == held_out][0]
-        torque[scene.look.block == block, 1] += PUSH
-    bench = bench_of(replace(scene, look=replace(scene.look, torque=torque)), ())
-    return surprised(bench, nothing_found(bench))
+def plain(look: Look) -> Fitted:
+    bench = bench_of(replace(measured_arm(), look=look), ())
+    return bench, nothing_found(bench)
 
 
-@pytest.mark.parametrize(("held_out", "expected"), [(True, True), (False, False), (None, False)])
-def test_only_an_event_in_a_block_that_is_held_out_surprises(held_out, expected):
-    assert is_surprised(held_out=held_out) is expected
+def pushed(*blocks: int) -> Look:
+    look = measured_arm().look
+    torque = look.torque.copy()
+    torque[np.isin(look.block, blocks), 1] += PUSH
+    return replace(look, torque=torque)
+
+
+def blocks_of(look: Look, *, held_out: bool) -> np.ndarray:
+    return np.unique(look.block[look.held_out == held_out])
+
+
+HELD, FITTED = (int(blocks_of(measured_arm().look, held_out=one)[0]) for one in (True, False))
+TURNED = int(blocks_of(turned(measured_arm().look), held_out=True)[0])
+"""A block that is held out once others are."""
+
+
+@pytest.mark.parametrize(("blocks", "expected"), [((HELD,), True), ((FITTED,), False), ((), False)])
+def test_only_an_event_in_a_block_that_is_held_out_surprises(blocks, expected):
+    assert surprised(*plain(pushed(*blocks))) is expected
+
+
+@pytest.mark.parametrize(("blocks", "other"), [((HELD,), True), ((FITTED,), False), ((), False)])
+def test_blocks_that_do_not_surprise_are_held_out_from_the_first(blocks, other):
+    look = pushed(*blocks)
+    chosen = unsurprising(look, plain(look), plain)
+    assert bool(np.any(chosen.held_out & (look.block == TURNED))) is other
+
+
+def test_blocks_stay_held_out_where_others_would_surprise_as_well():
+    look = pushed(HELD)
+    surprising = plain(look)
+    assert unsurprising(look, surprising, lambda _other: surprising) is look
 
 
 def test_other_blocks_are_held_out_and_as_many():
