@@ -24,6 +24,14 @@ class JointFit(Open):
     nrmse_of_rms_percent: float | None
 
 
+class HeldOutSpan(Open):
+    """A stretch of a log that no fit has seen."""
+
+    log: Annotated[int, Field(description="counted from 1")]
+    begin_s: float
+    end_s: float
+
+
 class FoundParameter(Open):
     """A number of a finding, and how well it is known."""
 
@@ -297,3 +305,7 @@ class Diagnosis(Open):
         default=[]
     )
     band_hz: Annotated[float | None, Field(description="up to where the diagnosis looked")] = None
+    held_out: Annotated[
+        list[HeldOutSpan],
+        Field(description="what the search has not seen; the findings' own gains are of it"),
+    ] = Field(default=[])

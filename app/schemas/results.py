@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, JsonValue
 
 from app.schemas.common import Open
-from app.schemas.diagnosis import Diagnosis, JointFit
+from app.schemas.diagnosis import Diagnosis, HeldOutSpan, JointFit
 
 
 class BaseParameter(Open):
@@ -42,14 +42,6 @@ class Body(Open):
         list[float] | None, Field(description="m, ascending; null where no such body can exist")
     ]
     axes: Annotated[list[list[float]] | None, Field(description="their directions, as columns of a rotation")]
-
-
-class HeldOutSpan(Open):
-    """A stretch of a log that no fit has seen."""
-
-    log: Annotated[int, Field(description="counted from 1")]
-    begin_s: float
-    end_s: float
 
 
 class ResultDocument(Open):

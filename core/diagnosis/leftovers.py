@@ -4,14 +4,15 @@ import numpy as np
 
 from core.diagnosis.bench import Bench
 from core.diagnosis.hypothesis import Candidate, Hypothesis
-from core.diagnosis.rise import rise, rise_by_joint
+from core.diagnosis.rise import bounded_rise, log_p, rise, rise_by_joint
 
 BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
 LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
 """A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
-LEAST_EVENT = 0.05
-"""An event fits a little of anything: it brings this share at least of what any other cause does."""
+EVENT_SHARE, FAR_BEYOND_LUCK = 0.05, 1e-30
+"""An event fits a little of anything: it brings this share at least of what any other cause does, or is no
+more likely by luck than that. Pushes that nobody gave reached 0.04 and 1e-25 beside strong effects."""
 WITHIN = 0.9
 """Share of an event's rows in which another cause acts, from which on it is what that one leaves."""
 
@@ -21,7 +22,8 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
 
     It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
     on a joint of its own it has to be half as clear as the other. An event does where it happens only while
-    the other acts, and brings less, and beside whatever brings many times as much.
+    the other acts, and brings less, and beside whatever brings many times as much unless it is far beyond
+    luck.
 
     Parameters
     ----------
@@ -35,8 +37,9 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
             continue
         without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
         if own.event:
-            least = 1.0 if leaves and _acts_within(whole, index, place) else LEAST_EVENT
-            if own_rise.sum() < least * rise(without, whole):
+            within = leaves and _acts_within(whole, index, place)
+            least = rise(without, whole) * (1.0 if within else EVENT_SHARE)
+            if own_rise.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
                 return True
             continue
         left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
@@ -56,6 +59,11 @@ def left_by_last(bench: Bench, own: Hypothesis, rival: Candidate) -> bool:
         return False
     both = bench.added(own, rival)
     return _acts_within(both, len(own.members), len(own.members) - 1)
+
+
+def _far_beyond_luck(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
+    chance = log_p(less, whole, bounded_rise(less, whole, index), index)
+    return bool(chance < np.log(FAR_BEYOND_LUCK))
 
 
 def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:

@@ -99,6 +99,12 @@ class Look:
         """Number the blocks of all logs through, one number per row."""
         return np.asarray(self.log * (1 + self.block.max()) + self.block)
 
+    @property
+    def held_out_blocks(self) -> frozenset[BlockKey]:
+        """Name the blocks that no fit may see."""
+        keys = np.unique(np.column_stack([self.log, self.block])[self.held_out], axis=0)
+        return frozenset((int(log), int(block)) for log, block in keys)
+
     @cached_property
     def speed(self) -> np.ndarray:
         """Give the RMS speed per joint, rad/s or m/s."""

@@ -18,12 +18,14 @@ from core.diagnosis.look import Look
 from core.diagnosis.rows import extended
 from core.diagnosis.whitened import white_left
 
-Fitted = tuple[Bench, Hypothesis]
+Explained = tuple[Bench, Hypothesis]
 """A bench and a hypothesis that was fitted on it."""
 OVER_LARGEST, OVER_USUAL = 2.5, 6.0
 """How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
 LEAST_ROWS = 8
 """Of a block, to be judged."""
+AS_MANY = 0.5
+"""Other blocks hold out this share at least of each joint's rows clear of reversals: few judge nothing."""
 
 
 def surprised(bench: Bench, found: Hypothesis) -> bool:
@@ -39,7 +41,7 @@ def surprised(bench: Bench, found: Hypothesis) -> bool:
     return False
 
 
-def unsurprising(look: Look, plain: Fitted, fit: Callable[[Look], Fitted]) -> Look:
+def unsurprising(look: Look, plain: Explained, fit: Callable[[Look], Explained]) -> Look:
     """Hold other blocks out from the first where what is held out surprises, and those would not.
 
     Parameters
@@ -54,7 +56,10 @@ def unsurprising(look: Look, plain: Fitted, fit: Callable[[Look], Fitted]) -> Lo
 
 
 def turned(look: Look) -> Look | None:
-    """Hold other blocks out: those half-way to the next ones; None where whole logs are held out."""
+    """Hold other blocks out: those half-way to the next ones.
+
+    None where whole logs are held out, or where the robot rests or turns round in the others.
+    """
     held_out = np.zeros_like(look.held_out)
     for log in np.unique(look.log):
         own = look.log == log
@@ -65,7 +70,8 @@ def turned(look: Look) -> Look | None:
         shift = max(len(blocks) // (2 * len(held)), 1)
         others = blocks[(np.searchsorted(blocks, held) + shift) % len(blocks)]
         held_out |= own & np.isin(look.block, others)
-    return replace(look, held_out=held_out)
+    now, then = (np.count_nonzero(look.clear[one], axis=0) for one in (look.held_out, held_out))
+    return replace(look, held_out=held_out) if np.all(then >= AS_MANY * now) else None
 
 
 def _powers(look: Look, rows: Indices, left: Vector) -> np.ndarray:

@@ -18,7 +18,7 @@ from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
 from core.diagnosis.consolidation import consolidated
 from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.findings import finding, raw_finding
-from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.hypothesis import Candidate
 from core.diagnosis.levels import level_keeper
 from core.diagnosis.look import Look, look_at
 from core.diagnosis.reference import Reference
@@ -28,7 +28,7 @@ from core.diagnosis.rise import log_p, rise
 from core.diagnosis.rivals import Standing, weighed
 from core.diagnosis.selection import Selection, continued, select
 from core.diagnosis.strangers import best_stranger, strangers
-from core.diagnosis.surprise import surprised, turned, unsurprising
+from core.diagnosis.surprise import Explained, surprised, turned, unsurprising
 from core.diagnosis.switching import switchings
 from core.dynamics.model import DynamicModel
 from core.log.model import JointLog
@@ -159,7 +159,7 @@ def _bench(question: Question, look: Look, *, ordinary: bool = False) -> Bench:
 def _looked(question: Question) -> tuple[list[Finding], Look]:
     """Examine the raw samples in a wide look, then narrow it to where positions are not all noise."""
     looks: list[Fitted] = []
-    plain: list[tuple[Bench, Hypothesis]] = []
+    plain: list[Explained] = []
 
     def look_again(width: float) -> Fitted:
         look = look_at(
@@ -177,7 +177,7 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
     return raw, unsurprising(look, plain[-1], partial(_bare, question))
 
 
-def _bare(question: Question, look: Look) -> tuple[Bench, Hypothesis]:
+def _bare(question: Question, look: Look) -> Explained:
     """Fit the model with nothing suspected, under ordinary noise where that is left too much."""
     mask = look.usable & ~look.held_out[:, None]
     bench = Bench(look, question.plan, (), mask)

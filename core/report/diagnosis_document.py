@@ -14,7 +14,7 @@ from core.extension.motion_gain import motion_intervals
 from core.extension.repair import repairs
 from core.report.compared import Compared
 from core.report.diagnosed import Diagnosed
-from core.report.document import base_parameter_rows, identification_document
+from core.report.document import base_parameter_rows, held_out_spans, identification_document
 from core.report.finding import finding_row, not_identifiable_row
 from core.report.identification import Identification
 from core.report.numbers import plain
@@ -59,6 +59,7 @@ def _diagnosis(found: Diagnosed) -> dict[str, object]:
             for step in diagnosis.selection.steps
         ],
         "band_hz": diagnosis.look.band_hz,
+        "held_out": held_out_spans(found.before, diagnosis.look.held_out_blocks),
     }
 
 

@@ -3,8 +3,11 @@
 Fields may be added, never renamed. Every estimated number stands beside its unit and its uncertainty.
 """
 
+from collections.abc import Collection
+
 import numpy as np
 
+from core.arrays import BlockKey
 from core.log.model import JointLog
 from core.precision.bootstrap import intervals
 from core.precision.covariance import INTERVAL_95, relative_deviation_percent
@@ -47,7 +50,7 @@ def identification_document(found: Identification, *, version: str, options: obj
         "fit_total_percent": found.fit_total_percent,
         "validation": found.validation,
         "validation_total_percent": found.validation_total_percent if found.validation else None,
-        "held_out": _held_out(found),
+        "held_out": held_out_spans(found, found.held_out),
         "condition_number": found.excitation.condition_number,
         "condition_number_scaled": found.excitation.condition_number_scaled,
         "precision": _precision(found),
@@ -144,12 +147,12 @@ def _solver(found: Identification) -> dict[str, object]:
     }
 
 
-def _held_out(found: Identification) -> list[dict[str, object]]:
+def held_out_spans(found: Identification, keys: Collection[BlockKey]) -> list[dict[str, object]]:
     """List the spans of the logs that no fit has seen."""
     return [
         {"log": block.log + 1, "begin_s": block.start, "end_s": block.end}
         for block in found.observation.blocks
-        if (block.log, block.number) in found.held_out
+        if (block.log, block.number) in keys
     ]
 
 

@@ -81,7 +81,7 @@ def test_two_effects_are_both_named():
 
 
 @pytest.mark.slow
-def test_two_that_look_better_than_each_other_are_swapped_no_more_than_once():
+def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most():
     order = Order("combination", 16700779, effects=3)
     case = drawn(order)
     document = answered(case)

@@ -70,10 +70,12 @@ def made_up(
     *,
     allowed: Callable[[Scalars], bool] = lambda scalars: True,
     like_position_noise: bool = False,
+    event: bool = False,
 ) -> MadeUpCause:
     """Make up a cause of a given name."""
     own = {"id": name, "title": name, "make": make, "points": points, "allowed": allowed}
-    return type(name, (MadeUpCause,), own | {"like_position_noise": like_position_noise})()
+    own |= {"like_position_noise": like_position_noise, "event": event}
+    return type(name, (MadeUpCause,), own)()
 
 
 NO_MOTION = MotionState(*(np.zeros((2, 3)) for _ in range(3)), time=np.array([0.0, 1.0]))

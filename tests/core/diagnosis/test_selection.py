@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 from functools import cache
+from itertools import cycle
 
 import numpy as np
 import pytest
 
+from core.diagnosis import selection as search
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.joining import FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
@@ -106,6 +108,20 @@ def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_tim
         ("added", "event"),
         ("dropped", "lasting"),
     ]
+
+
+def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most(monkeypatch):
+    bench = bench_of(
+        measured_arm(wave_effect({QUICK: 0.6})),
+        (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly_quick", {NEARLY_QUICK: 1.0})),
+    )
+    in_turn = cycle(one.candidate for one in bench.scanned(nothing_found(bench)))
+
+    def other_than_the_last(bench, now, *_given_up_and_limits):
+        return None if now.members else bench.added(now, next(in_turn))
+
+    monkeypatch.setattr(search, "best_addition", other_than_the_last)
+    assert [step.action for step in select(bench).steps] == ["added", "swapped", "swapped"]
 
 
 @cache

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.diagnosis.look import Look
-from core.diagnosis.surprise import Fitted, surprised, turned, unsurprising
+from core.diagnosis.surprise import Explained, surprised, turned, unsurprising
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 
@@ -14,7 +14,7 @@ PUSH = 3.0
 """N m, on one joint for as long as a block."""
 
 
-def plain(look: Look) -> Fitted:
+def plain(look: Look) -> Explained:
     bench = bench_of(replace(measured_arm(), look=look), ())
     return bench, nothing_found(bench)
 
@@ -58,6 +58,13 @@ def test_other_blocks_are_held_out_and_as_many():
     other = turned(look)
     assert not np.any(other.held_out & look.held_out)
     assert len(np.unique(look.block[other.held_out])) == len(np.unique(look.block[look.held_out]))
+
+
+def test_blocks_in_which_a_joint_rests_are_not_held_out_instead():
+    look = measured_arm().look
+    resting = look.clear.copy()
+    resting[look.block == TURNED, 1] = False
+    assert turned(replace(look, clear=resting)) is None
 
 
 def test_whole_logs_that_are_held_out_stay_so():

@@ -72,6 +72,18 @@ def jerked(state):
     return 4.0 * ((state.time > 6.0) & (state.time < 6.8))[:, None] * [0.0, 1.0, 0.0]
 
 
+def sprung_and_jerked_where_held_out(state):
+    jerk = 0.5 * ((state.time > 4.1) & (state.time < 4.9))
+    return 3.0 * state.position * [1.0, 0.0, 0.0] + jerk[:, None] * [0.0, 1.0, 0.0]
+
+
+def test_other_blocks_are_held_out_from_the_search_where_one_of_them_hides_what_no_other_shows():
+    found, asked_for = diagnosed(sprung_and_jerked_where_held_out), asked(measured_arm()).held_out
+    assert found.look.held_out_blocks.isdisjoint(asked_for)
+    assert len(found.look.held_out_blocks) == len(asked_for)
+    assert {step.action for step in found.selection.steps} == {"added"}
+
+
 def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():
     found = diagnosed(jerked)
     assert found.verdict == "unexplained"

@@ -77,6 +77,10 @@ def test_the_gain_is_told_per_joint_on_held_out_data_in_torque_and_in_motion(doc
     assert np.shape(simulation["before"]["position_rms"]) == (len(simulation["before"]["horizons_s"]), 2)
 
 
+def test_the_search_holds_out_what_the_fit_does_where_nothing_happened_there_alone(document):
+    assert document["diagnosis"]["held_out"] == document["held_out"] != []
+
+
 def test_the_extended_model_has_the_old_parameters_and_the_new_ones(document):
     old = [row["name"] for row in document["base_parameters"]]
     rows = document["diagnosis"]["after"]["base_parameters"]
