@@ -5,31 +5,13 @@ from typing import Annotated, Literal
 from pydantic import Field, JsonValue
 
 from app.schemas.common import Open
+from app.schemas.fit import HeldOutSpan, JointFit
 from app.schemas.robots import RobotDescription
 
 Matrix = list[list[float | None]]
 PerJoint = list[float | None]
 Numbers = list[float | None]
 Interval = Annotated[list[float | None] | None, Field(description="ends of a 95 % interval", max_length=2)]
-
-
-class JointFit(Open):
-    """How well the model predicts the torque of a joint."""
-
-    joint: int
-    samples: int = 0
-    rms_torque: float
-    rms_residual: float
-    nrmse_of_range_percent: float | None
-    nrmse_of_rms_percent: float | None
-
-
-class HeldOutSpan(Open):
-    """A stretch of a log that no fit has seen."""
-
-    log: Annotated[int, Field(description="counted from 1")]
-    begin_s: float
-    end_s: float
 
 
 class FoundParameter(Open):

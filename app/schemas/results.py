@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field, JsonValue
 
 from app.schemas.common import Open
-from app.schemas.diagnosis import Diagnosis, HeldOutSpan, JointFit
+from app.schemas.diagnosis import Diagnosis
+from app.schemas.fit import HeldOutSpan, JointFit
 
 
 class BaseParameter(Open):

@@ -10,7 +10,7 @@ BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
 LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
 """A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
-EVENT_SHARE, FAR_BEYOND_LUCK = 0.05, 1e-30
+EVENT_OVER_OTHER, FAR_BEYOND_LUCK = 0.05, 1e-30
 """An event fits a little of anything: it brings this share at least of what any other cause does, or is no
 more likely by luck than that. Pushes that nobody gave reached 0.04 and 1e-25 beside strong effects."""
 WITHIN = 0.9
@@ -38,7 +38,7 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
         without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
         if own.event:
             within = leaves and _acts_within(whole, index, place)
-            least = rise(without, whole) * (1.0 if within else EVENT_SHARE)
+            least = rise(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
             if own_rise.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
                 return True
             continue
