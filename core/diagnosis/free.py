@@ -16,9 +16,11 @@ from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Matrix, Vector, Weights
 
-LEAST = 1e-6
+LEAST = 1e-4
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
-this by the others. Between 1e-4 and 1e-8 no column of a look is found: they count or are rounding."""
+this by the others. Of much less the Gram matrix, which squares it, would hold rounding as well as truth."""
+EARLIER = 1e-9
+"""By how much a column counts for more than the next: rounding must not choose between two that are alike."""
 RIDGE = 1e-13
 """Share of a column's square, above rounding, that keeps the factor real; the second pass mends it."""
 
@@ -107,7 +109,9 @@ def independent(columns: csr_array) -> csr_array:
     gram = (scaled.T @ scaled).tocsr()
     kept = []
     for begin, end in _apart(gram):
-        _, order, rank, _ = dpstrf(gram[begin:end, begin:end].toarray(), tol=LEAST**2, lower=1)
+        first = 1.0 - EARLIER * np.arange(end - begin)
+        group = gram[begin:end, begin:end].toarray() * np.outer(first, first)
+        _, order, rank, _ = dpstrf(group, tol=LEAST**2, lower=1)
         kept.append(begin + np.sort(order[:rank] - 1))
     return acting[:, np.concatenate(kept)] if kept else acting
 

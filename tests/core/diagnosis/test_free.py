@@ -59,6 +59,25 @@ def test_independent_columns_all_stay():
     np.testing.assert_array_equal(independent(csr_array(columns)).toarray(), columns)
 
 
+def test_rounding_does_not_decide_which_columns_are_independent():
+    columns, rows = _fading(18), np.random.default_rng(5).normal(size=(ROWS, 4))
+    rounded = columns * (1.0 + 2e-16 * np.random.default_rng(6).standard_normal(columns.shape))
+    left, again = (free_of(independent(csr_array(one))).cleared(rows) for one in (columns, rounded))
+    np.testing.assert_allclose(left, again, atol=1e-9)
+
+
+def _fading(count: int, *, shapes: int = 9, width: int = 20, smooth: float = 4.0) -> np.ndarray:
+    """Put equal groups of polynomials, of which a low pass leaves ever less, every so many rows."""
+    place = np.arange(width)
+    low_pass = np.exp(-0.5 * ((place[:, None] - place) / smooth) ** 2)
+    window = np.hanning(width)[:, None]
+    group = low_pass @ (np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, width), shapes - 1) * window)
+    out = np.zeros((ROWS, shapes * count))
+    for number, start in enumerate(np.linspace(0, ROWS - width, count).astype(int)):
+        out[start : start + width, shapes * number : shapes * (number + 1)] = group
+    return out
+
+
 @pytest.mark.parametrize("count", [1, 12, 25])
 def test_products_less_those_of_the_parts_inside_are_products_of_what_is_left(count):
     free = free_of(independent(csr_array(bumps(count))))
