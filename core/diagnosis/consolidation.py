@@ -13,6 +13,7 @@ from core.diagnosis.hypothesis import Hypothesis
 from core.diagnosis.rise import rise
 from core.diagnosis.rivals import INDIFFERENCE
 from core.diagnosis.selection import Selection, Step, begun_with, continued
+from core.diagnosis.settling import WORTH_SETTLING
 
 SEVERAL = 2
 """Findings that may be one."""
@@ -37,6 +38,23 @@ def consolidated(bench: Bench, found: Selection) -> Selection:
             best, believe_best = other, bench.remembered()
     believe_best()
     return best
+
+
+def reconsidered(bench: Bench, found: Selection) -> Selection:
+    """Search on from what was found where it explains much less once it is believed, and keep the better end.
+
+    Columns that were built while something else was believed may explain what they should leave to a cause
+    that then is never seen.
+    """
+    believe_before = bench.remembered()
+    bench.believe(found.chosen)
+    now = bench.tried(found.chosen.members, found.chosen)
+    if rise(found.chosen, now) < -WORTH_SETTLING:
+        other = continued(bench, Selection(found.none, now, found.steps), {})
+        if criterion(other.chosen) > criterion(found.chosen) + INDIFFERENCE:
+            return other
+    believe_before()
+    return found
 
 
 def criterion(hypothesis: Hypothesis) -> float:

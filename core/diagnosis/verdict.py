@@ -15,7 +15,7 @@ from core.diagnosis.band import Fitted, narrowed
 from core.diagnosis.bench import Bench
 from core.diagnosis.bursts import burst
 from core.diagnosis.catalogue import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
-from core.diagnosis.consolidation import consolidated
+from core.diagnosis.consolidation import consolidated, reconsidered
 from core.diagnosis.diagnosis import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
 from core.diagnosis.findings import finding, raw_finding
 from core.diagnosis.hypothesis import Candidate
@@ -131,10 +131,10 @@ def _found(
 ) -> tuple[Bench, Selection]:
     """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
     bench = _bench(question, look)
-    found = consolidated(bench, select(bench, progress, start))
+    found = reconsidered(bench, consolidated(bench, select(bench, progress, start)))
     if bench.leaves_too_much(found.chosen):
         bench = _bench(question, look, ordinary=True)
-        found = consolidated(bench, select(bench, progress, start))
+        found = reconsidered(bench, consolidated(bench, select(bench, progress, start)))
     return bench, found
 
 

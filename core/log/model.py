@@ -19,8 +19,8 @@ class Defect:
     Attributes
     ----------
     kind
-        ``gap, jitter, repeated_rows, outliers, saturation, quantisation, standstill, short, slow_rate,
-        implausible_unit, missing_torque``.
+        ``gap, jitter, repeated_rows, stuck_channel, outliers, saturation, quantisation, standstill, short,
+        slow_rate, implausible_unit, missing_torque``.
     channel
         ``time, position, torque`` ...
     joint

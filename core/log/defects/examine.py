@@ -19,6 +19,7 @@ from core.log.defects.rest import Rest
 from core.log.defects.saturation import Saturation
 from core.log.defects.spikes import Spikes
 from core.log.defects.stretch import Facts, Finder, Stretch, stretches
+from core.log.defects.stuck import Stuck
 from core.log.layout import Layout
 from core.log.model import Defect, LogSource
 
@@ -51,9 +52,11 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     samples, joints = source.samples, layout.joints
     check_length(samples)
     contract, clock, spread, resolution = Contract(layout), Clock(samples), _Spread(), Resolution(samples)
-    repeats = Repeats()
+    repeats = Repeats(joints)
+    stuck = Stuck(joints, repeats)
     finders: list[Finder] = [
-        clock, repeats, Spikes(joints), Saturation(joints), resolution, Rest(samples), Bandwidth(joints),
+        clock, repeats, stuck, Spikes(joints), Saturation(joints), resolution, Rest(samples),
+        Bandwidth(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
@@ -77,7 +80,7 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
-        segments=cut(clock.segments(), repeats.frozen),
+        segments=cut(clock.segments(), (*repeats.frozen, *stuck.rows)),
         defects=(*found, *plausibility_defects(facts)),
     )
 

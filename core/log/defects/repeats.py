@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import JointVector, SampleMask, Series
-from core.log.defects.runs import Runs
+from core.arrays import JointVector
+from core.log.defects.runs import LongRuns, Runs
 from core.log.defects.stretch import Facts, Stretch, counted, repeats_previous
-from core.log.model import STANDING_ROWS, Defect
+from core.log.model import Defect
 
 NOTICED = 1e-3
 """A smaller share of repeated rows is not worth a word."""
@@ -25,10 +25,9 @@ Rows = tuple[tuple[int, int], ...]
 class Repeats:
     """Count the rows whose positions and torques repeat the row before."""
 
-    def __init__(self) -> None:
+    def __init__(self, joints: int) -> None:
         self._runs = Runs()
-        self._begin: int | None = None
-        self._long: list[tuple[int, int, JointVector]] = []
+        self._long = LongRuns(1 + joints)
         self._travel: JointVector | float = 0.0
         self._rows = 0
 
@@ -43,25 +42,16 @@ class Repeats:
         increments = np.abs(np.diff(position, axis=1))
         self._travel = self._travel + increments.sum(axis=1)
         self._rows += len(same)
-        self._note(same, increments, stretch.first + stretch.seam + 1)
-
-    def _note(self, same: SampleMask, increments: Series, first: int) -> None:
-        """Keep the long runs that end here, and how far the joints are when they do."""
-        begun = [] if self._begin is None else [self._begin]
-        before = np.concatenate([[bool(begun)], same[:-1]])
-        begins = np.concatenate([begun, first + np.flatnonzero(same & ~before)]).astype(int)
-        ends = np.flatnonzero(~same & before)
-        rows = first + ends - begins[: len(ends)]
-        for index in np.flatnonzero(rows > STANDING_ROWS):
-            begin, end = int(begins[index]), int(ends[index])
-            self._long.append((begin, first + end, increments[:, end]))
-        self._begin = int(begins[-1]) if len(begins) > len(ends) else None
+        rows = stretch.first + stretch.seam + 1.0 + np.arange(len(same))
+        self._long.feed(same, np.vstack([rows, increments]))
 
     @property
     def frozen(self) -> Rows:
         """Give the rows that a recorder wrote while it stood still and the robot did not."""
         usual = JUMP * self._travel / max(self._rows, 1)
-        return tuple((begin, stop) for begin, stop, step in self._long if np.any(step > usual))
+        runs = self._long.ended
+        moved = np.any(runs[:, 1, 1:] > usual, axis=1)
+        return tuple((int(begin), int(stop)) for begin, stop in runs[moved][:, :, 0])
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State the share of repeated rows, and where the log is cut for them."""
@@ -79,7 +69,7 @@ class Repeats:
 
 
 def cut(segments: Rows, frozen: Rows) -> Rows:
-    """Take rows out of segments.
+    """Take rows, which may overlap, out of segments.
 
     Examples
     --------
@@ -87,9 +77,22 @@ def cut(segments: Rows, frozen: Rows) -> Rows:
     ((0, 50), (50, 60), (70, 80))
     >>> cut(((0, 50), (50, 100)), ((40, 60),))
     ((0, 40), (60, 100))
+    >>> cut(((0, 50),), ((20, 30), (10, 40), (15, 20)))
+    ((0, 10), (40, 50))
     """
-    out = []
+    out, apart = [], _joined(frozen)
     for start, stop in segments:
-        inside = [min(max(edge, start), stop) for rows in frozen for edge in rows]
+        inside = [min(max(edge, start), stop) for rows in apart for edge in rows]
         out += list(pairwise([start, *inside, stop]))[::2]
     return tuple((start, stop) for start, stop in out if stop > start)
+
+
+def _joined(rows: Rows) -> Rows:
+    """Join what overlaps."""
+    out: list[tuple[int, int]] = []
+    for begin, stop in sorted(rows):
+        if out and begin <= out[-1][1]:
+            out[-1] = out[-1][0], max(out[-1][1], stop)
+        else:
+            out.append((begin, stop))
+    return tuple(out)

@@ -5,7 +5,8 @@ A log can hold a million runs; the count and total are exact, and only the twent
 
 import numpy as np
 
-from core.arrays import SampleMask, Samples
+from core.arrays import EquationRows, SampleMask, Samples
+from core.log.model import STANDING_ROWS
 
 KEPT = 20
 
@@ -73,3 +74,56 @@ class Runs:
     def intervals(self) -> tuple[tuple[float, float], ...]:
         """Give (start, end) of the longest runs in s, in the order of time."""
         return tuple(sorted((start, end) for start, end, _ in self._kept))
+
+
+class LongRuns:
+    """Keep what was known at both ends of every run of more than `STANDING_ROWS` marked rows.
+
+    Examples
+    --------
+    >>> runs = LongRuns(1)
+    >>> runs.feed(np.arange(40) > 9, np.arange(40.0)[None])
+    >>> runs.feed(np.arange(40) < 9, 40.0 + np.arange(40.0)[None])
+    >>> runs.ended.tolist()
+    [[[10.0], [49.0]]]
+    """
+
+    def __init__(self, values: int) -> None:
+        self._kept = [np.zeros((0, 2, values))]
+        self._open: np.ndarray | None = None
+        self._last = np.zeros(values)
+
+    def feed(self, marks: SampleMask, known: EquationRows) -> None:
+        """Take the next rows; they follow on those fed before.
+
+        Parameters
+        ----------
+        known
+            What is known of each row, values x rows; the first value is its number.
+        """
+        self._last = known[:, -1]
+        if self._open is None and not marks.any():
+            return
+        before = np.concatenate([[self._open is not None], marks[:-1]])
+        edges = known[:, marks != before].T
+        if self._open is not None:
+            edges = np.vstack([self._open, edges])
+        whole = len(edges) // 2 * 2
+        self._open = edges[-1] if len(edges) > whole else None
+        self._keep(edges[:whole].reshape(-1, 2, len(known)))
+
+    def _keep(self, pairs: np.ndarray) -> None:
+        self._kept.append(pairs[pairs[:, 1, 0] - pairs[:, 0, 0] > STANDING_ROWS])
+
+    def close(self) -> None:
+        """End the run that is still open, with what was known of the last row."""
+        if self._open is not None:
+            end = self._last.copy()
+            end[0] += 1.0
+            self._keep(np.array([[self._open, end]]))
+            self._open = None
+
+    @property
+    def ended(self) -> np.ndarray:
+        """Give what was known at each run's first row and at the first after it, runs x ends x values."""
+        return np.concatenate(self._kept)

@@ -2,12 +2,12 @@
 
 import pytest
 
-from core.diagnosis.consolidation import consolidated, criterion
+from core.diagnosis.consolidation import consolidated, criterion, reconsidered
 from core.diagnosis.rivals import INDIFFERENCE
-from core.diagnosis.selection import Selection
+from core.diagnosis.selection import Selection, select
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
-from tests.core.diagnosis.waves import wave_cause, wave_effect
+from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
 
 PARTS = ("first", "second", "third")
 RATES = (7.0, 11.0, 4.0)
@@ -65,3 +65,31 @@ def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
     bench, found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
     better = consolidated(bench, found)
     assert named(better) == ["whole"]
+
+
+class Flattering(WaveCause):
+    """Suspect one wave, which looks like three until it is believed in the size of that one."""
+
+    id = title = "flattering"
+
+    def term(self, look, believed, site, scalars):
+        sizes = [float(value[0]) for one, value in believed.joined if isinstance(one, BuiltOn)]
+        half = 1.0 if sizes else 0.5
+        alone = any(size < 1.5 for size in sizes)
+        waves = {7.0: 0.6} if alone else {7.0: 0.6 * half, 4.5: 0.3 * half, 11.0: 0.03 * half}
+        return BuiltOn(site[0], waves, believed)
+
+
+def test_what_explains_less_once_it_is_believed_makes_way_for_what_it_hid():
+    effect = wave_effect({7.0: 0.6, 4.5: 0.3})
+    bench = bench_of(measured_arm(effect), (Flattering(), wave_cause("slow", {4.5: 1.0})))
+    found = select(bench)
+    assert named(found) == ["flattering"]
+    assert named(reconsidered(bench, found)) == ["flattering", "slow"]
+
+
+def test_where_nothing_was_hid_what_was_found_and_believed_stays():
+    bench = bench_of(measured_arm(wave_effect({7.0: 0.6, 4.5: 0.3})), (Flattering(),))
+    found, believed = select(bench), bench.believed
+    assert reconsidered(bench, found) is found
+    assert bench.believed is believed

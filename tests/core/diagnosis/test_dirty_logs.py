@@ -41,9 +41,19 @@ def dead(_rng, _position, torque):
     return "missing_torque"
 
 
+def deaf(_rng, _position, torque):
+    torque[1000:1030] = torque[999]
+    return "stuck_channel"
+
+
+def hung(_rng, position, _torque):
+    position[2000:2060, 1] = position[1999, 1]
+    return "stuck_channel"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
-@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead])
+@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung])
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     rows = measured_arm(hidden).look.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()

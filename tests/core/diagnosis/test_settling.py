@@ -8,7 +8,7 @@ from core.diagnosis.selection import select
 from core.diagnosis.settling import settled
 from tests.core.diagnosis.made_up import candidate, nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
-from tests.core.diagnosis.waves import WaveCause, WaveTerm, wave_cause, wave_effect
+from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
 
 QUICK, QUICKER, SLOW, OTHER = 7.0, 11.0, 4.5, 4.0
 
@@ -21,14 +21,6 @@ class Fickle(WaveCause):
     def term(self, look, believed, site, scalars):
         believes = any(isinstance(one, BuiltOn) for one, _ in believed.joined)
         return BuiltOn(site[0], {SLOW if believes else QUICK: 1.0}, believed)
-
-
-class BuiltOn(WaveTerm):
-    """Say what it was built on, so that it is built anew once something else is believed."""
-
-    def __init__(self, joint, waves, believed):
-        super().__init__(joint, waves)
-        object.__setattr__(self, "believed", believed)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import numpy as np
 from core.arrays import Samples
 from core.diagnosis.cause import Confusion
 from core.diagnosis.causes.common import OwnJointCause
+from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import OneJointTerm
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
@@ -27,6 +28,14 @@ class WaveTerm(OneJointTerm):
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
         angle = state.position[:, self.joint - 1]
         return [sum(size * np.sin(rate * angle) for rate, size in self.waves.items())]
+
+
+class BuiltOn(WaveTerm):
+    """Say what it was built on, so that it is built anew once something else is believed."""
+
+    def __init__(self, joint: int, waves: Mapping[float, float], believed: Prediction) -> None:
+        super().__init__(joint, waves)
+        object.__setattr__(self, "believed", believed)
 
 
 class WaveCause(OwnJointCause):

@@ -98,6 +98,55 @@ def test_a_robot_that_stands_still_cuts_nothing():
     assert log_of(time, position, torque).segments == ((0, len(time)),)
 
 
+@pytest.mark.parametrize("channel", ["position", "torque"])
+@pytest.mark.parametrize("start", [300, STRETCH_ROWS - 40, STRETCH_ROWS - 5, STRETCH_ROWS + 1])
+def test_a_log_is_cut_where_one_channel_hangs_while_its_joint_moves(start, channel):
+    time, position, torque = healthy(160.0)
+    stop = start + 60
+    values = {"position": position, "torque": torque}[channel]
+    values[start:stop, 1] = values[start - 1, 1]
+    log = log_of(time, position, torque)
+    assert log.segments == ((0, start), (stop, len(time)))
+    (found,) = only(log, "stuck_channel")
+    assert (found.channel, found.joint, found.count) == (channel, 2, 60)
+    assert found.intervals == ((time[start - 1], time[stop - 1]),)
+    assert "1 run of 60 rows in all while the joint moves on" in found.statement
+
+
+def test_channels_that_hang_at_the_same_time_cut_the_log_once():
+    time, position, torque = healthy()
+    torque[1000:1050] = torque[999]
+    torque[1030:1080, 1] = torque[1029, 1]
+    log = log_of(time, position, torque)
+    assert log.segments == ((0, 1000), (1080, len(time)))
+    assert {(one.joint, one.count) for one in only(log, "stuck_channel")} == {(1, 50), (2, 80)}
+
+
+def test_a_torque_that_hangs_for_good_ends_the_log_there():
+    time, position, torque = healthy()
+    torque[4000:, 0] = torque[3999, 0]
+    assert log_of(time, position, torque).segments == ((0, 4000),)
+
+
+def test_a_joint_that_rests_and_a_torque_that_is_coarse_or_clipped_are_not_stuck():
+    time, position, torque = healthy()
+    position[1000:1100, 0] = position[999, 0]
+    position[1100:, 0] += position[999, 0] - position[1100, 0]
+    torque[1000:1100, 0] = torque[999, 0]
+    assert log_of(time, position, torque).segments == ((0, len(time)),)
+    time, position, torque = healthy()
+    torque[:, 0] = np.round(torque[:, 0] / np.ptp(torque[:, 0]))
+    torque[:, 1] = np.minimum(torque[:, 1], 0.8 * torque[:, 1].max())
+    assert log_of(time, position, torque).segments == ((0, len(time)),)
+
+
+def test_torque_without_noise_that_a_steady_motion_keeps_the_same_is_not_stuck():
+    time, position, torque = healthy()
+    phase = 1.3 * time
+    position[:, 0], torque[:, 0] = np.sin(phase), np.clip(np.sin(phase), -0.8, 0.8) + (np.sin(phase) > 0.99)
+    assert not [one for one in log_of(time, position, torque).defects if one.kind == "stuck_channel"]
+
+
 @given(row=st.integers(2, 4997), joint=st.integers(0, 1), sign=st.sampled_from([-1.0, 1.0]))
 def test_a_torque_spike_is_found_at_its_sample(row, joint, sign):
     time, position, torque = healthy()

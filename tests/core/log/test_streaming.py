@@ -75,7 +75,7 @@ def test_defects_do_not_depend_on_whether_the_log_lies_on_disk_or_in_memory(tmp_
     as_text = read_log(write_csv(tmp_path / "log.csv", columns))
     rows = whole_rows(on_disk)
     in_memory = log_from_arrays("log", rows.time, rows.position, rows.torque)
-    assert {defect.kind for defect in on_disk.defects} == {"gap", "outliers", "standstill"}
+    assert {defect.kind for defect in on_disk.defects} == {"gap", "outliers", "standstill", "stuck_channel"}
     assert on_disk.defects == as_text.defects == in_memory.defects
     assert on_disk.segments == as_text.segments == in_memory.segments
 
