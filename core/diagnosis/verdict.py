@@ -131,11 +131,11 @@ def _found(
 ) -> tuple[Bench, Selection]:
     """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
     bench = _bench(question, look)
-    found = reconsidered(bench, consolidated(bench, select(bench, progress, start)))
+    found = consolidated(bench, select(bench, progress, start))
     if bench.leaves_too_much(found.chosen):
         bench = _bench(question, look, ordinary=True)
-        found = reconsidered(bench, consolidated(bench, select(bench, progress, start)))
-    return bench, found
+        found = consolidated(bench, select(bench, progress, start))
+    return bench, reconsidered(bench, found)
 
 
 def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]:
