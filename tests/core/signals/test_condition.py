@@ -183,10 +183,17 @@ def test_a_stretch_between_gaps_that_is_too_short_is_left_out():
     assert at.max() < 10.0
 
 
-def test_log_ends_and_standstill_are_left_out_for_the_joint_concerned_only():
+def _pausing() -> tuple[np.ndarray, np.ndarray]:
+    """Let the second joint rest from 10 to 12 s, and go on from where it is."""
     time, swing = _swing()
     position = swing.position(time)
-    position[2500:3000, 1] = position[2500, 1]
+    moving = position[2500:-500, 1].copy()
+    position[2500:3000, 1], position[3000:, 1] = position[2500, 1], moving
+    return time, position
+
+
+def test_log_ends_and_standstill_are_left_out_for_the_joint_concerned_only():
+    time, position = _pausing()
     at, _, usable = _kept(_conditioned(log_of(time, position)))
     standing = (at > 10.1) & (at < 11.9)
     assert not usable[standing, 1].any()
@@ -196,9 +203,7 @@ def test_log_ends_and_standstill_are_left_out_for_the_joint_concerned_only():
 
 
 def test_standstill_counts_where_it_is_asked_for():
-    time, swing = _swing()
-    position = swing.position(time)
-    position[2500:3000, 1] = position[2500, 1]
+    time, position = _pausing()
     at, _, usable = _kept(without_standstill_mask(_conditioned(log_of(time, position))))
     assert usable[(at > 1.0) & (at < 29.0)].all()
     assert not usable[[0, -1]].any()
