@@ -80,7 +80,7 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
-        segments=cut(clock.segments(), (*repeats.frozen, *stuck.rows)),
+        segments=cut(clock.segments(), (*repeats.frozen, *stuck.rows(facts))),
         defects=(*found, *plausibility_defects(facts)),
     )
 

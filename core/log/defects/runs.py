@@ -101,7 +101,7 @@ class LongRuns:
         known
             What is known of each row, values x rows; the first value is its number.
         """
-        self._last = known[:, -1]
+        self._last = known[:, -1].copy()
         if self._open is None and not marks.any():
             return
         before = np.concatenate([[self._open is not None], marks[:-1]])

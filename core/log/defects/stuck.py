@@ -1,8 +1,11 @@
 """Find a channel that keeps one value exactly while its joint moves, as one does whose sensor or link hangs.
 
-A position that stood still and is much farther on afterwards did not stand still. A torque that carries noise
-does not repeat a value many times while the joint moves, unless it is clipped.
+A position that moved, stood still for a moment and is much farther on afterwards did not stand still. A
+torque that carries noise does not repeat a value many times while the joint gets on, unless it is clipped. A
+channel that does so again and again is coarse or held by its maker: that is a habit and no fault.
 """
+
+from collections import Counter
 
 import numpy as np
 
@@ -10,13 +13,21 @@ from core.arrays import Samples
 from core.log.defects.repeats import JUMP, Repeats, Rows
 from core.log.defects.runs import KEPT, LongRuns
 from core.log.defects.stretch import Facts, Stretch, counted
-from core.log.model import Defect
+from core.log.model import STANDING_ROWS, Defect
 
 RARELY, OFTEN = 0.1, 0.05
 """A torque that carries noise repeats the value before in a smaller share of the samples than this, and turns
 round in a larger one than that: simulated torque without noise may stay the same in a steady motion."""
 MOVES = 0.05
 """A joint that covers this share of its usual way moves."""
+LONGEST_S = 1.0
+"""A position that stays longer is a joint that rests."""
+MOST_RUNS = 10
+"""More runs than these are the channel's habit."""
+MOST_VALUES = 10_000
+"""More values than these that were ever repeated are not kept; such a channel is not judged."""
+GAP_STEPS = 3.0
+"""Over so many steps of time a joint may get anywhere."""
 
 
 class Stuck:
@@ -46,23 +57,25 @@ class Stuck:
             for signal, own, moved in zip(self._efforts, effort[:, stretch.seam :], position, strict=True):
                 signal.see(own, moved, time, row)
 
-    @property
-    def rows(self) -> Rows:
+    def rows(self, facts: Facts) -> Rows:
         """Give the rows in which some channel was stuck; some may overlap."""
+        found = self._stuck(facts)
         return tuple(
-            (int(begin), int(stop)) for _, _, one in self._stuck() for begin, stop in one[:, :, _ROW]
+            (int(begin), int(stop))
+            for _, _, runs in found
+            for begin, stop in zip(_first_wrong(runs), runs[:, 1, _ROW], strict=True)
         )
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State which channels were stuck, and when."""
-        del facts
-        return [_defect(channel, joint, runs) for channel, joint, runs in self._stuck()]
+        return [_defect(channel, joint, runs) for channel, joint, runs in self._stuck(facts)]
 
-    def _stuck(self) -> list[tuple[str, int, np.ndarray]]:
+    def _stuck(self, facts: Facts) -> list[tuple[str, int, np.ndarray]]:
         """Give channel, joint (from 1) and runs, a pair of what was known at both ends each."""
+        moved = [joint for joint in range(len(self._positions)) if facts.travels(joint)]
         pairs = [
-            *(("position", joint, one.jumped()) for joint, one in enumerate(self._positions, 1)),
-            *((self._effort, joint, one.hung()) for joint, one in enumerate(self._efforts, 1)),
+            *(("position", joint + 1, self._positions[joint].jumped()) for joint in moved),
+            *((self._effort, joint + 1, self._efforts[joint].hung()) for joint in moved),
         ]
         own = [(channel, joint, runs[~self._told(runs)]) for channel, joint, runs in pairs]
         return [one for one in own if len(one[2])]
@@ -74,47 +87,89 @@ class Stuck:
         return told
 
 
-_ROW, _TIME, _WAY, _VALUE, _STEP = _KNOWN = range(5)
+_ROW, _TIME, _WAY, _VALUE, _STEP, _NEXT, _BEFORE, _ELAPSED, _JUMP = _KNOWN = range(9)
+"""Known at a run's first and last sample: the row after it, its stamp, the joint's way and the value; by how
+much the value changes to the next sample and to the one after that, and did from the one before; the time to
+the next; and what a jump is."""
 
 
 class _Signal:
     """Follow one channel of one joint, and the way of the joint."""
 
     def __init__(self) -> None:
-        self._runs = LongRuns(len(_KNOWN))
+        self._runs = LongRuns(len(_KNOWN) - 1)
+        self._again: Counter[float] = Counter()
         self._rows = self._repeats = self._turns = 0
-        self._way = self._change = 0.0
+        self._way = self._change = self._before = 0.0
         self._low, self._high = np.inf, -np.inf
 
     def see(self, values: Samples, position: Samples, time: Samples, first: int) -> None:
         """Take the next samples; the first of them was the last of those before, if there were any."""
         changes = np.diff(values)
         steps, same = np.abs(changes), changes == 0.0
-        way = self._way + np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])
+        after = np.append(np.abs(values[2:] - values[:-2]), steps[-1:])
+        before = np.append(self._before, steps[:-1])
         rows = first + 1.0 + np.arange(len(steps))
-        self._runs.feed(same, np.vstack([rows, time[:-1], way[:-1], values[:-1], steps]))
+        way = self._way + _way(position)
+        known = (rows, time[:-1], way[:-1], values[:-1], steps, after, before, np.diff(time))
+        self._runs.feed(same, np.vstack(known))
         self._rows += len(steps)
         self._repeats += int(np.count_nonzero(same))
+        if len(self._again) < MOST_VALUES:
+            again, counts = np.unique(values[1:][same], return_counts=True)
+            self._again.update(dict(zip(again.tolist(), counts.tolist(), strict=True)))
         self._turns += int(np.count_nonzero(changes[1:] * changes[:-1] < 0.0))
         self._change += float(steps.sum())
         self._way = float(way[-1])
+        self._before = float(steps[-1])
         self._low, self._high = min(self._low, values.min()), max(self._high, values.max())
 
     def jumped(self) -> np.ndarray:
-        """Give the runs after which a position is much farther on than it usually is when it changes."""
-        runs = self._runs.ended
-        usual = self._change / max(self._rows - self._repeats, 1)
-        return np.asarray(runs[runs[:, 1, _STEP] > JUMP * usual])
+        """Give the runs between a motion and a position that is much farther on than it usually gets."""
+        runs = self._exceptional()
+        begin, end = runs[:, 0], runs[:, 1]
+        lasted = end[:, _ROW] - begin[:, _ROW]
+        seconds = end[:, _TIME] - begin[:, _TIME]
+        together = end[:, _ELAPSED] * lasted < GAP_STEPS * seconds
+        moved = begin[:, _BEFORE] > MOVES * end[:, _JUMP]
+        away = np.minimum(end[:, _STEP], end[:, _NEXT]) > end[:, _JUMP]
+        return np.asarray(runs[together & moved & away & (seconds < LONGEST_S)])
 
     def hung(self) -> np.ndarray:
-        """Give the runs of a noisy channel in which the joint moved on, one to the log's end among them."""
+        """Give the runs of a noisy channel in which the joint got on, one to the log's end among them."""
         self._runs.close()
-        runs = self._runs.ended
-        lasted, travelled = (runs[:, 1, one] - runs[:, 0, one] for one in (_ROW, _WAY))
-        noisy = self._repeats - lasted.sum() < RARELY * self._rows and self._turns > OFTEN * self._rows
+        runs = self._exceptional()
+        lasted, way = (runs[:, 1, one] - runs[:, 0, one] for one in (_ROW, _WAY))
+        others = self._rows - float(lasted.sum())
+        noisy = self._repeats - lasted.sum() < RARELY * others and self._turns > OFTEN * others
         value = runs[:, 1, _VALUE]
-        clipped = (value == self._low) | (value == self._high)
-        return np.asarray(runs[noisy & ~clipped & (travelled * self._rows > MOVES * self._way * lasted)])
+        reached = runs[:, 0, _BEFORE] < runs[:, 0, _JUMP]
+        clipped = ((value == self._low) | (value == self._high)) & reached
+        return np.asarray(runs[noisy & ~clipped & (way * self._rows > MOVES * self._way * lasted)])
+
+    def _exceptional(self) -> np.ndarray:
+        """Give the long runs of a value that is kept nowhere else, where they are few; and what a jump is."""
+        runs = self._runs.ended
+        lasted = runs[:, 1, _ROW] - runs[:, 0, _ROW]
+        kept = np.array([self._again[value] for value in runs[:, 0, _VALUE]], dtype=float)
+        habit = len(runs) > MOST_RUNS or len(self._again) >= MOST_VALUES
+        runs = runs[:0] if habit else runs[kept <= lasted]
+        usual = self._change / max(self._rows - self._repeats, 1)
+        return np.concatenate([runs, np.full((len(runs), 2, 1), JUMP * usual)], axis=2)
+
+
+def _way(position: Samples) -> Samples:
+    """Give how far a joint has got at every sample, from one to one many later: noise gets nowhere."""
+    marks = np.arange(len(position)) // STANDING_ROWS
+    marked = position[::STANDING_ROWS]
+    along = np.append(0.0, np.cumsum(np.abs(np.diff(marked))))
+    return np.asarray(along[marks] + np.abs(position - marked[marks]))
+
+
+def _first_wrong(runs: np.ndarray) -> np.ndarray:
+    """Give the first row to be left out: the first of all where the value was not the one before's."""
+    begin = runs[:, 0]
+    return np.asarray(begin[:, _ROW] - (begin[:, _BEFORE] > begin[:, _JUMP]))
 
 
 def _defect(channel: str, joint: int, runs: np.ndarray) -> Defect:

@@ -140,6 +140,58 @@ def test_a_joint_that_rests_and_a_torque_that_is_coarse_or_clipped_are_not_stuck
     assert log_of(time, position, torque).segments == ((0, len(time)),)
 
 
+@pytest.mark.parametrize("gap", [0.0, 5.0], ids=["joined", "paused"])
+def test_a_parked_joint_that_is_elsewhere_in_the_next_run_was_not_stuck(gap):
+    time, position, torque = healthy()
+    position[:, 1] = np.where(time < 10.0, 0.3, -0.5 + 0.1 * np.sin(time - 10.0))
+    time[2500:] += gap
+    kept = log_of(time, position, torque).segments
+    assert kept == (((0, 2500), (2500, 5000)) if gap else ((0, 5000),))
+
+
+def test_one_absurd_position_of_a_parked_joint_cuts_nothing():
+    time, position, torque = healthy()
+    position[1000:1200, 1] = position[999, 1]
+    position[1200:, 1] += position[999, 1] - position[1200, 1]
+    position[1100, 1] += 0.05
+    assert log_of(time, position, torque).segments == ((0, len(time)),)
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda torque: np.where(np.abs(torque) < 1.0, 0.0, torque),
+        lambda torque: np.clip(torque, -7.0, 7.0) + (np.arange(len(torque)) == 3000)[:, None],
+        lambda torque: np.where(
+            np.arange(len(torque))[:, None] < 3500, torque, np.repeat(torque[::25], 25, 0)
+        ),
+        lambda torque: np.where(np.arange(len(torque))[:, None] < 2500, np.clip(torque, -5.0, 5.0), torque),
+    ],
+    ids=["deadband", "clipped, with a spike", "held from then on", "clipped at first"],
+)
+def test_what_a_torque_channel_does_again_and_again_is_no_fault(made):
+    time, position, torque = healthy()
+    assert log_of(time, position, made(torque)).segments == ((0, len(time)),)
+
+
+def test_a_motor_that_is_off_while_encoders_flicker_is_not_stuck():
+    time, position, torque = healthy()
+    position[2000:4000] = position[1999]
+    position[4000:] += position[1999] - position[4000]
+    position += 1e-5 * np.random.default_rng(1).standard_normal(position.shape)
+    torque[2000:4000] = 0.0
+    assert log_of(time, position, torque).segments == ((0, len(time)),)
+
+
+@pytest.mark.parametrize("channel", ["position", "torque"])
+def test_a_channel_that_drops_to_nothing_is_left_out_from_its_first_row_on(channel):
+    time, position, torque = healthy()
+    torque += 100.0
+    position += 1.0
+    {"position": position, "torque": torque}[channel][1000:1200, 1] = 0.0
+    assert log_of(time, position, torque).segments == ((0, 1000), (1200, len(time)))
+
+
 def test_torque_without_noise_that_a_steady_motion_keeps_the_same_is_not_stuck():
     time, position, torque = healthy()
     phase = 1.3 * time

@@ -71,6 +71,7 @@ def test_defects_do_not_depend_on_whether_the_log_lies_on_disk_or_in_memory(tmp_
     columns["tau_1"][40_000] += 100.0
     columns["time"][50_000:] += 3.0
     columns["q_2"][32_760:33_500] = columns["q_2"][32_760]
+    columns["q_3"][32_750:32_800] = columns["q_3"][32_750]
     on_disk = read_log(write_parquet(tmp_path / "log.parquet", columns, 7777))
     as_text = read_log(write_csv(tmp_path / "log.csv", columns))
     rows = whole_rows(on_disk)
