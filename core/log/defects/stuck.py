@@ -59,12 +59,8 @@ class Stuck:
 
     def rows(self, facts: Facts) -> Rows:
         """Give the rows in which some channel was stuck; some may overlap."""
-        found = self._stuck(facts)
-        return tuple(
-            (int(begin), int(stop))
-            for _, _, runs in found
-            for begin, stop in zip(_first_wrong(runs), runs[:, 1, _ROW], strict=True)
-        )
+        found = (ends for _, _, runs in self._stuck(facts) for ends in runs[:, :, _ROW])
+        return tuple((int(begin), int(stop)) for begin, stop in found)
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State which channels were stuck, and when."""
@@ -87,17 +83,17 @@ class Stuck:
         return told
 
 
-_ROW, _TIME, _WAY, _VALUE, _STEP, _NEXT, _BEFORE, _ELAPSED, _JUMP = _KNOWN = range(9)
+_ROW, _TIME, _WAY, _VALUE, _STEP, _NEXT, _BEFORE, _ELAPSED = _KNOWN = range(8)
 """Known at a run's first and last sample: the row after it, its stamp, the joint's way and the value; by how
-much the value changes to the next sample and to the one after that, and did from the one before; the time to
-the next; and what a jump is."""
+much the value changes to the next sample and to the one after that, and did from the one before; and the time
+to the next."""
 
 
 class _Signal:
     """Follow one channel of one joint, and the way of the joint."""
 
     def __init__(self) -> None:
-        self._runs = LongRuns(len(_KNOWN) - 1)
+        self._runs = LongRuns(len(_KNOWN))
         self._again: Counter[float] = Counter()
         self._rows = self._repeats = self._turns = 0
         self._way = self._change = self._before = 0.0
@@ -131,8 +127,8 @@ class _Signal:
         lasted = end[:, _ROW] - begin[:, _ROW]
         seconds = end[:, _TIME] - begin[:, _TIME]
         together = end[:, _ELAPSED] * lasted < GAP_STEPS * seconds
-        moved = begin[:, _BEFORE] > MOVES * end[:, _JUMP]
-        away = np.minimum(end[:, _STEP], end[:, _NEXT]) > end[:, _JUMP]
+        moved = begin[:, _BEFORE] > MOVES * self._jump
+        away = np.minimum(end[:, _STEP], end[:, _NEXT]) > self._jump
         return np.asarray(runs[together & moved & away & (seconds < LONGEST_S)])
 
     def hung(self) -> np.ndarray:
@@ -143,19 +139,27 @@ class _Signal:
         others = self._rows - float(lasted.sum())
         noisy = self._repeats - lasted.sum() < RARELY * others and self._turns > OFTEN * others
         value = runs[:, 1, _VALUE]
-        reached = runs[:, 0, _BEFORE] < runs[:, 0, _JUMP]
+        reached = runs[:, 0, _BEFORE] <= self._jump
         clipped = ((value == self._low) | (value == self._high)) & reached
         return np.asarray(runs[noisy & ~clipped & (way * self._rows > MOVES * self._way * lasted)])
 
+    @property
+    def _jump(self) -> float:
+        """Give what a change of the value has to be to be none that is usual."""
+        return JUMP * self._change / max(self._rows - self._repeats, 1)
+
     def _exceptional(self) -> np.ndarray:
-        """Give the long runs of a value that is kept nowhere else, where they are few; and what a jump is."""
+        """Give the long runs of a value that is kept nowhere else, where they are few.
+
+        Where the value was jumped to, the run's first sample is wrong as well; else it was measured.
+        """
         runs = self._runs.ended
         lasted = runs[:, 1, _ROW] - runs[:, 0, _ROW]
         kept = np.array([self._again[value] for value in runs[:, 0, _VALUE]], dtype=float)
         habit = len(runs) > MOST_RUNS or len(self._again) >= MOST_VALUES
         runs = runs[:0] if habit else runs[kept <= lasted]
-        usual = self._change / max(self._rows - self._repeats, 1)
-        return np.concatenate([runs, np.full((len(runs), 2, 1), JUMP * usual)], axis=2)
+        runs[:, 0, _ROW] -= runs[:, 0, _BEFORE] > self._jump
+        return runs
 
 
 def _way(position: Samples) -> Samples:
@@ -164,12 +168,6 @@ def _way(position: Samples) -> Samples:
     marked = position[::STANDING_ROWS]
     along = np.append(0.0, np.cumsum(np.abs(np.diff(marked))))
     return np.asarray(along[marks] + np.abs(position - marked[marks]))
-
-
-def _first_wrong(runs: np.ndarray) -> np.ndarray:
-    """Give the first row to be left out: the first of all where the value was not the one before's."""
-    begin = runs[:, 0]
-    return np.asarray(begin[:, _ROW] - (begin[:, _BEFORE] > begin[:, _JUMP]))
 
 
 def _defect(channel: str, joint: int, runs: np.ndarray) -> Defect:
