@@ -5,6 +5,7 @@ matrix products.
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
@@ -46,8 +47,6 @@ class Bench:
         Rows (rows x joints) that a fit may use.
     belief
         What is believed of the base parameters beforehand; None where the rows alone tell them.
-    ordinary
-        Whether noise is learned from what ordinary fits leave.
     """
 
     def __init__(
@@ -57,8 +56,6 @@ class Bench:
         causes: Sequence[Cause],
         mask: np.ndarray,
         belief: Belief | None = None,
-        *,
-        ordinary: bool = False,
     ) -> None:
         self.look = look
         self.plan = plan
@@ -68,11 +65,16 @@ class Bench:
         self.base = joint_rows(look, columns, mask)
         self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
         self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
-        nothing = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
-        self._now = self._ranked = Suspicion((), look, look, nothing)
         self._lasting: dict[Place, Columns] = {}
         self._panels: WeakKeyDictionary[Suspicion, Panel] = WeakKeyDictionary()
-        self._ordinary = ordinary
+        self._ordinary = False
+        self._believe_nothing()
+
+    def _believe_nothing(self) -> None:
+        """Begin with a belief that ranks no candidates like any other."""
+        standard = np.zeros(len(self.plan.model.parameters))
+        nothing = Prediction(self.plan.model, standard, inverse_dynamics)
+        self._now = self._ranked = Suspicion((), self.look, self.look, nothing)
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -251,9 +253,20 @@ class Bench:
             self._panels[ranked] = Panel(self.base, self._columns(ranked.lasting, ranked))
         return self._panels[ranked]
 
-    def leaves_too_much(self, under: Hypothesis) -> bool:
-        """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would."""
-        return leaves_too_much(extended(self.base, self.columns(under.members)), under.fit)
+    def needs_ordinary_noise(self, under: Hypothesis) -> bool:
+        """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would.
+
+        Never where noise is learned from ordinary fits already.
+        """
+        rows = extended(self.base, self.columns(under.members))
+        return not self._ordinary and leaves_too_much(rows, under.fit)
+
+    def with_ordinary_noise(self) -> "Bench":
+        """Give a bench of the same rows on which nothing is believed yet, and noise is ordinary."""
+        other = copy(self)
+        other._ordinary = True  # noqa: SLF001 - of the same class
+        other._believe_nothing()  # noqa: SLF001 - of the same class
+        return other
 
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
         """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N.

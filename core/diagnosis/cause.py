@@ -97,8 +97,6 @@ class Cause(Protocol):
     event
         Whether it acts in short spans only. Noise learned before it is known holds it, so that a scan says
         little about it.
-    slow
-        Whether it changes so slowly that noise which remembers passes for it: a scan says little about it.
     like_position_noise
         Whether noise of the positions, on its way to a torque, passes for a little of it.
     inexact
@@ -110,7 +108,6 @@ class Cause(Protocol):
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
     event: ClassVar[bool]
-    slow: ClassVar[bool]
     like_position_noise: ClassVar[bool]
     inexact: ClassVar[float]
 

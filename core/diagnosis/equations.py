@@ -180,7 +180,7 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
         residual = seen.joints[joint].missed(rows, seen.values)
-        learned = learn_noise(residual, rows.place, taken=_taken(rows, joints))
+        learned = learn_noise(residual, rows.place, taken=degrees_taken(rows, joints))
         if learned.departure(known.noise, residual, rows.place) > SETTLED:
             parts[joint] = whitened(rows, learned)
     if tuple(parts) == found.joints:
@@ -188,7 +188,7 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
     return _solved(tuple(parts), _size(joints), found.belief, found.plain)
 
 
-def _taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
+def degrees_taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     """Count the degrees of freedom that a fit took from one joint's rows: its own and a share of the rest."""
     total = sum(len(one.rows) for one in joints)
     return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))

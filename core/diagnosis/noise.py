@@ -87,6 +87,11 @@ class JointNoise:
         scale = other.log_deviations(place) - self.log_deviations(place)
         return scale + 0.5 * len(place) * (ratio - 1.0)
 
+    def log_likelihood(self, residual: Vector, place: Indices) -> float:
+        """Give the log-likelihood of a residual, up to what no noise changes."""
+        white = self.innovations(residual, place)
+        return -0.5 * float(white @ white) - self.log_deviations(place)
+
     def log_deviations(self, place: Indices) -> float:
         """Give the sum over rows of the logarithm of their innovation's deviation."""
         counts = np.bincount(np.minimum(place, self.order), minlength=self.order + 1)

@@ -167,8 +167,6 @@ class _Begun:
         self.grams = np.zeros((len(first), width, width))
         self.fitted = np.zeros((len(first), len(own.acting), width))
         self.free = np.zeros((len(first), own.free.count, width))
-        self.loose = own.free.columns.toarray()
-        self.rests = np.diff(own.free.columns.indptr) > 0
 
     def add_tails(self, white: EquationRows, beyond: int) -> None:
         """Add all rows from so many beyond the first ones on."""
@@ -176,7 +174,8 @@ class _Begun:
         self.right += _tails(self.left[:, None] * white)[after]
         self.grams += _tails(white[:, :, None] * white[:, None, :])[after]
         self.fitted += _tails(self.own.columns[:, :, None] * white[:, None, :])[after]
-        self.free += _tails(self.loose[:, :, None] * white[:, None, :])[after]
+        loose = self.own.free.columns.toarray()
+        self.free += _tails(loose[:, :, None] * white[:, None, :])[after]
 
     def add_row(self, white: EquationRows, beyond: int) -> None:
         """Add the row that is so many beyond each first one, where there is one."""
@@ -186,9 +185,8 @@ class _Begun:
         self.right[there] += self.left[rows][:, None] * part
         self.grams[there] += part[:, :, None] * part[:, None, :]
         self.fitted[there] += self.own.columns[rows][:, :, None] * part[:, None, :]
-        resting = self.rests[rows]
-        loose = self.loose[rows[resting]][:, :, None] * part[resting][:, None, :]
-        self.free[there[resting]] += loose
+        loose = self.own.free.columns[rows].tocoo()
+        self.free[there[loose.row], loose.col] += loose.data[:, None] * part[loose.row]
 
 
 def _tails(parts: np.ndarray) -> np.ndarray:

@@ -44,12 +44,16 @@ class Selection:
 def select(
     bench: Bench, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
 ) -> Selection:
-    """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
+    """Search for the causes that explain the rows, from those that other rows have shown if there are any.
+
+    As soon as something was found beside which the noise is left too much the search is over: it is made
+    again with ordinary noise (see `Bench.needs_ordinary_noise`), wherever it would lead.
+    """
     none = bench.tried(())
     bench.believe(none)
     now = settled(bench, bench.tried(tuple(start))) if start else none
     kept = tuple(Step("kept", one, 0.0) for one in start)
-    return continued(bench, Selection(none, now, kept), {}, progress)
+    return continued(bench, Selection(none, now, kept), {}, progress, bench.needs_ordinary_noise)
 
 
 def continued(
@@ -57,8 +61,9 @@ def continued(
     so_far: Selection,
     given_up: dict[Key, float],
     progress: Callable[[float], None] | None = None,
+    over: Callable[[Hypothesis], bool] | None = None,
 ) -> Selection:
-    """Search for more causes than those found so far."""
+    """Search for more causes than those found so far, until that is over or no more are found."""
     now, steps = so_far.chosen, list(so_far.steps)
     for number in range(len(now.members), MOST):
         if progress is not None:
@@ -74,6 +79,9 @@ def continued(
             given_up[better.members[-1].key] = np.inf
             bench.believe(now)
             continue
+        if over is not None and over(larger):
+            now = larger
+            break
         now = _defended(bench, larger, steps, given_up)
     return Selection(so_far.none, now, tuple(steps))
 

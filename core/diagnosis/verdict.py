@@ -132,8 +132,8 @@ def _found(
     """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
     bench = _bench(question, look)
     found = consolidated(bench, select(bench, progress, start))
-    if bench.leaves_too_much(found.chosen):
-        bench = _bench(question, look, ordinary=True)
+    if bench.needs_ordinary_noise(found.chosen):
+        bench = bench.with_ordinary_noise()
         found = consolidated(bench, select(bench, progress, start))
     return bench, reconsidered(bench, found)
 
@@ -149,11 +149,11 @@ def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]
     return kept, standings
 
 
-def _bench(question: Question, look: Look, *, ordinary: bool = False) -> Bench:
+def _bench(question: Question, look: Look) -> Bench:
     """Lay out what is suspected, and what is believed beforehand."""
     mask, reference = look.usable & ~look.held_out[:, None], question.reference
     causes, belief = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.belief)
-    return Bench(look, question.plan, causes, mask, belief, ordinary=ordinary)
+    return Bench(look, question.plan, causes, mask, belief)
 
 
 def _looked(question: Question) -> tuple[list[Finding], Look]:
@@ -182,8 +182,8 @@ def _bare(question: Question, look: Look) -> Explained:
     mask = look.usable & ~look.held_out[:, None]
     bench = Bench(look, question.plan, (), mask)
     found = bench.tried(())
-    if bench.leaves_too_much(found):
-        bench = Bench(look, question.plan, (), mask, ordinary=True)
+    if bench.needs_ordinary_noise(found):
+        bench = bench.with_ordinary_noise()
         found = bench.tried(())
     return bench, found
 

@@ -178,7 +178,8 @@ class Prediction:
             )
             for side in (1.0, -1.0)
         )
-        return _kept((ahead - behind) / (2.0 * sum(step)))
+        # Joint after joint, because what they are multiplied by is one column.
+        return _kept(np.asfortranarray((ahead - behind) / (2.0 * sum(step))))
 
     def _sum(self, parts: Iterable[tuple[Term, Weights]], state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)

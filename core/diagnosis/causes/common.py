@@ -34,7 +34,6 @@ class OwnJointCause:
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
     event: ClassVar[bool] = False
-    slow: ClassVar[bool] = False
     like_position_noise: ClassVar[bool] = False
     excludes: ClassVar[tuple[str, ...]] = ()
     leaves: ClassVar[tuple[str, ...]] = ()

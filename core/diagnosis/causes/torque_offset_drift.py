@@ -42,7 +42,6 @@ class TorqueOffsetDrift(OwnJointCause, MendsLog):
     )
     experiment = "hold the same posture at the start and at the end of a log as long as the work"
     coordinate = "time"
-    slow = True
 
     def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the time constant."""

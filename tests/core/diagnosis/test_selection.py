@@ -10,6 +10,7 @@ import pytest
 from core.diagnosis import selection as search
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
+from core.diagnosis.foreseen import foreseen
 from core.diagnosis.joining import FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
 from core.diagnosis.rise import log_p, merit, rise
 from core.diagnosis.rivals import standing, weighed
@@ -91,7 +92,8 @@ def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_
     none = nothing_found(bench)
     first, second = bench.scanned(none)
     assert first.candidate.cause.id == "quick"
-    assert RAISED * second.statistic < merit(none, bench.added(none, first.candidate))
+    (small,) = foreseen(bench, none, [second])
+    assert RAISED * small < merit(none, bench.added(none, first.candidate))
     assert names(select(bench)) == [("quicker", (2,))]
 
 
@@ -275,3 +277,18 @@ def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_
 def test_a_rival_that_explains_little_is_not_equally_good():
     selection, bench = twins()
     assert "far" not in {rival.cause for rival in standing(bench, selection.chosen, 0).ambiguous}
+
+
+def test_a_search_is_over_once_noise_is_left_too_much_beside_what_was_found():
+    bench = bench_of(measured_arm(BOTH, seed=5), CAUSES)
+    bench.needs_ordinary_noise = lambda found: bool(found.members)
+    assert [step.action for step in select(bench).steps] == ["added"]
+
+
+def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
+    bench = bench_of(measured_arm(BOTH, seed=5), CAUSES)
+    monkeypatch.setattr("core.diagnosis.bench.leaves_too_much", lambda *_rows_and_fit: True)
+    assert bench.needs_ordinary_noise(nothing_found(bench))
+    other = bench.with_ordinary_noise()
+    assert names(select(other)) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
+    assert bench.needs_ordinary_noise(nothing_found(bench))

@@ -1,0 +1,54 @@
+"""Hold what is foreseen of candidates to what fitting them brings, where a scan says next to nothing."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.catalogue import BY_ID, CAUSES
+from core.diagnosis.foreseen import foreseen
+from core.diagnosis.joining import RAISED, with_candidate
+from core.diagnosis.rise import rise
+from tests.core.diagnosis.made_up import nothing_found
+from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+RATE = 7.0
+DRIFT: Effect = lambda state: 5.0 * np.exp(-state.time / 8.0)[:, None] * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+
+
+@pytest.mark.parametrize(
+    ("effect", "cause"),
+    [
+        (wave_effect({RATE: 0.3}), wave_cause("wave", {RATE: 1.0})),
+        (wave_effect({RATE: 3.0}), wave_cause("wave", {RATE: 1.0})),
+        (DRIFT, BY_ID["torque_offset_drift"]),
+    ],
+    ids=["wave", "large_wave", "drift"],
+)
+def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its_fit_finds_it(effect, cause):
+    bench = bench_of(measured_arm(effect), (cause,))
+    none = nothing_found(bench)
+    hidden = bench.scanned(none)[0]
+    brings = rise(none, with_candidate(bench, none, hidden))
+    assert hidden.statistic < 0.2 * brings
+    assert foreseen(bench, none, [hidden])[0] == pytest.approx(brings, rel=0.15)
+
+
+def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
+    bench = bench_of(measured_arm(SPRUNG), CAUSES)
+    none = nothing_found(bench)
+    scans = bench.scanned(none)[:16]
+    brings = np.array([rise(none, with_candidate(bench, none, one)) for one in scans])
+    assert brings.max() > 100.0
+    assert np.all(brings < RAISED * np.maximum(foreseen(bench, none, scans), 5.0))
+
+
+def test_beside_what_is_found_already_only_the_rest_is_foreseen():
+    bench = bench_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
+    none = nothing_found(bench)
+    spring, ripple = bench.scanned(none)[:2]
+    assert (spring.candidate.cause.id, ripple.candidate.cause.id) == ("spring_compensator", "torque_ripple")
+    beside = with_candidate(bench, none, spring)
+    again = next(one for one in bench.scanned(beside) if one.candidate.key == ripple.candidate.key)
+    assert foreseen(bench, none, [ripple])[0] > 100.0
+    assert foreseen(bench, beside, [again])[0] < 20.0
