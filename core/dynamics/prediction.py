@@ -135,9 +135,10 @@ class Prediction:
             What to add to that joint's position, velocity and acceleration, one column each.
         """
         by_position, by_velocity, by_acceleration = self.slopes(state, joint)
-        return np.asarray(
-            by_position * shift.position + by_velocity * shift.velocity + by_acceleration * shift.acceleration
-        )
+        change = by_position * shift.position
+        change += by_velocity * shift.velocity
+        change += by_acceleration * shift.acceleration
+        return np.asarray(change)
 
     def slopes(self, state: MotionState, joint: int) -> Slopes:
         """Give the load's derivatives by position, velocity and acceleration of a joint, counted from 0.

@@ -42,8 +42,8 @@ class Backlash(AllJointsTerm):
         gear = Gear(self.believed, self.joint, self.motor_inertia)
         free = gear.load(state) / np.maximum(gear.inertia(state), 1e-9)
         twist = smoothed(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
-        first, second = rates(twist, state)
-        return [gear.change(state, MotionState(twist, first, second)) / -self.around]
+        lag = twist / -self.around
+        return [gear.change(state, MotionState(lag, *rates(lag, state)))]
 
 
 def twist_of(free: Samples, step: float, half_width: float) -> Samples:

@@ -107,10 +107,11 @@ def step_of(state: MotionState) -> float:
 
 
 def rates(values: JointSeries, state: MotionState) -> tuple[JointSeries, JointSeries]:
-    """Differentiate columns along time once and twice by centred differences; the ends repeat."""
+    """Differentiate columns along time once and twice by centred differences, one-sided at the ends."""
     step = step_of(state)
-    first = np.gradient(values, step, axis=0)
-    second = np.empty_like(values)
+    first, second = np.empty_like(values), np.empty_like(values)
+    first[1:-1] = (values[2:] - values[:-2]) / (2.0 * step)
+    first[0], first[-1] = (values[1] - values[0]) / step, (values[-1] - values[-2]) / step
     second[1:-1] = (values[2:] - 2.0 * values[1:-1] + values[:-2]) / step**2
     second[0], second[-1] = second[1], second[-2]
     return np.asarray(first), second

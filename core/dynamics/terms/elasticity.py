@@ -57,9 +57,8 @@ class Elasticity(AllJointsTerm):
         del robot
         gear = Gear(self.believed, self.joint, self.motor_inertia)
         load = _load_spectrum(gear, state, self.band_hz)
-        load = swung(load, state, self.resonance_hz, self.damping_ratio)[:, None]
-        first, second = rates(load, state)
-        return [-gear.change(state, MotionState(load, first, second))]
+        lag = -swung(load, state, self.resonance_hz, self.damping_ratio)[:, None]
+        return [gear.change(state, MotionState(lag, *rates(lag, state)))]
 
 
 @lru_cache(maxsize=64)
