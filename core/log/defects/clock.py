@@ -44,7 +44,8 @@ class Clock:
         """Take the next stretch into account."""
         stamps = stretch.time[stretch.seam :]
         steps = np.diff(stamps)
-        self._kept.append(steps[: max(1, int(self._share * len(steps)))])
+        share = max(1, int(self._share * len(steps)))
+        self._kept.append(steps[:share].copy())  # a view would keep every step of the log
         median = float(np.median(steps))
         self._reference = self._reference or median
         for index in np.flatnonzero(steps > 2.0 * median):
