@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_triangular
+from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Indices, Matrix, Weights
 from core.diagnosis.equations import OPEN_SHARE, Fit
@@ -137,10 +138,7 @@ def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, star
         sums = _Begun(own, found.left[joint], first, width)
         taken = one[joints[joint].rows]
         sums.add_tails(own.whitening @ taken, own.noise.order)
-        begun = np.zeros_like(taken)
-        for lag in range(own.noise.order):
-            begun[lag:] += own.whitening.diagonal(-lag)[:, None] * taken[: len(taken) - lag]
-            sums.add_row(begun, lag)
+        sums.add_heads(_begun(own, taken))
         inside = own.free.along(np.moveaxis(sums.free, 0, 1).reshape(own.free.count, count * width))
         right += sums.right
         squares += np.diagonal(sums.grams, axis1=1, axis2=2)
@@ -177,16 +175,29 @@ class _Begun:
         loose = self.own.free.columns.toarray()
         self.free += _tails(loose[:, :, None] * white[:, None, :])[after]
 
-    def add_row(self, white: EquationRows, beyond: int) -> None:
-        """Add the row that is so many beyond each first one, where there is one."""
-        there = np.flatnonzero(self.first + beyond < len(white))
-        rows = self.first[there] + beyond
-        part = white[rows]
-        self.right[there] += self.left[rows][:, None] * part
-        self.grams[there] += part[:, :, None] * part[:, None, :]
-        self.fitted[there] += self.own.columns[rows][:, :, None] * part[:, None, :]
-        loose = self.own.free.columns[rows].tocoo()
-        self.free[there[loose.row], loose.col] += loose.data[:, None] * part[loose.row]
+    def add_heads(self, white: np.ndarray) -> None:
+        """Add the rows just behind the first ones, given by how far behind they are (first axis) and row."""
+        behind = np.arange(len(white))
+        rows = self.first[:, None] + behind
+        there = rows < white.shape[1]
+        rows = np.where(there, rows, 0)
+        parts = white[behind, rows] * there[:, :, None]
+        self.grams += np.swapaxes(parts, 1, 2) @ parts
+        begins = len(white) * np.arange(len(rows) + 1)
+        for axis, sizes in enumerate(np.moveaxis(parts, 2, 0)):
+            heads = csr_array((sizes.ravel(), rows.ravel(), begins), shape=(len(rows), white.shape[1]))
+            self.right[:, axis] += heads @ self.left
+            self.fitted[:, :, axis] += heads @ self.own.columns
+            self.free[:, :, axis] += (heads @ self.own.free.columns).toarray()
+
+
+def _begun(own: Whitened, columns: EquationRows) -> np.ndarray:
+    """Make columns white that begin some rows before: by how many before (first axis), and row."""
+    out = np.zeros((own.noise.order, *columns.shape))
+    for lag, white in enumerate(out):
+        white[:] = out[lag - 1]
+        white[lag:] += own.whitening.diagonal(-lag)[:, None] * columns[: len(columns) - lag]
+    return out
 
 
 def _tails(parts: np.ndarray) -> np.ndarray:
