@@ -32,9 +32,9 @@ UNCHANGED = 0.9
 """unless, on a joint of its own, it was as clear, within this share, before any other cause was known."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
-RAISED = 4.0
-"""How many times as much as is foreseen of a candidate it may bring once it is fitted: 3.7 times were seen,
-and six times next to nothing. What that leaves behind is fitted only where those before it do not hold."""
+RAISED = 10.0
+"""How many times as much as is foreseen of a candidate it may bring once it is fitted: 8.6 times were seen.
+What cannot be better than one that is clear enough is fitted only where that one does not hold."""
 FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 UNSEEN_SHARE = 0.25

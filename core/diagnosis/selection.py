@@ -46,8 +46,8 @@ def select(
 ) -> Selection:
     """Search for the causes that explain the rows, from those that other rows have shown if there are any.
 
-    As soon as something was found beside which the noise is left too much the search is over: it is made
-    again with ordinary noise (see `Bench.needs_ordinary_noise`), wherever it would lead.
+    As soon as a cause joins beside which the noise is left too much the search is over: what follows would
+    be judged by that noise (see `Bench.needs_ordinary_noise`).
     """
     none = bench.tried(())
     bench.believe(none)

@@ -131,7 +131,9 @@ def _found(
 ) -> tuple[Bench, Selection]:
     """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
     bench = _bench(question, look)
-    found = consolidated(bench, select(bench, progress, start))
+    found = select(bench, progress, start)
+    if not bench.needs_ordinary_noise(found.chosen):
+        found = consolidated(bench, found)
     if bench.needs_ordinary_noise(found.chosen):
         bench = bench.with_ordinary_noise()
         found = consolidated(bench, select(bench, progress, start))

@@ -107,9 +107,12 @@ def step_of(state: MotionState) -> float:
 
 
 def rates(values: JointSeries, state: MotionState) -> tuple[JointSeries, JointSeries]:
-    """Differentiate columns along time once and twice by centred differences, one-sided at the ends."""
+    """Differentiate columns of three samples or more, once and twice, by centred differences.
+
+    One-sided at the ends, where the second derivative is that of the neighbour.
+    """
     step = step_of(state)
-    first, second = np.empty_like(values), np.empty_like(values)
+    first, second = np.empty_like(values, dtype=float), np.empty_like(values, dtype=float)
     first[1:-1] = (values[2:] - values[:-2]) / (2.0 * step)
     first[0], first[-1] = (values[1] - values[0]) / step, (values[-1] - values[-2]) / step
     second[1:-1] = (values[2:] - 2.0 * values[1:-1] + values[:-2]) / step**2

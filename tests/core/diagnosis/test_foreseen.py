@@ -1,12 +1,18 @@
 """Hold what is foreseen of candidates to what fitting them brings, where a scan says next to nothing."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import BY_ID, CAUSES
+from core.diagnosis.belief import Belief
+from core.diagnosis.bench import Bench
+from core.diagnosis.catalogue import AGAINST_REFERENCE, BY_ID, CAUSES
 from core.diagnosis.foreseen import foreseen
 from core.diagnosis.joining import RAISED, with_candidate
 from core.diagnosis.rise import rise
+from core.reduction.base import base_model
+from core.regressor.columns import ColumnPlan
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
@@ -14,6 +20,30 @@ from tests.core.diagnosis.waves import wave_cause, wave_effect
 RATE = 7.0
 DRIFT: Effect = lambda state: 5.0 * np.exp(-state.time / 8.0)[:, None] * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
 SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+STIFF: Effect = lambda state: np.sign(state.velocity) * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+
+
+def free_bench(effect: Effect) -> Bench:
+    """Suspect every cause where the rows alone tell the parameters."""
+    return bench_of(measured_arm(effect), CAUSES)
+
+
+def believing_bench(effect: Effect) -> Bench:
+    """Suspect what may have changed since a reference whose parameters are known within a twentieth."""
+    scene = measured_arm(effect)
+    base = base_model(scene.believed.model)
+    values = base.base_of(scene.believed.standard)
+    rows = np.diag(20.0 / np.maximum(np.abs(values), 1e-3))
+    usable = scene.look.usable & ~scene.look.held_out[:, None]
+    plan = ColumnPlan(scene.believed.model, base.kept)
+    return Bench(scene.look, plan, AGAINST_REFERENCE, usable, Belief(rows, rows @ values))
+
+
+BENCHES = {
+    "rows alone": free_bench,
+    "ordinary noise": lambda effect: free_bench(effect).with_ordinary_noise(),
+    "a belief": believing_bench,
+}
 
 
 @pytest.mark.parametrize(
@@ -52,3 +82,28 @@ def test_beside_what_is_found_already_only_the_rest_is_foreseen():
     again = next(one for one in bench.scanned(beside) if one.candidate.key == ripple.candidate.key)
     assert foreseen(bench, none, [ripple])[0] > 100.0
     assert foreseen(bench, beside, [again])[0] < 20.0
+
+
+@pytest.mark.parametrize("make", BENCHES.values(), ids=BENCHES)
+@pytest.mark.parametrize("effect", [DRIFT, SPRUNG], ids=["drift", "sprung"])
+def test_of_no_effect_nothing_is_foreseen(make, effect):
+    bench = make(effect)
+    none = nothing_found(bench)
+    nothing = [replace(one, values=0.0 * one.values) for one in bench.scanned(none)[:8]]
+    np.testing.assert_allclose(foreseen(bench, none, nothing), 0.0, atol=5.0)
+
+
+@pytest.mark.parametrize(
+    ("make", "effect"),
+    [(BENCHES["ordinary noise"], DRIFT), (BENCHES["ordinary noise"], SPRUNG), (BENCHES["a belief"], STIFF)],
+    ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
+)
+def test_what_will_bring_most_is_foreseen_to(make, effect):
+    bench = make(effect)
+    none = nothing_found(bench)
+    scans = bench.scanned(none)[:16]
+    brings = np.array([rise(none, with_candidate(bench, none, one)) for one in scans])
+    reach = np.array(foreseen(bench, none, scans))
+    assert brings.max() > 100.0
+    assert reach[brings.argmax()] > 0.5 * brings.max()
+    assert np.all(brings < RAISED * np.maximum(reach, 5.0))
