@@ -32,9 +32,9 @@ UNCHANGED = 0.9
 """unless, on a joint of its own, it was as clear, within this share, before any other cause was known."""
 TRIED = 16
 """Candidates of a scan that are fitted, with the noise learned anew where they act."""
-RAISED = 10.0
-"""How many times as much as is foreseen of a candidate it may bring once it is fitted: 8.6 times were seen.
-What cannot be better than one that is clear enough is fitted only where that one does not hold."""
+RAISED, BESIDES = 4.0, 500.0
+"""A candidate may bring so many times what is foreseen of it once it is fitted, and so much besides: more was
+never seen. What cannot be better than one that is clear is fitted only where that one does not hold."""
 FITTED_WHOLE = 4
 """The best of them, fitted with the noise of all joints learned anew."""
 UNSEEN_SHARE = 0.25
@@ -68,7 +68,7 @@ def best_addition(
     ]
     tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
     reach = zip(tried, foreseen(bench, now, tried), strict=True)
-    ranked = sorted(((one, RAISED * brings) for one, brings in reach), key=lambda pair: -pair[1])
+    ranked = sorted(((one, RAISED * brings + BESIDES) for one, brings in reach), key=lambda pair: -pair[1])
     found: Hypothesis | None = None
     left: Ranked = [(one, most) for one, most in ranked if most > least]
     while left and found is None:

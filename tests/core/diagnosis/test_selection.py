@@ -11,7 +11,7 @@ from core.diagnosis import selection as search
 from core.diagnosis.catalogue import BY_ID, CAUSES
 from core.diagnosis.cause import Confusion
 from core.diagnosis.foreseen import foreseen
-from core.diagnosis.joining import FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
+from core.diagnosis.joining import BESIDES, FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
 from core.diagnosis.rise import log_p, merit, rise
 from core.diagnosis.rivals import standing, weighed
 from core.diagnosis.selection import Selection, select
@@ -93,7 +93,7 @@ def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_
     first, second = bench.scanned(none)
     assert first.candidate.cause.id == "quick"
     (small,) = foreseen(bench, none, [second])
-    assert RAISED * small < merit(none, bench.added(none, first.candidate))
+    assert RAISED * small + BESIDES < merit(none, bench.added(none, first.candidate))
     assert names(select(bench)) == [("quicker", (2,))]
 
 
