@@ -33,7 +33,10 @@ def foreseen(bench: Bench, now: Hypothesis, scans: Sequence[Scored]) -> list[flo
 
 
 def _rise(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
-    """Take an effect out of the residual, and learn the noise anew where it acts, from what any noise is."""
+    """Take an effect out of the residual, and learn the noise anew where it acts, as a fit would.
+
+    A fit under ordinary noise learns it from what the ordinary fit leaves, which has values of its own.
+    """
     seen = now.plain or now
     values, seen_values = (one.values - _stands_for(one, effect) for one in (now, seen))
     total = 0.0 if now.belief is None else -0.5 * now.belief.departure(values)

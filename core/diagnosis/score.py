@@ -176,7 +176,13 @@ class _Begun:
         self.free += _tails(loose[:, :, None] * white[:, None, :])[after]
 
     def add_heads(self, white: np.ndarray) -> None:
-        """Add the rows just behind the first ones, given by how far behind they are (first axis) and row."""
+        """Add the rows just behind the first ones.
+
+        Parameters
+        ----------
+        white
+            The columns by how far a row is behind the first one, row, and column (see `_begun`).
+        """
         behind = np.arange(len(white))
         rows = self.first[:, None] + behind
         there = rows < white.shape[1]

@@ -9,8 +9,8 @@ each loop below is written to that rule, and sine and cosine are series for the 
 Atkeson, An & Hollerbach 1986 (linearity); Khalil & Dombre (2002), ch. 9.
 """
 
-# Types stand in the signature; numbers and tables are handed on one by one, which is what compiles well.
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
 from math import factorial

@@ -4,8 +4,8 @@ The lower triangle of a state's matrix lies in rows i * joints + j of a table; i
 place. A matrix that is not positive definite leaves nan behind. Source: Golub & Van Loan, ch. 4.2.
 """
 
-# Types stand in the signatures; numbers and tables are handed on one by one, which is what compiles well.
-# ruff: noqa: ANN001, ANN201, PLR0913, PLR0917
+# ruff: noqa: ANN001, ANN201, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
 import numpy as np

@@ -4,8 +4,8 @@ States are taken in blocks: mass matrix and bias from the moving masses, drives 
 factorisation, and friction where something is at rest. Source: Featherstone 2008, ch. 6.
 """
 
-# Types stand in the signatures; numbers and tables are handed on one by one, which is what compiles well.
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
 import numpy as np

@@ -5,8 +5,8 @@ min 1/2 x' G x - x' b over |x| <= level, with G = J inv(M) J' and b the accelera
 projected Gauss-Seidel. Sources: Acary & Brogliato 2008, ch. 12 and 13.
 """
 
-# Types stand in the signatures; numbers and tables are handed on one by one, which is what compiles well.
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
 import numpy as np

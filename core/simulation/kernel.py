@@ -7,8 +7,8 @@ needs to use vector instructions. Sources: Featherstone 2008, ch. 5 and 6 (recur
 composite rigid bodies).
 """
 
-# Types stand in the signatures; numbers and tables are handed on one by one, which is what compiles well.
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
 import numpy as np

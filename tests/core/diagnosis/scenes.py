@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from core.diagnosis.belief import Belief
 from core.diagnosis.bench import Bench
 from core.diagnosis.cause import Cause, Scalars, Site
 from core.diagnosis.look import Look, look_at
@@ -149,8 +150,8 @@ def look_at_arm(position: np.ndarray, torque: np.ndarray) -> Scene:
     return Scene(look, Prediction(model, truth))
 
 
-def bench_of(scene: Scene, causes: Sequence[Cause]) -> Bench:
-    """Put a scene and what is suspected on a bench."""
+def bench_of(scene: Scene, causes: Sequence[Cause], belief: Belief | None = None) -> Bench:
+    """Put a scene, what is suspected and what is believed beforehand on a bench."""
     model = scene.believed.model
     plan = ColumnPlan(model, base_model(model).kept)
-    return Bench(scene.look, plan, causes, scene.look.usable & ~scene.look.held_out[:, None])
+    return Bench(scene.look, plan, causes, scene.look.usable & ~scene.look.held_out[:, None], belief)

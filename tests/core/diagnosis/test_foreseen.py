@@ -12,7 +12,6 @@ from core.diagnosis.foreseen import foreseen
 from core.diagnosis.joining import RAISED, with_candidate
 from core.diagnosis.rise import rise
 from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
@@ -31,12 +30,9 @@ def free_bench(effect: Effect) -> Bench:
 def believing_bench(effect: Effect) -> Bench:
     """Suspect what may have changed since a reference whose parameters are known within a twentieth."""
     scene = measured_arm(effect)
-    base = base_model(scene.believed.model)
-    values = base.base_of(scene.believed.standard)
+    values = base_model(scene.believed.model).base_of(scene.believed.standard)
     rows = np.diag(20.0 / np.maximum(np.abs(values), 1e-3))
-    usable = scene.look.usable & ~scene.look.held_out[:, None]
-    plan = ColumnPlan(scene.believed.model, base.kept)
-    return Bench(scene.look, plan, AGAINST_REFERENCE, usable, Belief(rows, rows @ values))
+    return bench_of(scene, AGAINST_REFERENCE, Belief(rows, rows @ values))
 
 
 BENCHES = {
