@@ -9,8 +9,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
-from core.arrays import JointSeries, JointVector
+from core.arrays import JointSeries, JointVector, Samples
 from core.diagnosis.look import BAND_OVER_MOTION, Look
 from core.diagnosis.noise import JointNoise, places
 from core.diagnosis.raw import disturbance
@@ -21,9 +22,8 @@ LARGEST_SHARE = 0.05
 """Share of a joint's mean square residual that the positions' noise may have."""
 NARROWEST = 10.0
 """A look is at least as wide as the fit's own filter, ten times the motion's band."""
-_DIFFERENCES = 4
-_SUM_OF_SQUARES = 70.0
-"""Of the coefficients 1, -4, 6, -4, 1."""
+_POINTS = 5
+"""Neighbours that a fourth difference is of."""
 _LOOKS = 4
 
 Fitted = tuple[Look, Prediction, tuple[JointNoise, ...]]
@@ -40,7 +40,7 @@ def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
     """
     width = BAND_OVER_MOTION
     look, believed, noise = look_again(width)
-    shares = position_noise_share(look, believed, noise)
+    shares = position_noise_share((look, believed, noise), over_stamps=False)
     for _ in range(_LOOKS):
         share = float(np.max(shares))
         if share <= LARGEST_SHARE or width <= NARROWEST:
@@ -48,13 +48,22 @@ def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
         actual = look.band_hz / look.motion_band_hz
         width = max(NARROWEST, min(width, actual) * float(np.clip((LARGEST_SHARE / share) ** 0.2, 0.5, 0.85)))
         look, believed, noise = look_again(width)
-        shares = position_noise_share(look, believed, noise)
-    return replace(look, position_share=shares), believed, noise
+        shares = position_noise_share((look, believed, noise), over_stamps=False)
+    # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
+    scattered = position_noise_share((look, believed, noise), over_stamps=True)
+    return replace(look, position_share=np.maximum(shares, scattered)), believed, noise
 
 
-def position_noise_share(look: Look, believed: Prediction, noise: tuple[JointNoise, ...]) -> JointVector:
-    """Give, per joint, the share of the white residual's mean square that noise of the positions has."""
-    size = position_noise(look)
+def position_noise_share(fitted: Fitted, *, over_stamps: bool) -> JointVector:
+    """Give, per joint, the share of the white residual's mean square that noise of the positions has.
+
+    Parameters
+    ----------
+    over_stamps
+        Whether stamps that scatter though the samples do not count as noise of the positions.
+    """
+    look, believed, noise = fitted
+    size = position_noise(look, over_stamps=over_stamps)
 
     def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
@@ -77,12 +86,28 @@ def _frictionless(believed: Prediction) -> Prediction:
     return Prediction(believed.model, np.where(kept, believed.standard, 0.0), believed.newton_euler)
 
 
-def position_noise(look: Look) -> JointVector:
-    """Give the positions' noise per joint from sample to sample, rad or m, by fourth differences."""
+def position_noise(look: Look, *, over_stamps: bool) -> JointVector:
+    """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has."""
     found = []
     for motion in look.motions:
         start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
         rows = motion.log.source.rows(start, min(stop, start + 65536))
-        jumps = np.diff(rows.position, _DIFFERENCES, axis=0)
-        found.append(np.sqrt(np.mean(jumps**2, axis=0) / _SUM_OF_SQUARES))
+        time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)
+        found.append(np.sqrt(np.mean(beyond_cubics(time, rows.position) ** 2, axis=0)))
     return np.asarray(np.max(found, axis=0))
+
+
+def beyond_cubics(time: Samples, position: JointSeries) -> JointSeries:
+    """Give fourth divided differences, scaled so that white noise of a position keeps its size.
+
+    Examples
+    --------
+    >>> time = np.array([0.0, 1.0, 2.5, 3.0, 4.0, 5.5])
+    >>> bool(np.allclose(beyond_cubics(time, time[:, None] ** 3), 0.0))
+    True
+    """
+    stamps = sliding_window_view(time, _POINTS)
+    apart = stamps[:, :, None] - stamps[:, None, :] + np.diag(np.full(_POINTS, stamps[0, -1] - stamps[0, 0]))
+    weights = 1.0 / np.prod(apart / apart[0, 0, 0], axis=2)
+    weights /= np.linalg.norm(weights, axis=1, keepdims=True)
+    return np.asarray(np.einsum("np,njp->nj", weights, sliding_window_view(position, _POINTS, axis=0)))
