@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from core.arrays import JointSeries, JointVector, Samples
+from core.arrays import JointSeries, JointVector, Matrix, Samples
 from core.diagnosis.look import BAND_OVER_MOTION, Look
 from core.diagnosis.noise import JointNoise, places
 from core.diagnosis.raw import disturbance
@@ -97,7 +97,7 @@ def position_noise(look: Look, *, over_stamps: bool) -> JointVector:
     return np.asarray(np.max(found, axis=0))
 
 
-def beyond_cubics(time: Samples, position: JointSeries) -> JointSeries:
+def beyond_cubics(time: Samples, position: JointSeries) -> Matrix:
     """Give fourth divided differences, scaled so that white noise of a position keeps its size.
 
     Examples

@@ -1,0 +1,49 @@
+"""Hold what is taken for noise of the positions to noise of known size, and to what such noise looks like."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.band import beyond_cubics
+from core.dynamics.model import standard_model
+from core.log.reader import log_from_arrays
+from core.study import IdentifyRequest, diagnose
+from tests.core.diagnosis.scenes import ARM_RATE_HZ, skew_arm
+from tests.core.dynamics.terms.motions import swinging
+from tests.core.estimate.worlds import true_parameters
+
+SCATTER = 6e-5
+"""Of the stamps, s."""
+
+
+def scattered(time: np.ndarray, seed: int = 4) -> np.ndarray:
+    return time + SCATTER * np.random.default_rng(seed).normal(size=len(time))
+
+
+def rms(values: np.ndarray) -> np.ndarray:
+    return np.sqrt(np.mean(values**2, axis=0))
+
+
+def test_noise_keeps_its_size_whatever_the_stamps():
+    rng = np.random.default_rng(1)
+    time = np.cumsum(rng.uniform(0.5, 1.5, 20_000)) / ARM_RATE_HZ
+    noise = rng.normal(size=(len(time), 2)) * [1e-4, 3e-5]
+    swing = np.sin(6.0 * time)[:, None] * [1.0, 0.5]
+    np.testing.assert_allclose(rms(beyond_cubics(time, swing + noise)), [1e-4, 3e-5], rtol=0.05)
+
+
+def test_stamps_that_scatter_are_noise_in_proportion_to_speed():
+    time = np.arange(20_000) / ARM_RATE_HZ
+    swing = np.sin(6.0 * time)[:, None]
+    speed = 6.0 / np.sqrt(2.0)
+    assert rms(beyond_cubics(scattered(time), swing))[0] == pytest.approx(SCATTER * speed, rel=0.05)
+    assert rms(beyond_cubics(time, swing))[0] < 0.01 * SCATTER * speed
+
+
+def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter():
+    state = swinging(3, 20.0)
+    model = standard_model(skew_arm())
+    torque = model.torque(true_parameters(model), state)
+    torque += 0.02 * np.random.default_rng(6).normal(size=torque.shape)
+    log = log_from_arrays("arm", scattered(np.arange(len(torque)) / ARM_RATE_HZ), state.position, torque)
+    found = diagnose(IdentifyRequest(skew_arm(), (log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
+    assert [one["cause"] for one in found["findings"]] == ["timestamp_jitter"]
