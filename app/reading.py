@@ -59,8 +59,12 @@ def parse_json(text: bytes | str, *, what: str = "the body") -> object:
     {'cutoff_hz': 10}
     """
     try:
+        decoded = text.decode() if isinstance(text, bytes) else text
         document = json.loads(
-            text, parse_constant=_refuse_constant, parse_float=_finite, object_pairs_hook=_refuse_twins
+            decoded.removeprefix("\ufeff"),
+            parse_constant=_refuse_constant,
+            parse_float=_finite,
+            object_pairs_hook=_refuse_twins,
         )
         # Half a surrogate pair is valid JSON, yet no text that could be stored or sent again.
         json.dumps(document, ensure_ascii=False).encode()

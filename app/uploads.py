@@ -21,6 +21,7 @@ from core.log.content import FORMS, NO_CLAIM
 MULTIPART = "multipart/form-data"
 LOG_MEDIA_TYPES = (*sorted({kind for form in FORMS for kind in form.media_types}), "application/octet-stream")
 MOST_PARTS = 32
+LONGEST_TEXT_FILE = 256 * 1024
 PIECE = 1 << 20
 AHEAD = 2
 """Pieces that may wait to be written, for each upload."""
@@ -156,25 +157,34 @@ def file_of(form: FormData, name: str) -> UploadFile:
     return files[0]
 
 
-def text_of(form: FormData, name: str) -> str | None:
-    """Give a text part of a form; None where there is none.
+async def text_of(form: FormData, name: str) -> bytes | str | None:
+    """Give a text part of a form, which may come as a file; None where there is none.
 
     Raises
     ------
     Problem
-        If it is given twice or as a file (422).
+        If it is given twice, or as a file that is too large (422).
     """
     given = form.getlist(name)
-    if not given:
-        return None
-    if len(given) > 1 or not isinstance(given[0], str):
+    if len(given) > 1:
         raise Problem(
             "request",
-            f"the part {name} is not one text",
+            f"the form holds several parts named {name}",
             evidence={"count": len(given)},
-            remedy="send it once, as text",
+            remedy="send it once, as text or as a file",
         )
-    return given[0]
+    part = given[0] if given else None
+    if not isinstance(part, UploadFile):
+        return part
+    content = await part.read(LONGEST_TEXT_FILE + 1)
+    if len(content) > LONGEST_TEXT_FILE:
+        raise Problem(
+            "request",
+            f"the file of the part {name} is larger than {LONGEST_TEXT_FILE} bytes",
+            evidence={"limit_bytes": LONGEST_TEXT_FILE},
+            remedy="make sure that it is the file you mean: it holds JSON, and little of it",
+        )
+    return content
 
 
 def claimed_type(part: UploadFile) -> str | None:

@@ -48,8 +48,10 @@ FORM_SCHEMA = {
             "minItems": 1,
             "description": "one or more logs",
         },
-        "mapping": text_part(f"JSON, the same for all logs, e.g. {MAPPING}", default="{}"),
-        "options": text_part("JSON: options of the job", default="{}"),
+        "mapping": text_part(
+            f"JSON, as text or as a file, the same for all logs, e.g. {MAPPING}", default="{}"
+        ),
+        "options": text_part("JSON, as text or as a file: options of the job", default="{}"),
     },
     "additionalProperties": False,
 }
@@ -74,8 +76,8 @@ async def identify(
     require_media_type(request, (MULTIPART,))
     async with open_form(request, longest_text=LONGEST_ROBOT) as form:
         refuse_unknown_parts(form, PARTS)
-        options = parse_object(text_of(form, "options"), what="options") or {}
-        mapping = parse_object(text_of(form, "mapping"), what="the mapping")
+        options = parse_object(await text_of(form, "options"), what="options") or {}
+        mapping = parse_object(await text_of(form, "mapping"), what="the mapping")
         files = files_of(form, "log")
         robot = await _robot(desk, form)
         logs = tuple([await _log(desk, part, mapping) for part in files])

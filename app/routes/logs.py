@@ -22,6 +22,7 @@ from app.store.blobs import Incoming
 from app.store.records import LogRecord
 from app.uploads import (
     LOG_MEDIA_TYPES,
+    LONGEST_TEXT_FILE,
     MULTIPART,
     claimed_type,
     file_of,
@@ -35,7 +36,6 @@ from app.version import VERSION
 from app.views import log_document
 
 ROUTER = chapter("/v1/logs", tag="logs")
-LONGEST_MAPPING = 256 * 1024
 FORM_SCHEMA = {
     "type": "object",
     "required": ["file"],
@@ -44,7 +44,9 @@ FORM_SCHEMA = {
             "CSV, Parquet, NPZ, MATLAB, HDF5, MCAP or a ROS bag; columns time, q_1.., tau_1.. unless a "
             "mapping names others"
         ),
-        "mapping": text_part(f"JSON: which column is what, in which unit, e.g. {MAPPING}", default="{}"),
+        "mapping": text_part(
+            f"JSON, as text or as a file: which column is what, in which unit, e.g. {MAPPING}", default="{}"
+        ),
     },
     "additionalProperties": False,
 }
@@ -153,17 +155,17 @@ def _chosen(log: LogRecord, names: tuple[str, ...]) -> tuple[str, ...]:
 async def _from_form(
     request: Request, desk: Desk, incoming: Incoming, *, name: str | None, mapping: str | None
 ) -> LogRecord:
-    async with open_form(request, longest_text=LONGEST_MAPPING) as form:
+    async with open_form(request, longest_text=LONGEST_TEXT_FILE) as form:
         refuse_unknown_parts(form, ("file", "mapping"))
         part = file_of(form, "file")
         name = name or part.filename or "log"
-        mapping = text_of(form, "mapping") or mapping
+        given = await text_of(form, "mapping")
         await receive_part(part, incoming)
-        return await _add(desk, incoming, name=name, mapping=mapping, kind=claimed_type(part))
+        return await _add(desk, incoming, name=name, mapping=given or mapping, kind=claimed_type(part))
 
 
 async def _add(
-    desk: Desk, incoming: Incoming, *, name: str, mapping: str | None, kind: str | None
+    desk: Desk, incoming: Incoming, *, name: str, mapping: bytes | str | None, kind: str | None
 ) -> LogRecord:
     columns = parse_object(mapping, what="the mapping")
     return await anyio.to_thread.run_sync(

@@ -8,6 +8,7 @@ import pickle  # noqa: TID251  (to show that it is refused)
 import numpy as np
 import pytest
 
+from app.uploads import LONGEST_TEXT_FILE
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns, csv_log, description
 
@@ -201,7 +202,8 @@ def test_a_broken_form_is_refused(client, headers, content, status):
         {"file": (None, "text instead of a file")},
         [("file", ("1.csv", csv_log(seconds=2.0))), ("file", ("2.csv", csv_log(seconds=3.0)))],
         {"file": ("log.csv", b"x", "text/csv"), "surprise": (None, "1")},
-        {"file": ("log.csv", b"x", "text/csv"), "mapping": ("mapping.json", b"{}", "application/json")},
+        [("file", ("log.csv", b"x")), ("mapping", (None, "{}")), ("mapping", ("mapping.json", b"{}"))],
+        [("file", ("log.csv", b"x")), ("mapping", ("mapping.json", b" " * (LONGEST_TEXT_FILE + 1)))],
     ],
 )
 def test_a_form_with_the_wrong_parts_is_refused(client, files):

@@ -45,8 +45,9 @@ def test_another_mapping_of_the_same_bytes_is_another_log(client, log_bytes):
     assert mapped["id"] != plain["id"]
     assert mapped["mapping"] == json.loads(mapping)
     assert client.delete(f"/v1/logs/{plain['id']}").status_code == 204
-    form = {"mapping": (None, mapping), "file": ("log", log_bytes, "text/csv")}
-    assert client.post("/v1/logs", files=form).json()["id"] == mapped["id"]
+    for part in ((None, "\ufeff" + mapping), ("mapping.json", b"\xef\xbb\xbf" + mapping.encode())):
+        form = {"mapping": part, "file": ("log", log_bytes, "text/csv")}
+        assert client.post("/v1/logs", files=form).json()["id"] == mapped["id"]
 
 
 def test_bytes_that_another_log_needs_outlive_a_deletion(client, log_bytes):
