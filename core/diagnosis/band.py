@@ -23,6 +23,10 @@ LARGEST_SHARE = 0.05
 NARROWEST = 10.0
 """A look is at least as wide as the fit's own filter, ten times the motion's band."""
 _POINTS = 5
+USUAL = 0.95
+"""Share of the samples by which the scatter of the stamps is measured, those that scatter least,"""
+USUAL_SQUARE = 0.759
+"""and what the mean square of so many of a normal distribution is to that of all."""
 """Neighbours that a fourth difference is of."""
 _LOOKS = 4
 
@@ -87,13 +91,20 @@ def _frictionless(believed: Prediction) -> Prediction:
 
 
 def position_noise(look: Look, *, over_stamps: bool) -> JointVector:
-    """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has."""
+    """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has.
+
+    Over the stamps that is the size without the largest: few stamps that are off spoil few rows.
+    """
     found = []
     for motion in look.motions:
         start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
         rows = motion.log.source.rows(start, min(stop, start + 65536))
         time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)
-        found.append(np.sqrt(np.mean(beyond_cubics(time, rows.position) ** 2, axis=0)))
+        squares = beyond_cubics(time, rows.position) ** 2
+        if over_stamps:
+            usual = int(USUAL * len(squares))
+            squares = np.partition(squares, usual, axis=0)[:usual] / USUAL_SQUARE
+        found.append(np.sqrt(np.mean(squares, axis=0)))
     return np.asarray(np.max(found, axis=0))
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from core.diagnosis.band import beyond_cubics
 from core.dynamics.model import standard_model
@@ -37,6 +38,23 @@ def test_stamps_that_scatter_are_noise_in_proportion_to_speed():
     speed = 6.0 / np.sqrt(2.0)
     assert rms(beyond_cubics(scattered(time), swing))[0] == pytest.approx(SCATTER * speed, rel=0.05)
     assert rms(beyond_cubics(time, swing))[0] < 0.01 * SCATTER * speed
+
+
+@pytest.mark.parametrize("off", [1, 20])
+def test_few_stamps_that_are_off_hide_no_late_torque(off):
+    """Of 5000: they spoil the rows beside them, and say nothing of the rest."""
+    state, late = swinging(3, 20.0), 1e-3
+    model = standard_model(skew_arm())
+    torque = model.torque(true_parameters(model), state)
+    time = np.arange(len(torque)) / ARM_RATE_HZ
+    torque = CubicSpline(time, torque)(np.clip(time - late, 0.0, None))
+    torque += 0.02 * np.random.default_rng(6).normal(size=torque.shape)
+    some = np.random.default_rng(3).choice(np.arange(100, len(time) - 100), off, replace=False)
+    stamps = time.copy()
+    stamps[some] += 0.3 / ARM_RATE_HZ
+    log = log_from_arrays("arm", stamps, state.position, torque)
+    found = diagnose(IdentifyRequest(skew_arm(), (log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
+    assert {"torque_filter_lag", "time_delay"} & {one["cause"] for one in found["findings"]}
 
 
 def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter():
