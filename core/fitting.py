@@ -66,11 +66,15 @@ def fitted(options: IdentifyOptions, fitting: Fitting, tell: Progress) -> Fitted
 
 
 def identified(
-    logs: tuple[JointLog, ...], options: IdentifyOptions, fitting: Fitting, tell: Progress
+    logs: tuple[JointLog, ...],
+    options: IdentifyOptions,
+    fitting: Fitting,
+    tell: Progress,
+    found: Fitted | None = None,
 ) -> Identification:
-    """Fit one model and judge it."""
+    """Fit one model, unless that was done already, and judge it."""
     data, base, model = fitting.data, fitting.base, fitting.base.model
-    found = fitted(options, fitting, tell)
+    found = fitted(options, fitting, tell) if found is None else found
     observation, used, system, prior = found.observation, found.used, found.system, found.prior
     answer, parts = found.estimate, data.parts(observation)
     tell("assess", 0.7)

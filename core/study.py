@@ -9,7 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from core.admission import admit, known_log
-from core.arrays import BaseParameters, Parameters
+from core.arrays import Parameters
 from core.diagnosis.diagnosis import Diagnosis
 from core.diagnosis.reference import PRIOR, Reference, reference_from_prior
 from core.diagnosis.verdict import Question
@@ -19,14 +19,13 @@ from core.errors import OptionError, SolverError, VeritorqueError
 from core.estimate.measured import Measured, smoothed
 from core.extension.extend import cures, extended_base, sizes, taken_along
 from core.extension.fold import folded
-from core.extension.gain import gains
+from core.extension.gain import JointGain, gains
 from core.extension.proving import proven
-from core.fitting import Fitting, Progress, fitted, identified
+from core.fitting import Fitted, Fitting, Progress, fitted, identified
 from core.log.model import JointLog
 from core.options import IdentifyOptions, parse_diagnose_options, parse_options
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
-from core.regressor.observe import Observation
 from core.report.compared import compared
 from core.report.diagnosed import Diagnosed
 from core.report.diagnosis_document import diagnosis_document
@@ -143,12 +142,13 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     question = Question(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
     found = find_causes(question, _within(tell, 0.3, 0.5))
     plain = Fitting(data, base, belief=None if reference is None else reference.belief)
-    found = _proven(found, options, plain, tell)
+    found, proof = _proven(found, options, plain, tell)
     as_it_is = None if reference is None else compared(reference, before, data.parts(before.observation))
     if not cures(found):
         return Diagnosed(before, found, None, (), None, "nothing joined the model", as_it_is)
     try:
-        after = identified(request.logs, options, _extended(found, plain), _within(tell, 0.8, 0.15))
+        joined, known = proof or (_extended(found, plain), None)
+        after = identified(request.logs, options, joined, _within(tell, 0.8, 0.15), known)
     except SolverError as error:  # what was found stands, whether or not the cure can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return Diagnosed(before, found, None, (), None, note, as_it_is)
@@ -167,14 +167,20 @@ def _extended(found: Diagnosis, fitting: Fitting) -> Fitting:
     return replace(fitting, data=replace(fitting.data, plan=plan), base=whole, sizes=sizes(found))
 
 
-def _proven(found: Diagnosis, options: IdentifyOptions, fitting: Fitting, tell: Progress) -> Diagnosis:
-    """Identify again with causes whose gain the search leaves in doubt."""
+def _proven(
+    found: Diagnosis, options: IdentifyOptions, fitting: Fitting, tell: Progress
+) -> tuple[Diagnosis, tuple[Fitting, Fitted] | None]:
+    """Identify again with causes whose gain the search leaves in doubt; give the last such fit if any."""
 
-    def tried(trial: Diagnosis) -> tuple[Observation, BaseParameters]:
-        answer = fitted(options, _extended(trial, fitting), lambda _stage, _done: tell("prove", 0.78))
-        return answer.observation, answer.estimate.base
+    def tried(trial: Diagnosis) -> tuple[Fitting, Fitted]:
+        joined = _extended(trial, fitting)
+        return joined, fitted(options, joined, lambda _stage, _done: tell("prove", 0.78))
 
-    return proven(found, tried, lambda observation: fitting.data.parts(observation)[1])
+    def gained(*fits: tuple[Fitting, Fitted]) -> tuple[JointGain, ...]:
+        now, then = ((one.observation, one.estimate.base) for _, one in fits)
+        return gains(now, then, fitting.data.parts(now[0])[1])
+
+    return proven(found, tried, gained)
 
 
 def _within(tell: Progress, begin: float, share: float) -> Progress:

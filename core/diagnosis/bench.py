@@ -186,6 +186,7 @@ class Bench:
             everyone = range(len(now.members))
             rest = ((*now.members[:one], *now.members[one + 1 :]) for one in everyone)
             kept[now] = tuple(self.tried(members, now) for members in rest)
+            self._now.trials.update({one: {} for one in kept[now]})
         return kept[now]
 
     def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
@@ -203,12 +204,13 @@ class Bench:
             return found
         return self.tried(members)
 
-    def beneath(self, trial: Hypothesis) -> Hypothesis:
-        """Fit a hypothesis without its last member, at the noise that it has with it.
+    def beneath(self, trial: Hypothesis, index: int) -> Hypothesis:
+        """Fit a hypothesis without one member, at the noise that it has with it.
 
         Scalars are settled on top of this: noise that has learned the effect hardly cares what they are.
         """
-        members, kept = trial.members[:-1], len(trial.fit.values) - trial.widths[-1]
+        members = (*trial.members[:index], *trial.members[index + 1 :])
+        kept = trial.columns_of(index).start
         columns = self.columns(members)
         found = refit(extended(self.base, columns), trial.fit, kept, rounds=0)
         return self._hypothesis(members, columns, found)

@@ -2,7 +2,8 @@
 
 A search adds one cause at a time. Where every torque is late, the first joint's share of that may pass for a
 spring and the next one's for bristles, until nothing is left for the delay to explain; no single swap leads
-back. So the search is made again from the whole robot's cause, and the better of the two ends is kept.
+back. So the search is made again from the whole robot's cause, until it comes to where the first one went on
+from, and the better of the two ends is kept.
 Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 """
 
@@ -33,8 +34,9 @@ def consolidated(bench: Bench, found: Selection) -> Selection:
         if start is None:
             continue
         steps = (*found.steps, Step("swapped", start.members[-1], rise(without, start)))
-        other = continued(bench, Selection(found.none, start, steps), {})
-        if criterion(other.chosen) > criterion(best.chosen) + INDIFFERENCE:
+        other = continued(bench, Selection(found.none, start, steps), {}, known=found.through)
+        met = other.chosen is not start and frozenset(other.chosen.by_key) in found.through
+        if not met and criterion(other.chosen) > criterion(best.chosen) + INDIFFERENCE:
             best, believe_best = other, bench.remembered()
     believe_best()
     return best

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import cho_factor
+from scipy.linalg.lapack import dpotrs
 
 from core.arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from core.diagnosis.belief import Belief
@@ -47,7 +48,7 @@ class Fit:
     values
         Coefficient of every column.
     factor
-        Cholesky factor of the columns' Gram matrix, scaled by `scale`.
+        Lower Cholesky factor of the columns' Gram matrix, scaled by `scale`.
     by_joint
         Log-likelihood of every joint's rows, noise model included.
     belief
@@ -59,7 +60,7 @@ class Fit:
     joints: tuple[Whitened, ...]
     left: tuple[Weights, ...]
     values: Vector
-    factor: tuple[np.ndarray, bool]
+    factor: SquareMatrix
     scale: Vector
     by_joint: JointVector
     belief: Belief | None = None
@@ -73,7 +74,7 @@ class Fit:
 
     def solve(self, right: Matrix) -> Matrix:
         """Give Gram^-1 times right-hand sides."""
-        return np.asarray(cho_solve(self.factor, right / self.scale[:, None]) / self.scale[:, None])
+        return _solution(self.factor, self.scale[:, None], right)
 
     @cached_property
     def covariance(self) -> SquareMatrix:
@@ -204,7 +205,7 @@ def _solved(joints: tuple[Whitened, ...], size: int, belief: Belief | None, plai
         gram[:believed, :believed] += belief.rows.T @ belief.rows
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
-    factor = cho_factor(scaled, lower=True)
+    factor, _ = cho_factor(scaled, lower=True)
     values = np.zeros(len(gram))
     left = tuple(one.torque for one in joints)
     for _ in range(STEPS):
@@ -213,7 +214,7 @@ def _solved(joints: tuple[Whitened, ...], size: int, belief: Belief | None, plai
             slope[one.acting] += one.columns.T @ rest
         if belief is not None:
             slope += belief.slope(values)
-        step = cho_solve(factor, slope / scale) / scale
+        step = _solution(factor, scale, slope)
         if float(slope @ step) < EXACT:
             break
         values = values + step
@@ -222,3 +223,9 @@ def _solved(joints: tuple[Whitened, ...], size: int, belief: Belief | None, plai
         [-0.5 * float(rest @ rest) - one.log_deviations for one, rest in zip(joints, left, strict=True)]
     )
     return Fit(joints, left, values, factor, scale, by_joint, belief, plain)
+
+
+def _solution(factor: SquareMatrix, scale: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solve the equations of a scaled Gram matrix, of which the lower factor is given."""
+    solved, _ = dpotrs(factor, right / scale, lower=1)
+    return np.asarray(solved / scale)

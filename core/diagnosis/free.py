@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import cho_solve_banded, cholesky_banded
-from scipy.linalg.lapack import dpstrf, dtbtrs
+from scipy.linalg import cholesky_banded
+from scipy.linalg.lapack import dpbtrs, dpstrf, dtbtrs
 from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Matrix, Vector, Weights
@@ -47,7 +47,7 @@ class Free:
         if not self.count:
             return rows
         for _ in range(2):
-            along = cho_solve_banded((self.factor, True), self.turned @ rows, check_finite=False)
+            along, _ = dpbtrs(self.factor, self.turned @ rows, lower=1)
             rows = rows - self.columns @ along
         return rows
 
@@ -55,8 +55,8 @@ class Free:
         """Give how much of each column, in the size it came in, a column over the same rows holds."""
         along = np.zeros(self.count)
         for _ in range(2 if self.count else 0):
-            left = self.turned @ (rows - self.columns @ along)
-            along += cho_solve_banded((self.factor, True), left, check_finite=False)
+            more, _ = dpbtrs(self.factor, self.turned @ (rows - self.columns @ along), lower=1)
+            along += more
         return np.asarray(along / self.sizes)
 
     def inside(self, rows: Matrix) -> EquationRows:

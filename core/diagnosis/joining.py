@@ -186,8 +186,14 @@ def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
 
 
 def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
-    """Add a candidate with refined scalars, and fit everything anew; how well they are known is left open."""
-    return bench.added(now, refined(bench, now, scored.candidate, on_trial=True))
+    """Add a candidate with refined scalars, and fit everything anew; how well they are known is left open.
+
+    What was fitted in a member's place to challenge it is not fitted again to weigh it.
+    """
+    kept, place = bench.suspicion.trials.get(now, {}), scored.candidate.place
+    if place not in kept:
+        kept[place] = bench.added(now, refined(bench, now, scored.candidate, on_trial=True))
+    return kept[place]
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
+from scipy.linalg.lapack import dtrtrs
 from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Indices, Matrix, Weights
@@ -104,7 +104,7 @@ class _Alike:
             squares[present] += np.diagonal(whole, axis1=1, axis2=2)
             grams[present] += whole - _grams(inside, width)
         flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
-        reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
+        reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
         return _judged(grams - _grams(reduced, width), right, squares)
 
 
@@ -146,7 +146,7 @@ def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, star
         spanned = (own.inside.T @ inside).reshape(len(own.acting), count, width)
         cross[:, own.acting] += sums.fitted - np.moveaxis(spanned, 0, 1)
     flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
-    reduced = solve_triangular(found.factor[0], flat / found.scale[:, None], lower=True)
+    reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
     return _judged(grams - _grams(reduced, width), right, squares)
 
 
@@ -215,13 +215,8 @@ def _tails(parts: np.ndarray) -> np.ndarray:
 
 def _grams(columns: Matrix, width: int) -> np.ndarray:
     """Give the Gram matrix of every so many columns."""
-    parts = columns.reshape(len(columns), columns.shape[1] // width, width)
-    out = np.empty((parts.shape[1], width, width))
-    for one in range(width):
-        for other in range(one, width):
-            out[:, one, other] = np.einsum("ij,ij->j", parts[:, :, one], parts[:, :, other])
-            out[:, other, one] = out[:, one, other]
-    return out
+    parts = np.moveaxis(columns.reshape(len(columns), columns.shape[1] // width, width), 1, 0)
+    return np.asarray(np.swapaxes(parts, 1, 2) @ parts)
 
 
 def _judged(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:

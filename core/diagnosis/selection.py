@@ -5,7 +5,7 @@ others; so after every step each chosen cause has to defend its place against be
 rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,8 @@ from core.diagnosis.leftovers import BESIDE_SHARE, left_over
 from core.diagnosis.rise import merit, rise
 from core.diagnosis.settling import settled
 
+Keys = frozenset[Key]
+"""The kinds of a hypothesis's members."""
 RIVALS, BETTER = 6, 6.0
 """Candidates fitted where one is to take a member's place, and by how much its criterion has to be better."""
 MOST = 5
@@ -34,11 +36,18 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Selection:
-    """Hold the hypothesis that was settled on, the empty one, and the way there."""
+    """Hold the hypothesis that was settled on, the empty one, and the way there.
+
+    Attributes
+    ----------
+    steps, through
+        What was decided on the way, and the sets of causes that it came through.
+    """
 
     none: Hypothesis
     chosen: Hypothesis
     steps: tuple[Step, ...]
+    through: frozenset[Keys] = frozenset()
 
 
 def select(
@@ -53,7 +62,7 @@ def select(
     bench.believe(none)
     now = settled(bench, bench.tried(tuple(start))) if start else none
     kept = tuple(Step("kept", one, 0.0) for one in start)
-    return continued(bench, Selection(none, now, kept), {}, progress, bench.needs_ordinary_noise)
+    return continued(bench, Selection(none, now, kept), {}, progress, over=bench.needs_ordinary_noise)
 
 
 def continued(
@@ -61,10 +70,20 @@ def continued(
     so_far: Selection,
     given_up: dict[Key, float],
     progress: Callable[[float], None] | None = None,
+    *,
     over: Callable[[Hypothesis], bool] | None = None,
+    known: Collection[Keys] = (),
 ) -> Selection:
-    """Search for more causes than those found so far, until that is over or no more are found."""
-    now, steps = so_far.chosen, list(so_far.steps)
+    """Search for more causes than those found so far, until no more are found.
+
+    Parameters
+    ----------
+    over
+        Tells whether the search is over with what a cause has just joined.
+    known
+        Sets of causes from which another search went on: one that comes to them would go the same way.
+    """
+    now, steps, through = so_far.chosen, list(so_far.steps), set(so_far.through)
     for number in range(len(now.members), MOST):
         if progress is not None:
             progress(number / MOST)
@@ -82,8 +101,11 @@ def continued(
         if over is not None and over(larger):
             now = larger
             break
-        now = _defended(bench, larger, steps, given_up)
-    return Selection(so_far.none, now, tuple(steps))
+        for now in _defended(bench, larger, steps, given_up):
+            through.add(frozenset(now.by_key))
+            if frozenset(now.by_key) in known:
+                return Selection(so_far.none, now, tuple(steps), frozenset(through))
+    return Selection(so_far.none, now, tuple(steps), frozenset(through))
 
 
 def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
@@ -95,17 +117,20 @@ def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
     return None if first is None else settled(bench, first)
 
 
-def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]) -> Hypothesis:
-    """Let every member defend its place against being dropped and against its rivals.
+def _defended(
+    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
+) -> Iterator[Hypothesis]:
+    """Let every member defend its place against being dropped and against its rivals; give what that leaves.
 
     Two causes can each look better than the other where the other is believed: a swap that leads back to
     what was settled before ends the matter.
     """
+    yield now
     settled_before = [now.by_key.keys()]
     for _ in range(2 * MOST):
         changed = _challenged(bench, now, steps, given_up)
         if changed is None:
-            return now
+            return
         if len(changed.members) == len(now.members):
             # What was swapped out is not believed any more, even where the new one is left alone.
             bench.believe(bench.tried(changed.members[:-1], changed))
@@ -113,10 +138,10 @@ def _defended(bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[K
         else:
             bench.believe(changed)
             now = bench.tried(changed.members, changed)
+        yield now
         if now.by_key.keys() in settled_before:
-            return now
+            return
         settled_before.append(now.by_key.keys())
-    return now
 
 
 def _challenged(

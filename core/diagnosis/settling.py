@@ -8,7 +8,7 @@ it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on settling nonli
 from dataclasses import replace
 
 from core.diagnosis.bench import Bench
-from core.diagnosis.hypothesis import Hypothesis
+from core.diagnosis.hypothesis import Candidate, Hypothesis
 from core.diagnosis.rise import rise
 from core.diagnosis.scalars import refined, told
 
@@ -31,7 +31,7 @@ def settled(bench: Bench, better: Hypothesis) -> Hypothesis:
     impossible, believe_now = better.possible and not now.allows(-1), bench.remembered()
     believe_first()
     if impossible or _costs_too_much(bench, better, now):
-        return _last_settled(bench, better)
+        return _with_settled(bench, better, len(better.members) - 1)
     believe_now()
     for _ in range(SETTLINGS - 1):
         believe_before = bench.remembered()
@@ -54,19 +54,21 @@ def _costs_too_much(bench: Bench, better: Hypothesis, now: Hypothesis) -> bool:
 def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
     """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first."""
     bench.believe(better)
-    now = bench.tried(better.members, better)
-    for turn in range(len(now.members)):
-        if turn:
-            now = bench.tried((*now.members[1:], now.members[0]), now)
-        now = _last_settled(bench, now)
-    return now if len(now.members) < 2 else bench.tried((*now.members[1:], now.members[0]), now)
+    now, last = bench.tried(better.members, better), len(better.members) - 1
+    for index in (last, *range(last)):
+        now = _with_settled(bench, now, index)
+    return now
 
 
-def _last_settled(bench: Bench, now: Hypothesis) -> Hypothesis:
-    """Settle the last member; where nature would not allow that, leave it and tell how well it is known."""
-    member, before = now.members[-1], bench.beneath(now)
-    found = bench.scanned(before, [*bench.suspicion.of_kind(member.key), member])[0]
-    moved = bench.tried((*before.members, refined(bench, before, found.candidate)), now)
+def _with_settled(bench: Bench, now: Hypothesis, index: int) -> Hypothesis:
+    """Settle one member; where nature would not allow that, leave it and tell how well it is known."""
+    member, beneath = now.members[index], bench.beneath(now, index)
+    found = bench.scanned(beneath, [*bench.suspicion.of_kind(member.key), member])[0]
+    moved = bench.tried(_put(now.members, index, refined(bench, beneath, found.candidate)), now)
     if moved.possible or not now.possible:
         return moved
-    return replace(now, members=(*before.members, told(bench, before, member)))
+    return replace(now, members=_put(now.members, index, told(bench, beneath, member)))
+
+
+def _put(members: tuple[Candidate, ...], index: int, member: Candidate) -> tuple[Candidate, ...]:
+    return (*members[:index], member, *members[index + 1 :])

@@ -35,6 +35,8 @@ class Suspicion:
         Per hypothesis, what a scan of all candidates on top of it gave.
     less
         The last hypotheses that were taken apart, and what each is without either of its members.
+    trials
+        What each of these is with the candidates that were fitted in a member's place.
     """
 
     causes: tuple[Cause, ...]
@@ -44,6 +46,7 @@ class Suspicion:
     columns: dict[Place, Columns] = field(default_factory=dict)
     scans: WeakKeyDictionary[Hypothesis, list[Scored]] = field(default_factory=WeakKeyDictionary)
     less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
+    trials: WeakKeyDictionary[Hypothesis, dict[Place, Hypothesis]] = field(default_factory=WeakKeyDictionary)
     _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
 
     @cached_property

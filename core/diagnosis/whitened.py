@@ -64,6 +64,14 @@ class Whitened:
         """Keep the first columns and put others, not yet white, beside them."""
         own = int(np.searchsorted(self.acting, kept))
         before, inside_before = self.columns[:, :own], self.inside[:, :own]
+        if not further.any():
+            return replace(
+                self,
+                acting=self.acting[:own],
+                columns=before,
+                inside=inside_before,
+                gram=self.gram[:own, :own],
+            )
         new, white, inside = _white(self.whitening, self.free, further)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]

@@ -7,30 +7,32 @@ better, the cause belongs to the model.
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
-from core.arrays import BaseParameters
 from core.diagnosis.diagnosis import Diagnosis, Evidence, Finding
 from core.errors import SolverError
 from core.extension.extend import gains_surely
-from core.extension.gain import JointGain, gains
-from core.regressor.observe import Observation
+from core.extension.gain import JointGain
 
-Answer = tuple[Observation, BaseParameters]
+Answer = TypeVar("Answer")
+"""What an identification gives."""
 
 
 def proven(
     diagnosis: Diagnosis,
     tried: Callable[[Diagnosis], Answer],
-    held: Callable[[Observation], tuple[int, ...]],
-) -> Diagnosis:
+    gained: Callable[[Answer, Answer], tuple[JointGain, ...]],
+) -> tuple[Diagnosis, Answer | None]:
     """Mark the findings without which the held-out blocks are surely predicted worse.
+
+    Gives, besides, what identifying with all findings then beyond doubt gave, if that was asked for.
 
     Parameters
     ----------
     tried
         Identifies with all findings whose gain is beyond doubt.
-    held
-        Gives the places of the held-out blocks.
+    gained
+        Tells what one identification gains over another on the held-out blocks.
     """
     now: Answer | None = None
     for place, finding in enumerate(diagnosis.findings):
@@ -40,14 +42,14 @@ def proven(
         findings[place] = replace(finding, proven=True)
         trial = replace(diagnosis, findings=tuple(findings))
         try:
-            now = now or tried(diagnosis)
+            now = tried(diagnosis) if now is None else now
             then = tried(trial)
         except SolverError:  # with it there is no answer
             continue
-        if shown := _shown(finding, gains(now, then, held(now[0]))):
+        if shown := _shown(finding, gained(now, then)):
             findings[place] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
             diagnosis, now = replace(diagnosis, findings=tuple(findings)), then
-    return diagnosis
+    return diagnosis, now
 
 
 def _shown(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:

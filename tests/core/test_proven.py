@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import core.fitting
 import core.study
 from core.diagnosis.diagnosis import Diagnosis
 from core.errors import SolverError
@@ -38,6 +39,20 @@ def test_a_cause_in_doubt_joins_the_model_where_unseen_motion_is_surely_predicte
     assert "joint 2" in shown.statement
     np.testing.assert_allclose(shown.value, gain.improvement_percent, rtol=0.05)
     assert gain.interval_95[0] > 0.0
+
+
+def test_what_proved_itself_is_not_identified_once_more(monkeypatch):
+    fits = []
+
+    def fitted(*asked):
+        fits.append(core.fitting.fitted(*asked))
+        return fits[-1]
+
+    monkeypatch.setattr(core.study, "fitted", fitted)
+    found = studied(monkeypatch, HIDDEN)
+    assert len(fits) == 2
+    assert found.after.observation is fits[-1].observation
+    assert found.after.estimate is fits[-1].estimate
 
 
 def test_proving_is_told_of_between_the_search_and_the_cure(monkeypatch):

@@ -115,8 +115,9 @@ class _Search:
                     seen = self.ordered[0] <= 0.5 * (trial[0] + trial[1]) <= self.ordered[-1]
                     if not (lasts and seen and _apart(trial, others)):
                         continue
-                    if self.worth(trial) > best:
-                        span, best, improved = trial, self.worth(trial), True
+                    worth = self.worth(trial)
+                    if worth > best:
+                        span, best, improved = trial, worth, True
             step /= 2.0
         return span
 

@@ -7,6 +7,7 @@ rigid model predicts them. The column is the change of all loads by that twist, 
 Source: Nordin & Gutman, Automatica 38(10), 2002.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -57,28 +58,27 @@ def twist_of(free: Samples, step: float, half_width: float) -> Samples:
     array([ 1.5,  1.5,  1. , -0.5, -1.5, -1.5])
     """
     out = np.empty(len(free))
-    pulls, back, ahead = free.tolist(), _next(free < 0.0), _next(free > 0.0)
-    twist, rate, sample = float(np.copysign(half_width, free[0])), 0.0, 0
+    pulls, back, ahead = free.tolist(), np.flatnonzero(free < 0.0), np.flatnonzero(free > 0.0)
+    twist, sample = float(np.copysign(half_width, free[0])), 0
     while sample < len(free):
-        if rate == 0.0 and abs(twist) == half_width:
-            leaves = back[sample] if twist > 0.0 else ahead[sample]
-            out[sample:leaves] = twist
-            sample = leaves
-            if sample == len(free):
-                break
-        pull = pulls[sample]
-        rate += step * pull
-        after = twist + step * rate - 0.5 * step * step * pull
-        twist = min(max(after, -half_width), half_width)
-        if twist != after:
-            rate = 0.0
-        out[sample] = twist
-        sample += 1
+        turning = back if twist > 0.0 else ahead
+        leaves = int(next(iter(turning[turning.searchsorted(sample) :]), len(free)))
+        out[sample:leaves] = twist
+        flight = _flight(pulls, leaves, twist, step, half_width)
+        sample = leaves + len(flight)
+        out[leaves:sample] = flight
+        twist = float(out[sample - 1])
     return out
 
 
-def _next(marks: np.ndarray) -> list[int]:
-    """Give, for every sample, the first marked one from there on; their number where there is none."""
-    places = np.where(marks, np.arange(len(marks)), len(marks))
-    found: list[int] = np.minimum.accumulate(places[::-1])[::-1].tolist()
-    return found
+def _flight(pulls: Sequence[float], leaves: int, twist: float, step: float, half_width: float) -> list[float]:
+    """Follow the twist across the gap from some sample on, until it is at a side or there is no more pull."""
+    flight, rate = [], 0.0
+    for sample in range(leaves, len(pulls)):
+        rate += step * pulls[sample]
+        twist = twist + step * rate - 0.5 * step * step * pulls[sample]
+        if not -half_width <= twist <= half_width:
+            flight.append(half_width if twist > 0.0 else -half_width)
+            break
+        flight.append(twist)
+    return flight

@@ -90,7 +90,7 @@ def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found()
     bench.believe(nothing_found(bench))
     member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
     whole = bench.tried((member,))
-    (found,) = bench.scanned(bench.beneath(whole), [member])
+    (found,) = bench.scanned(bench.beneath(whole, len(whole.members) - 1), [member])
     np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
 
 

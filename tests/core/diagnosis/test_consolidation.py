@@ -1,5 +1,7 @@
 """One cause of the whole robot takes the place of several found joint by joint where it explains better."""
 
+from dataclasses import replace
+
 import pytest
 
 from core.diagnosis.consolidation import consolidated, criterion, reconsidered
@@ -59,6 +61,30 @@ def test_a_search_that_begins_with_the_whole_goes_on_from_there():
     bench, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
     better = consolidated(bench, found)
     assert named(better) == ["whole", "quickest"]
+
+
+def test_a_search_that_comes_to_where_the_first_one_went_on_from_ends_there():
+    bench, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
+    end = frozenset(consolidated(bench, found).chosen.by_key)
+    found = replace(found, through=frozenset({end}))
+    assert consolidated(bench, found) is found
+
+
+def test_a_search_that_stays_where_it_began_has_met_no_other():
+    bench, found = found_one_by_one()
+    better = consolidated(bench, found)
+    found = replace(found, through=frozenset({frozenset(better.chosen.by_key)}))
+    assert named(consolidated(bench, found)) == ["whole"]
+
+
+def test_a_search_tells_what_sets_of_causes_it_came_through():
+    waves = (("quick", 7.0, 0.6), ("slow", 4.0, 0.3))
+    bench = bench_of(
+        measured_arm(wave_effect({rate: size for _, rate, size in waves})),
+        [wave_cause(name, {rate: 1.0}) for name, rate, _ in waves],
+    )
+    quick, slow = (one.key for one in select(bench).chosen.members)
+    assert select(bench).through == {frozenset({quick}), frozenset({quick, slow})}
 
 
 def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
