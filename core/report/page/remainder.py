@@ -60,7 +60,7 @@ def _said(left: Document) -> list[str]:
         "residual still follows the motion: a cause that is not in the list, or one that this log cannot "
         "separate."
         if foretold
-        else "A generic learner, given angles, speeds, loads and time, cannot predict the residual of "
+        else "A generic learner, given positions, speeds, loads and time, cannot predict the residual of "
         f"{others} on data it has not seen."
     )
     if pattern:

@@ -19,7 +19,7 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 _COORDINATES = {
     "time": "time",
-    "position": "angle",
+    "position": "position",
     "velocity": "speed",
     "acceleration": "acceleration",
     "load": "torque through the gear, as predicted",
@@ -236,7 +236,7 @@ def coordinate(name: str, joint: int) -> str:
     Examples
     --------
     >>> coordinate("position", 4), coordinate("velocity_of_joint_2", 3)
-    ('angle of joint 4', 'speed of joint 2')
+    ('position of joint 4', 'speed of joint 2')
     """
     if name.startswith("velocity_of_joint_"):
         return f"speed of joint {name.removeprefix('velocity_of_joint_')}"
