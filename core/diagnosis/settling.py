@@ -63,7 +63,7 @@ def _settled_once(bench: Bench, better: Hypothesis) -> Hypothesis:
 def _with_settled(bench: Bench, now: Hypothesis, index: int) -> Hypothesis:
     """Settle one member; where nature would not allow that, leave it and tell how well it is known."""
     member, beneath = now.members[index], bench.beneath(now, index)
-    found = bench.scanned(beneath, [*bench.suspicion.of_kind(member.key), member])[0]
+    found = bench.scanned(beneath, [*bench.suspicion.of(member.cause, member.site), member])[0]
     moved = bench.tried(_put(now.members, index, refined(bench, beneath, found.candidate)), now)
     if moved.possible or not now.possible:
         return moved

@@ -151,6 +151,6 @@ def test_a_search_that_never_looks_back_is_seen(monkeypatch):
     law = test_selection.test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found
     law()
     monkeypatch.setattr(test_selection, "misled", test_selection.misled.__wrapped__)
-    monkeypatch.setattr(selection, "_defended", lambda bench, now, *rest: now)
+    monkeypatch.setattr(selection, "_defended", lambda bench, now, *rest: [now])
     with pytest.raises(AssertionError):
         law()
