@@ -147,8 +147,8 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     if not cures(found):
         return Diagnosed(before, found, None, (), None, "nothing joined the model", as_it_is)
     try:
-        joined, known = proof or (_extended(found, plain), None)
-        after = identified(request.logs, options, joined, _within(tell, 0.8, 0.15), known)
+        joined, fit = proof or (_extended(found, plain), None)
+        after = identified(request.logs, options, joined, _within(tell, 0.8, 0.15), fit)
     except SolverError as error:  # what was found stands, whether or not the cure can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return Diagnosed(before, found, None, (), None, note, as_it_is)

@@ -23,11 +23,11 @@ LARGEST_SHARE = 0.05
 NARROWEST = 10.0
 """A look is at least as wide as the fit's own filter, ten times the motion's band."""
 _POINTS = 5
+"""Neighbours that a fourth difference is of."""
 USUAL = 0.95
 """Share of the samples by which the scatter of the stamps is measured, those that scatter least,"""
 USUAL_SQUARE = 0.759
 """and what the mean square of so many of a normal distribution is to that of all."""
-"""Neighbours that a fourth difference is of."""
 _LOOKS = 4
 
 Fitted = tuple[Look, Prediction, tuple[JointNoise, ...]]
