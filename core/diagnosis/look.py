@@ -6,18 +6,30 @@ most. Rows within the filter's main lobe of a velocity reversal are set apart: t
 velocity is not the direction of friction. Long logs are looked at in evenly spread stretches.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from core.arrays import BlockKey, Indices, JointMask, JointSeries, JointVector, Samples, UsableRows
+from core.arrays import (
+    BlockKey,
+    Indices,
+    JointMask,
+    JointSeries,
+    JointVector,
+    KeptSeries,
+    Samples,
+    Series,
+    UsableRows,
+)
+from core.diagnosis.body import body_rows
 from core.diagnosis.piece import pieces_of, thinning
 from core.diagnosis.stretch import Stretch
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
+from core.dynamics.terms.payload import Payload
 from core.errors import ExcitationError
 from core.log.model import JointLog
 from core.regressor.columns import ColumnPlan
@@ -33,7 +45,8 @@ ROWS_OVER_BAND = 2.5
 ORDER = 2
 """A gentle filter: what happens at a reversal rings on for one period of the cut-off, not for three."""
 LONGEST_SECONDS = 120.0
-_BATCH = 256
+BATCH = 64
+"""Series that are filtered at once: as many as stay near the processor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,14 +140,9 @@ class Look:
             for entries, width in shapes
         ]
         for stretch in self.stretches:
-            for batch in _batches(shapes):
-                series = np.vstack([terms[index].series(self.robot, stretch.state) for index in batch])
-                filtered = stretch.filtered(series)
-                row = 0
-                for index in batch:
-                    for joint, parameter in shapes[index][0]:
-                        out[index][joint][stretch.rows, parameter] += filtered[row]
-                        row += 1
+            for index, filtered in _filtered(terms, self.robot, stretch):
+                for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
+                    out[index][joint][stretch.rows, parameter] += row
         return out
 
 
@@ -232,14 +240,22 @@ def _joined(states: list[MotionState]) -> MotionState:
     )
 
 
-def _batches(shapes: list[tuple[tuple[tuple[int, int], ...], int]]) -> list[list[int]]:
-    """Group terms so that a batch has a few hundred series."""
-    groups: list[list[int]] = [[]]
-    size = 0
-    for index, (entries, _) in enumerate(shapes):
-        if size + len(entries) > _BATCH and groups[-1]:
-            groups.append([])
-            size = 0
-        groups[-1].append(index)
-        size += len(entries)
-    return [group for group in groups if group]
+def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+    """Filter the series of some terms over a stretch; give each term's with its number."""
+    batch: dict[int, Series] = {}
+    for index, term in enumerate(terms):
+        if isinstance(term, Payload):
+            yield index, body_rows(term, robot, stretch)
+            continue
+        batch[index] = term.series(robot, stretch.state)
+        if sum(len(one) for one in batch.values()) >= BATCH:
+            yield from _filtered_together(batch, stretch)
+            batch.clear()
+    if batch:
+        yield from _filtered_together(batch, stretch)
+
+
+def _filtered_together(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+    ends = np.cumsum([len(one) for one in batch.values()])[:-1]
+    filtered = stretch.filtered(np.vstack(list(batch.values())))
+    yield from zip(batch, np.split(filtered, ends), strict=True)

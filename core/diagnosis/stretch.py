@@ -46,3 +46,19 @@ class Stretch:
         low, high = (min(max(one, 0), self.kept) for one in (low, high))
         first = self.first + low * parallel.decimation - begin
         return low, parallel.apply(series, first, high - low)
+
+    def begun(self, series: Series, filtered: KeptSeries, begin: int) -> KeptSeries:
+        """Filter series as if they were zero before a sample, from what filtering all of them gave.
+
+        Only instants that see samples of both kinds are filtered anew.
+        """
+        parallel = self.parallel
+        low, high = (
+            min(max(-(-(begin + side * parallel.reach - self.first) // parallel.decimation), 0), self.kept)
+            for side in (-1, 1)
+        )
+        out = filtered.copy()
+        out[:, :low] = 0.0
+        first = self.first + low * parallel.decimation - begin
+        out[:, low:high] = parallel.apply(series[:, begin:], first, high - low)
+        return out
