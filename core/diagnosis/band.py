@@ -10,8 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
+from scipy.stats import median_abs_deviation
 
-from core.arrays import JointSeries, JointVector, Matrix, Samples
+from core.arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from core.diagnosis.look import BAND_OVER_MOTION, Look
 from core.diagnosis.noise import JointNoise, places
 from core.diagnosis.raw import disturbance
@@ -24,10 +25,11 @@ NARROWEST = 10.0
 """A look is at least as wide as the fit's own filter, ten times the motion's band."""
 _POINTS = 5
 """Neighbours that a fourth difference is of."""
-USUAL = 0.95
-"""Share of the samples by which the scatter of the stamps is measured, those that scatter least,"""
-USUAL_SQUARE = 0.759
-"""and what the mean square of so many of a normal distribution is to that of all."""
+OFF, FEW = 6.0, 0.025
+"""A stamp is off by so many deviations from its neighbours, and few are where so small a share of all samples
+lies beside one: they spoil the rows there, and say nothing of the rest."""
+LEAST_OFF = 1e-3
+"""Share of the time from stamp to stamp below which none is off."""
 _LOOKS = 4
 
 Fitted = tuple[Look, Prediction, tuple[JointNoise, ...]]
@@ -93,19 +95,34 @@ def _frictionless(believed: Prediction) -> Prediction:
 def position_noise(look: Look, *, over_stamps: bool) -> JointVector:
     """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has.
 
-    Over the stamps that is the size without the largest: few stamps that are off spoil few rows.
+    Over the stamps that is without the samples beside stamps that are off, where these are few.
     """
     found = []
     for motion in look.motions:
         start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
         rows = motion.log.source.rows(start, min(stop, start + 65536))
         time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)
-        squares = beyond_cubics(time, rows.position) ** 2
+        beyond = beyond_cubics(time, rows.position)
         if over_stamps:
-            usual = int(USUAL * len(squares))
-            squares = np.partition(squares, usual, axis=0)[:usual] / USUAL_SQUARE
-        found.append(np.sqrt(np.mean(squares, axis=0)))
+            beyond = beyond[~few_off(rows.time)]
+        found.append(np.sqrt(np.mean(beyond**2, axis=0)))
     return np.asarray(np.max(found, axis=0))
+
+
+def few_off(stamps: Samples) -> Mask:
+    """Mark the groups of five neighbours among which a stamp is off; none where that is not rare.
+
+    Examples
+    --------
+    >>> stamps = np.arange(1000.0)
+    >>> stamps[500] += 0.3
+    >>> np.flatnonzero(few_off(stamps))
+    array([496, 497, 498, 499, 500])
+    """
+    scatter = beyond_cubics(np.arange(len(stamps), dtype=float), stamps[:, None])[:, 0]
+    usual = float(median_abs_deviation(scatter, scale="normal"))
+    off = np.abs(scatter) > max(OFF * usual, LEAST_OFF * float(np.median(np.diff(stamps))))
+    return np.asarray(off & (off.mean() <= FEW))
 
 
 def beyond_cubics(time: Samples, position: JointSeries) -> Matrix:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from core.diagnosis.band import beyond_cubics
+from core.diagnosis.band import beyond_cubics, few_off
 from core.dynamics.model import standard_model
 from core.log.reader import log_from_arrays
 from core.study import IdentifyRequest, diagnose
@@ -16,8 +16,8 @@ SCATTER = 6e-5
 """Of the stamps, s."""
 
 
-def scattered(time: np.ndarray, seed: int = 4) -> np.ndarray:
-    return time + SCATTER * np.random.default_rng(seed).normal(size=len(time))
+def scattered(time: np.ndarray, seed: int = 4, scatter: float = SCATTER) -> np.ndarray:
+    return time + scatter * np.random.default_rng(seed).normal(size=len(time))
 
 
 def rms(values: np.ndarray) -> np.ndarray:
@@ -57,11 +57,27 @@ def test_few_stamps_that_are_off_hide_no_late_torque(off):
     assert {"torque_filter_lag", "time_delay"} & {one["cause"] for one in found["findings"]}
 
 
-def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter():
-    state = swinging(3, 20.0)
+@pytest.mark.parametrize(("scatter", "seconds", "noise"), [(SCATTER, 20.0, 0.02), (3e-4, 12.0, 0.05)])
+def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter(
+    scatter, seconds, noise
+):
+    state, rng = swinging(3, seconds), np.random.default_rng(11)
     model = standard_model(skew_arm())
     torque = model.torque(true_parameters(model), state)
-    torque += 0.02 * np.random.default_rng(6).normal(size=torque.shape)
-    log = log_from_arrays("arm", scattered(np.arange(len(torque)) / ARM_RATE_HZ), state.position, torque)
+    torque += noise * rng.normal(size=torque.shape)
+    time = scattered(np.arange(len(torque)) / ARM_RATE_HZ, scatter=scatter)
+    log = log_from_arrays("arm", time, state.position, torque)
     found = diagnose(IdentifyRequest(skew_arm(), (log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
     assert [one["cause"] for one in found["findings"]] == ["timestamp_jitter"]
+
+
+def test_a_stamp_is_off_beside_others_that_scatter_less():
+    time, off = np.arange(5000) / ARM_RATE_HZ, 0.3 / ARM_RATE_HZ
+    assert not few_off(time).any()
+    assert not few_off(scattered(time)).any()
+    stamps = scattered(time)
+    stamps[[700, 3000]] += off
+    assert set(np.flatnonzero(few_off(stamps))) >= {698, 2998}
+    assert few_off(stamps).sum() <= 10
+    stamps[::100] += off
+    assert not few_off(stamps).any()
