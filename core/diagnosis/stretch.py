@@ -40,25 +40,26 @@ class Stretch:
 
         Give the first kept instant that sees them, and what all those that do keep.
         """
-        parallel, end = self.parallel, begin + series.shape[1]
-        low = -(-(begin - parallel.reach - self.first) // parallel.decimation)
-        high = (end - 1 + parallel.reach - self.first) // parallel.decimation + 1
-        low, high = (min(max(one, 0), self.kept) for one in (low, high))
-        first = self.first + low * parallel.decimation - begin
-        return low, parallel.apply(series, first, high - low)
+        reach = self.parallel.reach
+        low, high = self._kept_from(begin - reach), self._kept_from(begin + series.shape[1] + reach)
+        return low, self._kept_of(series, begin, low, high)
 
     def begun(self, series: Series, filtered: KeptSeries, begin: int) -> KeptSeries:
         """Filter series as if they were zero before a sample, from what filtering all of them gave.
 
         Only instants that see samples of both kinds are filtered anew.
         """
-        parallel = self.parallel
-        low, high = (
-            min(max(-(-(begin + side * parallel.reach - self.first) // parallel.decimation), 0), self.kept)
-            for side in (-1, 1)
-        )
+        reach = self.parallel.reach
+        low, high = self._kept_from(begin - reach), self._kept_from(begin + reach)
         out = filtered.copy()
         out[:, :low] = 0.0
-        first = self.first + low * parallel.decimation - begin
-        out[:, low:high] = parallel.apply(series[:, begin:], first, high - low)
+        out[:, low:high] = self._kept_of(series[:, begin:], begin, low, high)
         return out
+
+    def _kept_from(self, sample: int) -> int:
+        """Give the first kept instant that lies at a sample or behind it."""
+        return min(max(-(-(sample - self.first) // self.parallel.decimation), 0), self.kept)
+
+    def _kept_of(self, series: Series, begin: int, low: int, high: int) -> KeptSeries:
+        """Filter series that begin at a sample, and keep some of this stretch's instants."""
+        return self.parallel.apply(series, self.first + low * self.parallel.decimation - begin, high - low)
