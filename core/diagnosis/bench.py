@@ -17,6 +17,7 @@ from core.diagnosis.cause import Cause
 from core.diagnosis.equations import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 from core.diagnosis.look import Look
+from core.diagnosis.ranking import Ranking, ranking_under
 from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Panel, Score, score, score_from
 from core.diagnosis.suspicion import Suspicion, joined_by
@@ -66,15 +67,11 @@ class Bench:
         self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
         self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
         self._lasting: dict[Place, Columns] = {}
-        self._panels: WeakKeyDictionary[Suspicion, Panel] = WeakKeyDictionary()
+        self._panels: WeakKeyDictionary[Ranking, Panel] = WeakKeyDictionary()
         self._ordinary = False
-        self._believe_nothing()
-
-    def _believe_nothing(self) -> None:
-        """Begin with a belief that ranks no candidates like any other."""
-        standard = np.zeros(len(self.plan.model.parameters))
-        nothing = Prediction(self.plan.model, standard, inverse_dynamics)
-        self._now = self._ranked = Suspicion((), self.look, self.look, nothing)
+        nothing = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
+        self._now = Suspicion((), look, look, nothing)
+        self._ranking = ranking_under(self._now)
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -89,10 +86,10 @@ class Bench:
 
     def remembered(self) -> Callable[[], None]:
         """Give what brings back what is believed now, after something else was."""
-        now, ranked = self._now, self._ranked
+        now, ranking = self._now, self._ranking
 
         def believe_again() -> None:
-            self._now, self._ranked = now, ranked
+            self._now, self._ranking = now, ranking
 
         return believe_again
 
@@ -107,15 +104,14 @@ class Bench:
 
     @property
     def candidates(self) -> tuple[Candidate, ...]:
-        """Give everything that is suspected, as it was under an earlier belief that ranks it alike."""
-        return (*self._ranked_like_now.lasting, *self._now.events)
+        """Give everything that is suspected, as it was under earlier beliefs that rank it alike."""
+        return (*self._ranked_like_now.candidates, *self._now.events)
 
     @property
-    def _ranked_like_now(self) -> Suspicion:
-        """Give the earliest suspicion since which no other belief would rank candidates otherwise."""
-        if not self._ranked.ranks_like(self._now):
-            self._ranked = self._now
-        return self._ranked
+    def _ranked_like_now(self) -> Ranking:
+        """Give what no other belief since it was ranked would rank otherwise."""
+        self._ranking = self._ranking.under(self._now)
+        return self._ranking
 
     @property
     def suspicion(self) -> Suspicion:
@@ -239,21 +235,21 @@ class Bench:
         return scans[under]
 
     def _scan(self, under: Hypothesis) -> list[Scored]:
-        """Score everything that is suspected, the best anew where columns are of an earlier belief."""
-        ranked, events = self._ranked_like_now, self._now.events
-        asked = (*ranked.lasting, *events)
-        scores = [*self._panel(ranked).scores(under.fit), *self.scored(under, events)]
+        """Score everything that is suspected, the best anew where columns may be of an earlier belief."""
+        ranking, events = self._ranked_like_now, self._now.events
+        asked = (*ranking.candidates, *events)
+        scores = [*self._panel(ranking).scores(under.fit), *self.scored(under, events)]
         found = best_of_kinds(asked, scores)
-        if ranked is self._now:
+        if ranking.of(self._now):
             return found
         again = self.scanned(under, [one.candidate for one in found[:SCORED_ANEW]])
         return sorted([*again, *found[SCORED_ANEW:]], key=lambda one: one.log_p)
 
-    def _panel(self, ranked: Suspicion) -> Panel:
+    def _panel(self, ranking: Ranking) -> Panel:
         """Give what scores all that is suspected all along the motion."""
-        if ranked not in self._panels:
-            self._panels[ranked] = Panel(self.base, self._columns(ranked.lasting, ranked))
-        return self._panels[ranked]
+        if ranking not in self._panels:
+            self._panels[ranking] = Panel(self.base, ranking.columns(self._columns))
+        return self._panels[ranking]
 
     def needs_ordinary_noise(self, under: Hypothesis) -> bool:
         """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would.
@@ -264,10 +260,9 @@ class Bench:
         return not self._ordinary and leaves_too_much(rows, under.fit)
 
     def with_ordinary_noise(self) -> "Bench":
-        """Give a bench of the same rows on which nothing is believed yet, and noise is ordinary."""
+        """Give a bench of the same rows with ordinary noise; what ranked candidates may rank them still."""
         other = copy(self)
         other._ordinary = True  # noqa: SLF001 - of the same class
-        other._believe_nothing()  # noqa: SLF001 - of the same class
         return other
 
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:

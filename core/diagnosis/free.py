@@ -15,6 +15,7 @@ from scipy.linalg.lapack import dpbtrs, dpstrf, dtbtrs
 from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Matrix, Vector, Weights
+from core.recursions import banded
 
 LEAST = 1e-4
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
@@ -83,15 +84,11 @@ def free_of(columns: csr_array) -> Free:
         In the order of time: what lies apart in the order must not overlap much.
     """
     scaled = _scaled(columns)
-    turned = scaled.T.tocsr()
-    gram = (turned @ scaled).tocoo()
-    below = gram.row >= gram.col
-    row, column, value = gram.row[below], gram.col[below], gram.data[below]
-    banded = np.zeros((int(np.max(row - column, initial=0)) + 1, gram.shape[0]))
-    banded[row - column, column] = value
-    banded[0] += RIDGE
-    factor = cholesky_banded(banded, lower=True) if banded.size else banded
-    return Free(scaled, turned, factor, _sizes(columns))
+    indices, begins = (one.astype(np.int32, copy=False) for one in (scaled.indices, scaled.indptr))
+    products = banded(scaled.data, indices, begins, scaled.shape[1])
+    products[0] += RIDGE
+    factor = cholesky_banded(products, lower=True) if products.size else products
+    return Free(scaled, scaled.T.tocsr(), factor, _sizes(columns))
 
 
 def independent(columns: csr_array) -> csr_array:

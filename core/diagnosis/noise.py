@@ -13,9 +13,10 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from core.arrays import Indices, Matrix, SquareMatrix, Vector, Weights
+from core.recursions import innovate, reflect
 
 HIGHEST_ORDER = 12
-ROWS_PER_ORDER = 30
+ROWS_PER_ORDER, ROWS_PER_REFLECTION = 30, 10
 FORGOTTEN = 2e-3
 """Share by which correlations with the past are taken for smaller. A noise that remembers all costs nothing:
 a fit would leave ever more of the slow torque to it."""
@@ -59,17 +60,16 @@ class JointNoise:
         inside = lags <= known[:, None]
         columns = (np.arange(len(place))[:, None] - lags)[inside]
         starts = np.concatenate([[0], np.cumsum(known + 1)])
-        return csr_array((self._weights[known][inside], columns, starts), (len(place), len(place)))
+        return csr_array((self.weights[known][inside], columns, starts), (len(place), len(place)))
 
     def innovations(self, residual: Vector, place: Indices) -> Vector:
         """Turn one column into innovations of unit variance, at less cost than by the matrix."""
-        lagged = np.zeros((len(residual), self.order + 1))
-        for lag in range(min(self.order + 1, len(residual))):
-            lagged[lag:, lag] = residual[: len(residual) - lag]
-        return np.asarray(np.einsum("ij,ij->i", self._weights[np.minimum(place, self.order)], lagged))
+        out = np.empty(len(residual))
+        innovate(np.ascontiguousarray(residual), place, self.weights, out)
+        return out
 
     @cached_property
-    def _weights(self) -> SquareMatrix:
+    def weights(self) -> SquareMatrix:
         """Give, for 0, 1, ... p known values, the weights of a value and of those before it."""
         weights = np.zeros((self.order + 1, self.order + 1))
         for known, predictor in enumerate(self.predictors):
@@ -132,19 +132,7 @@ def places(follows: np.ndarray) -> Indices:
 
 def _burg(residual: Vector, place: Indices) -> tuple[list[Weights], Weights]:
     """Find predictors of rising order by Burg's reflections, which the runs' ends do not bias."""
-    predictors: list[Weights] = [np.zeros(0)]
-    variances = [max(float(residual @ residual) / max(len(residual), 1), 1e-300)]
-    ahead, back = residual, residual
-    for order in range(1, HIGHEST_ORDER + 1):
-        later, earlier = ahead[1:], back[:-1]
-        inside = place[order:] >= order
-        known, partner = later * inside, earlier * inside
-        both = float(known @ known + partner @ partner)
-        if both <= 0.0 or np.count_nonzero(inside) < 10 * order:
-            break
-        reflection = 2.0 * float(known @ partner) / (both * (1.0 + FORGOTTEN))
-        before = predictors[-1]
-        predictors.append(np.append(before - reflection * before[::-1], reflection))
-        variances.append(variances[-1] * (1.0 - reflection**2))
-        ahead, back = later - reflection * earlier, earlier - reflection * later
-    return predictors, np.array(variances)
+    predictors, variances = np.zeros((1 + HIGHEST_ORDER, HIGHEST_ORDER)), np.zeros(1 + HIGHEST_ORDER)
+    residual = np.ascontiguousarray(residual)
+    known = reflect(residual, place, FORGOTTEN, ROWS_PER_REFLECTION, predictors, variances)
+    return [predictors[order, :order] for order in range(known + 1)], variances[: known + 1]

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg.lapack import dtrtrs
-from scipy.sparse import csr_array
 
 from core.arrays import EquationRows, Indices, Matrix, Weights
 from core.diagnosis.equations import OPEN_SHARE, Fit
 from core.diagnosis.rows import Columns, JointRows
-from core.diagnosis.whitened import Whitened
+from core.recursions import sum_begun
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,12 +108,8 @@ class _Alike:
 
 
 def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
-    """Take some rows of columns, and put them beside each other."""
-    width = columns[0].shape[1] if columns else 0
-    out = np.empty((len(rows), width * len(columns)))
-    for place, one in enumerate(columns):
-        np.take(one, rows, axis=0, out=out[:, width * place : width * (place + 1)])
-    return out
+    """Put columns beside each other, and take some of their rows."""
+    return np.hstack(columns)[rows] if columns else np.zeros((len(rows), 0))
 
 
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
@@ -126,91 +121,41 @@ def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, star
     """Score columns that act from one row of the look on, for each of many such rows.
 
     What is white from a row on is what is white all along, but for the first rows, as many as the noise
-    remembers: there nothing comes before.
+    remembers: there nothing comes before. Rows from which on the same fitted ones follow score alike.
     """
-    count, size, width = len(starts), len(found.values), next(iter(columns.values())).shape[1]
+    begins = [np.searchsorted(joints[joint].rows, starts) for joint in columns]
+    different, alike = np.unique(begins, axis=1, return_inverse=True)
+    scores = _scores_from(found, joints, columns, tuple(different))
+    return [scores[place] for place in alike.ravel()]
+
+
+def _scores_from(
+    found: Fit, joints: tuple[JointRows, ...], columns: Columns, begins: Sequence[Indices]
+) -> list[Score]:
+    """Score columns that act from some fitted row on: per joint (rows) and trial (columns), which one."""
+    count, size = len(begins[0]), len(found.values)
+    width = next(iter(columns.values())).shape[1]
     cross = np.zeros((count, size, width))
     right, squares = np.zeros((count, width)), np.zeros((count, width))
     grams = np.zeros((count, width, width))
-    for joint, one in columns.items():
-        own = found.joints[joint]
-        first = np.searchsorted(joints[joint].rows, starts)
-        sums = _Begun(own, found.left[joint], first, width)
-        taken = one[joints[joint].rows]
-        sums.add_tails(own.whitening @ taken, own.noise.order)
-        sums.add_heads(_begun(own, taken))
-        inside = own.free.along(np.moveaxis(sums.free, 0, 1).reshape(own.free.count, count * width))
-        right += sums.right
-        squares += np.diagonal(sums.grams, axis1=1, axis2=2)
-        grams += sums.grams - _grams(inside, width)
-        spanned = (own.inside.T @ inside).reshape(len(own.acting), count, width)
-        cross[:, own.acting] += sums.fitted - np.moveaxis(spanned, 0, 1)
+    for (joint, one), first in zip(columns.items(), begins, strict=True):
+        rows, own = joints[joint], found.joints[joint]
+        loose, acting = own.free.columns, len(own.acting)
+        shapes = (width,), (width,), (width, width), (acting, width)
+        sums = tuple(np.empty((count, *shape)) for shape in shapes)
+        equations = (one[rows.rows], rows.place, own.noise.weights, found.left[joint])
+        fitted, inside, factor = (
+            np.ascontiguousarray(one) for one in (own.columns, own.inside, own.free.factor.T)
+        )
+        free = (loose.data, *(one.astype(np.int32) for one in (loose.indices, loose.indptr)))
+        sum_begun((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
+        right += sums[0]
+        squares += sums[1]
+        grams += sums[2]
+        cross[:, own.acting] += sums[3]
     flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
     reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
     return _judged(grams - _grams(reduced, width), right, squares)
-
-
-class _Begun:
-    """Sum products of one joint's columns over the rows from some first one on, for many first ones.
-
-    Attributes
-    ----------
-    right, grams, fitted, free
-        Products with what is left, with each other, with the fitted columns, and with the free ones.
-    """
-
-    def __init__(self, own: Whitened, left: Weights, first: Indices, width: int) -> None:
-        self.own, self.left, self.first = own, left, first
-        self.right = np.zeros((len(first), width))
-        self.grams = np.zeros((len(first), width, width))
-        self.fitted = np.zeros((len(first), len(own.acting), width))
-        self.free = np.zeros((len(first), own.free.count, width))
-
-    def add_tails(self, white: EquationRows, beyond: int) -> None:
-        """Add all rows from so many beyond the first ones on."""
-        after = np.minimum(self.first + beyond, len(white))
-        self.right += _tails(self.left[:, None] * white)[after]
-        self.grams += _tails(white[:, :, None] * white[:, None, :])[after]
-        self.fitted += _tails(self.own.columns[:, :, None] * white[:, None, :])[after]
-        loose = self.own.free.columns.toarray()
-        self.free += _tails(loose[:, :, None] * white[:, None, :])[after]
-
-    def add_heads(self, white: np.ndarray) -> None:
-        """Add the rows just behind the first ones.
-
-        Parameters
-        ----------
-        white
-            The columns by how far a row is behind the first one, row, and column (see `_begun`).
-        """
-        behind = np.arange(len(white))
-        rows = self.first[:, None] + behind
-        there = rows < white.shape[1]
-        rows = np.where(there, rows, 0)
-        parts = white[behind, rows] * there[:, :, None]
-        self.grams += np.swapaxes(parts, 1, 2) @ parts
-        begins = len(white) * np.arange(len(rows) + 1)
-        for axis, sizes in enumerate(np.moveaxis(parts, 2, 0)):
-            heads = csr_array((sizes.ravel(), rows.ravel(), begins), shape=(len(rows), white.shape[1]))
-            self.right[:, axis] += heads @ self.left
-            self.fitted[:, :, axis] += heads @ self.own.columns
-            self.free[:, :, axis] += (heads @ self.own.free.columns).toarray()
-
-
-def _begun(own: Whitened, columns: EquationRows) -> np.ndarray:
-    """Make columns white that begin some rows before: by how many before (first axis), and row."""
-    out = np.zeros((own.noise.order, *columns.shape))
-    for lag, white in enumerate(out):
-        white[:] = out[lag - 1]
-        white[lag:] += own.whitening.diagonal(-lag)[:, None] * columns[: len(columns) - lag]
-    return out
-
-
-def _tails(parts: np.ndarray) -> np.ndarray:
-    """Sum from every row to the last one; after that nothing is left."""
-    sums = np.zeros((len(parts) + 1, *parts.shape[1:]))
-    np.cumsum(parts[::-1], axis=0, out=sums[-2::-1])
-    return sums
 
 
 def _grams(columns: Matrix, width: int) -> np.ndarray:

@@ -10,15 +10,13 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from core.arrays import JointVector
 from core.diagnosis.cause import Cause, Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
-
-NEAR = 0.05
-"""Share of every joint's torque within which two predictions rank candidates alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,20 +47,21 @@ class Suspicion:
     trials: WeakKeyDictionary[Hypothesis, dict[Place, Hypothesis]] = field(default_factory=WeakKeyDictionary)
     _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
 
-    @cached_property
-    def lasting(self) -> tuple[Candidate, ...]:
-        """Give what is suspected all along the motion."""
-        return tuple(self._of(cause for cause in self.causes if not cause.event))
+    @property
+    def lasting(self) -> tuple[tuple[Cause, Site], ...]:
+        """List what is suspected all along the motion: the causes with their sites."""
+        return tuple(self._sites(cause for cause in self.causes if not cause.event))
 
     @cached_property
     def events(self) -> tuple[Candidate, ...]:
         """Give what may have happened, as what is left tells of it."""
-        return tuple(self._of(cause for cause in self.causes if cause.event))
+        pairs = self._sites(cause for cause in self.causes if cause.event)
+        return tuple(candidate for cause, site in pairs for candidate in self.of(cause, site))
 
-    def _of(self, causes: Iterable[Cause]) -> Iterator[Candidate]:
+    def _sites(self, causes: Iterable[Cause]) -> Iterator[tuple[Cause, Site]]:
         for cause in causes:
             for site in cause.sites(self.look, self.believed):
-                yield from self.of(cause, site)
+                yield cause, site
 
     def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
         """Give one cause at one site with all scalars that are scanned."""
@@ -81,19 +80,14 @@ class Suspicion:
         )
         return tuple(candidate for one in causes for candidate in self.of(one, site))
 
-    def ranks_like(self, other: "Suspicion") -> bool:
-        """Tell whether another prediction is so near that candidates built on this one will do to rank them.
-
-        Roughly: columns made of derivatives may change by a greater share than what is predicted does.
-        """
-        if self is other:
-            return True
+    def change(self, other: "Suspicion") -> JointVector:
+        """Give by how much another prediction differs from this one, as a share of each joint's torque."""
         square, change = np.zeros(self.look.joints), np.zeros(self.look.joints)
         for stretch in self.look.stretches:
             own, theirs = (one.believed.scaled(stretch.state) for one in (self, other))
             square += np.sum(own**2, axis=0)
             change += np.sum((theirs - own) ** 2, axis=0)
-        return bool(np.all(change <= NEAR**2 * square))
+        return np.asarray(np.sqrt(change / np.maximum(square, 1e-300)))
 
 
 def joined_by(look: Look, found: Hypothesis, believed: Prediction) -> Prediction:

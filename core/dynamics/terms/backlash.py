@@ -7,7 +7,6 @@ rigid model predicts them. The column is the change of all loads by that twist, 
 Source: Nordin & Gutman, Automatica 38(10), 2002.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -18,6 +17,7 @@ from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
 from core.dynamics.terms.elasticity import smoothed
+from core.recursions import fly
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 
@@ -57,28 +57,6 @@ def twist_of(free: Samples, step: float, half_width: float) -> Samples:
     >>> twist_of(np.array([1.0, 1.0, -1.0, -1.0, -1.0, -1.0]), 1.0, 1.5)
     array([ 1.5,  1.5,  1. , -0.5, -1.5, -1.5])
     """
-    out = np.empty(len(free))
-    pulls, back, ahead = free.tolist(), np.flatnonzero(free < 0.0), np.flatnonzero(free > 0.0)
-    twist, sample = float(np.copysign(half_width, free[0])), 0
-    while sample < len(free):
-        turning = back if twist > 0.0 else ahead
-        leaves = int(next(iter(turning[turning.searchsorted(sample) :]), len(free)))
-        out[sample:leaves] = twist
-        flight = _flight(pulls, leaves, twist, step, half_width)
-        sample = leaves + len(flight)
-        out[leaves:sample] = flight
-        twist = float(out[sample - 1])
-    return out
-
-
-def _flight(pulls: Sequence[float], leaves: int, twist: float, step: float, half_width: float) -> list[float]:
-    """Follow the twist across the gap from some sample on, until it is at a side or there is no more pull."""
-    flight, rate = [], 0.0
-    for sample in range(leaves, len(pulls)):
-        rate += step * pulls[sample]
-        twist = twist + step * rate - 0.5 * step * step * pulls[sample]
-        if not -half_width <= twist <= half_width:
-            flight.append(half_width if twist > 0.0 else -half_width)
-            break
-        flight.append(twist)
-    return flight
+    twist = np.empty(len(free))
+    fly(np.ascontiguousarray(free), step, half_width, twist)
+    return twist

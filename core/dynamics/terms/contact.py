@@ -51,8 +51,8 @@ class Contact(AllJointsTerm):
         ]
 
 
-def swell(time: Samples, span: Span) -> Samples:
-    """Rise and fall as half a sine of height one within a span.
+def swell(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:
+    """Rise and fall as half a sine of height one within a span; or each sample within one of its own.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def swell(time: Samples, span: Span) -> Samples:
     """
     start, end = span
     inside = (time > start) & (time < end)
-    return np.where(inside, np.sin(np.pi * (time - start) / max(end - start, 1e-9)), 0.0)
+    return np.where(inside, np.sin(np.pi * (time - start) / np.maximum(end - start, 1e-9)), 0.0)
 
 
 @lru_cache(maxsize=16)

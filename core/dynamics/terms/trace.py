@@ -7,6 +7,7 @@ O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import accumulate, repeat
 from typing import ClassVar
 
 import numpy as np
@@ -80,7 +81,8 @@ def _angle(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
 def _clock(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     del own
     turns = 2.0 * np.pi * numbers[0] * _time(state)
-    return [wave(number * turns) for number in range(1, HARMONICS + 1) for wave in (np.cos, np.sin)]
+    waves = accumulate(repeat(np.cos(turns) + 1j * np.sin(turns), HARMONICS), np.multiply)
+    return [part for wave in waves for part in (wave.real, wave.imag)]
 
 
 def _swing(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:

@@ -88,6 +88,15 @@ def test_a_row_after_a_gap_knows_nothing_of_the_rows_before_it():
     np.testing.assert_array_equal(noise.whitened(series, place)[25:], noise.whitened(other, place)[25:])
 
 
+@every_process
+def test_one_column_has_the_innovations_that_the_matrix_gives(weights):
+    place, noise = runs(GAPS), exact_noise(weights)
+    series = drawn(weights, np.random.default_rng(8), len(place))
+    np.testing.assert_allclose(
+        noise.innovations(series[:, 0], place), noise.whitened(series, place)[:, 0], atol=1e-13
+    )
+
+
 def test_gaps_do_not_bias_what_is_learned():
     rng = np.random.default_rng(4)
     kept = rng.random(20_000) > 0.05

@@ -1,0 +1,263 @@
+"""Run recursions along series, compiled: each value needs those before it, which no array operation gives.
+
+Sources: Burg 1975 (reflections); Golub & Van Loan, Matrix Computations, ch. 4.3 (banded factors).
+"""
+
+# ruff: noqa: ANN001, ANN201, ANN202  # numba: types stand in signatures, tables come singly
+# Types stand in numba's signatures, which mypy does not read:
+# mypy: disable-error-code="no-untyped-def"
+
+import numpy as np
+from numba import njit
+
+_EXACT = {"nogil": True, "cache": True, "error_model": "numpy"}
+_SUMS = {**_EXACT, "fastmath": {"contract", "nsz", "arcp", "reassoc"}}
+
+
+@njit("int64(float64[::1], int64[::1], float64, int64, float64[:,::1], float64[::1])", **_SUMS)
+def reflect(residual, place, forgotten, fewest, predictors, variances):  # pragma: no cover  (compiled)
+    """Write the best predictors of a series from 0, 1, ... past values, and their innovations' variances.
+
+    Parameters
+    ----------
+    place
+        Per value, how many values of its run precede it.
+    forgotten
+        Share by which correlations with the past are taken for smaller.
+    fewest
+        Values per order that have as many before them, or the order is left out, and those above it.
+    predictors
+        Orders x past values, latest first; row n has n values. As many rows as `variances`.
+
+    Returns
+    -------
+    int
+        The highest order.
+    """
+    ahead, back = residual.copy(), residual.copy()
+    square = 0.0
+    for row in range(len(residual)):
+        square += residual[row] * residual[row]
+    variances[0] = max(square / max(len(residual), 1), 1e-300)
+    for order in range(1, len(variances)):
+        both, cross, count = 0.0, 0.0, 0
+        for row in range(order, len(residual)):
+            inside = 1.0 if place[row] >= order else 0.0
+            both += inside * (ahead[row] * ahead[row] + back[row - 1] * back[row - 1])
+            cross += inside * ahead[row] * back[row - 1]
+            count += place[row] >= order
+        if both <= 0.0 or count < fewest * order:
+            return order - 1
+        reflection = 2.0 * cross / (both * (1.0 + forgotten))
+        for lag in range(order - 1):
+            before = predictors[order - 1]
+            predictors[order, lag] = before[lag] - reflection * before[order - 2 - lag]
+        predictors[order, order - 1] = reflection
+        variances[order] = variances[order - 1] * (1.0 - reflection * reflection)
+        # From behind, because what is written of one row is read for the next.
+        for row in range(len(residual) - 1, order - 1, -1):
+            later, earlier = ahead[row], back[row - 1]
+            ahead[row] = later - reflection * earlier
+            back[row] = earlier - reflection * later
+    return len(variances) - 1
+
+
+@njit("void(float64[::1], int64[::1], float64[:,::1], float64[::1])", **_SUMS)
+def innovate(residual, place, weights, innovations):  # pragma: no cover  (compiled)
+    """Write what is new in a series: its values and those before them by the weights for as many as known.
+
+    Parameters
+    ----------
+    place
+        Per value, how many values of its run precede it.
+    weights
+        Known values x lags: the last row is for as many as it has lags, and for more.
+    """
+    most = len(weights) - 1
+    for row in range(len(residual)):
+        known = min(place[row], most)
+        total = 0.0
+        for lag in range(known + 1):
+            total += weights[known, lag] * residual[row - lag]
+        innovations[row] = total
+
+
+@njit("float64[:,::1](float64[::1], int32[::1], int32[::1], int64)", **_SUMS)
+def banded(sizes, columns, begins, many):  # pragma: no cover  (compiled)
+    """Give the products of so many sparse columns with each other and with those behind them: band x columns.
+
+    Parameters
+    ----------
+    sizes, columns, begins
+        The columns as compressed rows.
+    """
+    band = 1
+    for row in range(len(begins) - 1):
+        for at in range(begins[row], begins[row + 1]):
+            for other in range(begins[row], begins[row + 1]):
+                band = max(band, 1 + columns[other] - columns[at])
+    products = np.zeros((band, many))
+    for row in range(len(begins) - 1):
+        for at in range(begins[row], begins[row + 1]):
+            for other in range(begins[row], begins[row + 1]):
+                if columns[other] >= columns[at]:
+                    products[columns[other] - columns[at], columns[at]] += sizes[at] * sizes[other]
+    return products
+
+
+@njit(**_SUMS)
+def _new_of(row, known, columns, weights):
+    """Give what is new in one row of columns, of which so many rows before it are not zero."""
+    new = np.zeros(columns.shape[1])
+    for lag in range(known + 1):
+        for one in range(len(new)):
+            new[one] += weights[lag] * columns[row - lag, one]
+    return new
+
+
+@njit(**_SUMS)
+def _add_row(row, known, rows, sums, products):
+    """Add the products of one row of columns, of which so many rows before it are not zero."""
+    columns, place, weights, left, fitted, sizes, loose, begins = rows
+    right, squares, grams, cross = sums
+    white = _new_of(row, known, columns, weights[min(place[row], len(weights) - 1)])
+    width = len(white)
+    for one in range(width):
+        right[one] += left[row] * white[one]
+        squares[one] += white[one] * white[one]
+        for other in range(width):
+            grams[one, other] += white[one] * white[other]
+    for column in range(fitted.shape[1]):
+        for one in range(width):
+            cross[column, one] += fitted[row, column] * white[one]
+    for at in range(begins[row], begins[row + 1]):
+        for one in range(width):
+            products[loose[at], one] += sizes[at] * white[one]
+
+
+@njit(**_SUMS)
+def _solve(products, factor, low, high):
+    """Turn products with some loose columns into products with orthonormal ones that span the same."""
+    width = products.shape[1]
+    for column in range(low, high):
+        for one in range(width):
+            products[column, one] /= factor[column, 0]
+        for beyond in range(1, min(factor.shape[1], high - column)):
+            for one in range(width):
+                products[column + beyond, one] -= factor[column, beyond] * products[column, one]
+
+
+@njit(**_SUMS)
+def _take_spanned(sums, products, inside, low, high):
+    """Take out what some orthonormal columns span, of which the products with them are given."""
+    _, _, grams, cross = sums
+    width = products.shape[1]
+    for column in range(low, high):
+        for one in range(width):
+            for other in range(width):
+                grams[one, other] -= products[column, one] * products[column, other]
+        for fitted in range(inside.shape[1]):
+            for one in range(width):
+                cross[fitted, one] -= inside[column, fitted] * products[column, one]
+
+
+@njit(**_SUMS)
+def _ranges(rows, factor):
+    """Give the lowest loose column that acts from each row on, one above the highest before it; and groups.
+
+    A group begins at a column that shares no row with those before it.
+    """
+    loose, begins = rows[6], rows[7]
+    count, many = len(begins) - 1, len(factor)
+    lowest, above = np.full(count + 1, many), np.zeros(count + 1, dtype=np.int64)
+    for row in range(count):
+        above[row + 1] = above[row]
+        for at in range(begins[row], begins[row + 1]):
+            above[row + 1] = max(above[row + 1], loose[at] + 1)
+    for row in range(count - 1, -1, -1):
+        lowest[row] = lowest[row + 1]
+        for at in range(begins[row], begins[row + 1]):
+            lowest[row] = min(lowest[row], loose[at])
+    group = np.ones(many + 1, dtype=np.bool_)
+    for column in range(many):
+        for beyond in range(1, min(factor.shape[1], many - column)):
+            group[column + beyond] &= factor[column, beyond] == 0.0
+    return lowest, above, group
+
+
+_ROWS = (
+    "Tuple((float64[:,::1], int64[::1], float64[:,::1], float64[::1], float64[:,::1], float64[::1],"
+    " int32[::1], int32[::1]))"
+)
+_PRODUCTS = "Tuple((float64[:,::1], float64[:,::1], float64[:,:,::1], float64[:,:,::1]))"
+
+
+@njit(f"void({_ROWS}, float64[:,::1], float64[:,::1], int64[::1], {_PRODUCTS})", **_SUMS)
+def sum_begun(rows, factor, inside, first, products):  # pragma: no cover  (compiled)
+    """Write the products of columns that are zero before some row, made white, for many such rows.
+
+    From as many rows on as the noise remembers, what is white is what is white all along: those rows are
+    summed from the last one back. What loose columns span lies in groups that do not touch each other, and
+    only in the group where the columns begin is it not what it is all along.
+
+    Parameters
+    ----------
+    rows
+        Columns (rows x columns); how many rows of its run precede each; what makes columns white (see
+        `innovate`); white rows that these are multiplied by, one column and many; and white loose columns,
+        which stand for anything, in the order of time: as compressed rows, sizes, columns and begins.
+    factor
+        The banded factor of the loose columns' products (columns x band, the diagonal first).
+    inside
+        What these span of the many, along orthonormal axes.
+    first
+        The rows, in rising order.
+    products
+        Products with the one column, of each column with itself, of all with each other, and with the many;
+        of the last two only what the loose columns do not span.
+    """
+    columns, fitted, most = rows[0], rows[4], len(rows[2]) - 1
+    (count, width), many = columns.shape, len(factor)
+    lowest, above, group = _ranges(rows, factor)
+    sums = (np.zeros(width), np.zeros(width), np.zeros((width, width)), np.zeros((fitted.shape[1], width)))
+    seen, parts = np.zeros((many, width)), np.zeros((many, width))
+    summed, known = count, many
+    for number in range(len(first) - 1, -1, -1):
+        begin = first[number]
+        while summed > min(begin + most, count):
+            summed -= 1
+            _add_row(summed, min(rows[1][summed], most), rows, sums, seen)
+        low, high = lowest[begin], max(above[summed], lowest[begin])
+        while not group[high]:
+            high += 1
+        _solve(seen, factor, high, known)
+        _take_spanned(sums, seen, inside, high, known)
+        known = min(known, high)
+        own = (products[0][number], products[1][number], products[2][number], products[3][number])
+        own[0][:], own[1][:], own[2][:], own[3][:] = sums
+        parts[low:high] = seen[low:high]
+        for row in range(begin, summed):
+            _add_row(row, min(rows[1][row], most, row - begin), rows, own, parts)
+        _solve(parts, factor, low, high)
+        _take_spanned(own, parts, inside, low, high)
+
+
+@njit("void(float64[::1], float64, float64, float64[::1])", **_EXACT)
+def fly(pulls, step, half_width, twist):  # pragma: no cover  (compiled)
+    """Write where something is between two stops that neither bounce nor pull: it rests there or flies.
+
+    Parameters
+    ----------
+    pulls
+        Its acceleration wherever it is free, per s2; `step` is the time between samples, s.
+    half_width
+        Where the stops are, on either side of zero; it begins at the one that it is pulled against.
+    """
+    place, rate = np.copysign(half_width, pulls[0]), 0.0
+    for sample in range(len(pulls)):
+        rate += step * pulls[sample]
+        free = place + step * rate - 0.5 * step * step * pulls[sample]
+        place = min(max(free, -half_width), half_width)
+        if place != free:
+            rate = 0.0
+        twist[sample] = place
