@@ -139,13 +139,15 @@ def allowed(candidate: Candidate, judged: Score) -> bool:
 
 def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Scored]:
     """Give the best scalars of each kind, the least likely by luck first."""
-    best: dict[object, tuple[bool, Scored]] = {}
-    for one, judged in zip(asked, found, strict=True):
-        scored = Scored(one, judged.statistic, judged.freedom, judged.values, judged.clear_share)
-        possible = allowed(one, judged)
-        if one.key not in best or (possible, scored.statistic) > (
-            best[one.key][0],
-            best[one.key][1].statistic,
-        ):
-            best[one.key] = possible, scored
-    return sorted((one for _, one in best.values()), key=lambda one: one.log_p)
+    kinds: dict[object, list[int]] = {}
+    for place, one in enumerate(asked):
+        kinds.setdefault(one.key, []).append(place)
+    best = []
+    for places in kinds.values():
+        ranked = sorted(places, key=lambda place: -found[place].statistic)
+        likeliest = next((place for place in ranked if allowed(asked[place], found[place])), ranked[0])
+        judged = found[likeliest]
+        best.append(
+            Scored(asked[likeliest], judged.statistic, judged.freedom, judged.values, judged.clear_share)
+        )
+    return sorted(best, key=lambda one: one.log_p)
