@@ -3,7 +3,7 @@
 Sources: Burg 1975 (reflections); Golub & Van Loan, Matrix Computations, ch. 4.3 (banded factors).
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202  # numba: types stand in signatures, tables come singly
+# ruff: noqa: ANN001, ANN201, ANN202  # numba: types stand in signatures
 # Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -165,7 +165,7 @@ def _take_spanned(sums, products, inside, low, high):
 def _ranges(rows, factor):
     """Give the lowest loose column that acts from each row on, one above the highest before it; and groups.
 
-    A group begins at a column that shares no row with those before it.
+    A group begins at a column before which none is tied to it, or to one behind it.
     """
     loose, begins = rows[6], rows[7]
     count, many = len(begins) - 1, len(factor)
@@ -181,7 +181,8 @@ def _ranges(rows, factor):
     group = np.ones(many + 1, dtype=np.bool_)
     for column in range(many):
         for beyond in range(1, min(factor.shape[1], many - column)):
-            group[column + beyond] &= factor[column, beyond] == 0.0
+            if factor[column, beyond] != 0.0:
+                group[column + 1 : column + beyond + 1] = False
     return lowest, above, group
 
 
@@ -197,8 +198,8 @@ def sum_begun(rows, factor, inside, first, products):  # pragma: no cover  (comp
     """Write the products of columns that are zero before some row, made white, for many such rows.
 
     From as many rows on as the noise remembers, what is white is what is white all along: those rows are
-    summed from the last one back. What loose columns span lies in groups that do not touch each other, and
-    only in the group where the columns begin is it not what it is all along.
+    summed from the last one back. Loose columns come in groups that have nothing to do with each other, and
+    only what the group spans in which the columns begin is not what it is all along.
 
     Parameters
     ----------
@@ -253,6 +254,8 @@ def fly(pulls, step, half_width, twist):  # pragma: no cover  (compiled)
     half_width
         Where the stops are, on either side of zero; it begins at the one that it is pulled against.
     """
+    if len(pulls) == 0:
+        return
     place, rate = np.copysign(half_width, pulls[0]), 0.0
     for sample in range(len(pulls)):
         rate += step * pulls[sample]

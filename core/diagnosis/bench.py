@@ -69,9 +69,14 @@ class Bench:
         self._lasting: dict[Place, Columns] = {}
         self._panels: WeakKeyDictionary[Ranking, Panel] = WeakKeyDictionary()
         self._ordinary = False
-        nothing = Prediction(plan.model, np.zeros(len(plan.model.parameters)), inverse_dynamics)
-        self._now = Suspicion((), look, look, nothing)
-        self._ranking = ranking_under(self._now)
+        self._ranking: Ranking | None = None
+        self._believe_nothing()
+
+    def _believe_nothing(self) -> None:
+        """Begin with a belief that gives no candidates."""
+        nothing = np.zeros(len(self.plan.model.parameters))
+        believed = Prediction(self.plan.model, nothing, inverse_dynamics)
+        self._now = Suspicion((), self.look, self.look, believed)
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -110,7 +115,8 @@ class Bench:
     @property
     def _ranked_like_now(self) -> Ranking:
         """Give what no other belief since it was ranked would rank otherwise."""
-        self._ranking = self._ranking.under(self._now)
+        before, now = self._ranking, self._now
+        self._ranking = ranking_under(now) if before is None else before.under(now)
         return self._ranking
 
     @property
@@ -263,6 +269,7 @@ class Bench:
         """Give a bench of the same rows with ordinary noise; what ranked candidates may rank them still."""
         other = copy(self)
         other._ordinary = True  # noqa: SLF001 - of the same class
+        other._believe_nothing()  # noqa: SLF001 - of the same class
         return other
 
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:

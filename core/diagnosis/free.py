@@ -65,13 +65,9 @@ class Free:
 
         Where products are all that is asked for this costs a quarter of taking the parts out.
         """
-        return self.along(self.turned @ rows)
-
-    def along(self, products: Matrix) -> EquationRows:
-        """Give the same of columns of which the products with the free ones are known."""
-        if not self.count or not products.shape[1]:
-            return np.zeros((self.count, products.shape[1]))
-        along, _ = dtbtrs(self.factor, products, uplo="L")
+        if not self.count or not rows.shape[1]:
+            return np.zeros((self.count, rows.shape[1]))
+        along, _ = dtbtrs(self.factor, self.turned @ rows, uplo="L")
         return np.asarray(along)
 
 

@@ -65,7 +65,7 @@ class JointNoise:
     def innovations(self, residual: Vector, place: Indices) -> Vector:
         """Turn one column into innovations of unit variance, at less cost than by the matrix."""
         out = np.empty(len(residual))
-        innovate(np.ascontiguousarray(residual), place, self.weights, out)
+        innovate(np.array(residual), place, self.weights, out)
         return out
 
     @cached_property
@@ -133,6 +133,5 @@ def places(follows: np.ndarray) -> Indices:
 def _burg(residual: Vector, place: Indices) -> tuple[list[Weights], Weights]:
     """Find predictors of rising order by Burg's reflections, which the runs' ends do not bias."""
     predictors, variances = np.zeros((1 + HIGHEST_ORDER, HIGHEST_ORDER)), np.zeros(1 + HIGHEST_ORDER)
-    residual = np.ascontiguousarray(residual)
-    known = reflect(residual, place, FORGOTTEN, ROWS_PER_REFLECTION, predictors, variances)
+    known = reflect(np.array(residual), place, FORGOTTEN, ROWS_PER_REFLECTION, predictors, variances)
     return [predictors[order, :order] for order in range(known + 1)], variances[: known + 1]

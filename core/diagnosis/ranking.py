@@ -1,7 +1,7 @@
 """Rank what is suspected all along the motion, site by site under the earliest belief that will do.
 
-A scan over everything costs most where columns have to be built, and a belief that changes one joint's torque
-leaves what is suspected of the others as it was.
+A scan over everything costs most where columns have to be built, and most beliefs change one joint's torque.
+What is suspected of the others is then as it was on their own joints, and nearly so on all.
 """
 
 from collections.abc import Callable, Sequence
@@ -44,9 +44,10 @@ class Ranking:
     def under(self, now: Suspicion) -> "Ranking":
         """Take what another belief would rank otherwise from the suspicion under that belief.
 
-        Roughly: columns made of derivatives may change by a greater share than what is predicted does.
+        Roughly: columns made of derivatives may change by a greater share than what is predicted does, and so
+        may what a candidate of one joint adds on the others.
         """
-        changed = {one: one.change(now) > NEAR for one in self._suspicions}
+        changed = {one: ~(one.change(now) <= NEAR) for one in self._suspicions}
         whole = now if changed[self.whole].any() else self.whole
         joints = tuple(now if changed[one][joint] else one for joint, one in enumerate(self.joints))
         return self if (whole, joints) == (self.whole, self.joints) else Ranking(whole, joints)

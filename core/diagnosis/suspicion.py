@@ -83,6 +83,8 @@ class Suspicion:
     def change(self, other: "Suspicion") -> JointVector:
         """Give by how much another prediction differs from this one, as a share of each joint's torque."""
         square, change = np.zeros(self.look.joints), np.zeros(self.look.joints)
+        if other is self:
+            return change
         for stretch in self.look.stretches:
             own, theirs = (one.believed.scaled(stretch.state) for one in (self, other))
             square += np.sum(own**2, axis=0)

@@ -24,6 +24,9 @@ TRIALS_OF_A_SPAN = 2.0
 LEAST_SHARE = 0.2
 """An event is worth at least this share of the best one."""
 HALVINGS = 4
+ROUNDING = 1e-9
+"""Share by which a span has to be worth more than one before it: where few rows tell, many are worth the
+same, and rounding must not choose."""
 
 
 def find_events(
@@ -50,7 +53,8 @@ def find_events(
     for _ in range(most):
         if not len(spans):
             break
-        span = search.refined(spans[int(np.argmax(worths))], found)
+        first = int(np.argmax(worths >= (1.0 - ROUNDING) * worths.max()))
+        span = search.refined(spans[first], found)
         worth = search.worth(span)
         if worth < LEAST_SHARE * best or not log_chance(worth, freedom) < hurdle:
             break
@@ -132,7 +136,7 @@ class _Search:
                     if not (lasts and seen and _apart(trial, others)):
                         continue
                     worth = self.worth(trial)
-                    if worth > best:
+                    if worth > (1.0 + ROUNDING) * best:
                         span, best, improved = trial, worth, True
             step /= 2.0
         return span

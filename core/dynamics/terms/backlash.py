@@ -58,5 +58,5 @@ def twist_of(free: Samples, step: float, half_width: float) -> Samples:
     array([ 1.5,  1.5,  1. , -0.5, -1.5, -1.5])
     """
     twist = np.empty(len(free))
-    fly(np.ascontiguousarray(free), step, half_width, twist)
+    fly(np.array(free), step, half_width, twist)
     return twist

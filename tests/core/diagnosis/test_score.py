@@ -1,11 +1,15 @@
 """Hold the score of a candidate to the fit with the candidate in it, and its chance to what noise does."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.sparse import csr_array
 from scipy.stats import binom, chi2, kstest
 
 from core.diagnosis.equations import fit
-from core.diagnosis.rows import Columns, extended
+from core.diagnosis.free import free_of, independent
+from core.diagnosis.rows import Columns, JointRows, extended
 from core.diagnosis.score import score, score_from
 from tests.core.diagnosis.equations_world import NOISE, Equations, smooth
 
@@ -66,13 +70,22 @@ def test_what_the_model_or_sticking_friction_can_stand_for_is_no_evidence(equati
     assert [one.clear_share for one in found] == [0.0, 0.0]
 
 
-@pytest.mark.parametrize("rests", [False, True], ids=["moving", "resting half of the time"])
+def with_a_rest_within_another(joints: tuple[JointRows, ...]) -> tuple[JointRows, ...]:
+    """Let the first joint's friction be anything at three times, the second within a gap of the first."""
+    rng, columns = np.random.default_rng(7), np.zeros((len(joints[0].rows), 3))
+    for column, begin, end in ((0, 50, 90), (0, 200, 210), (1, 130, 140), (2, 135, 240)):
+        columns[begin:end, column] = rng.normal(size=end - begin)
+    return (replace(joints[0], free=free_of(independent(csr_array(columns)))), *joints[1:])
+
+
+@pytest.mark.parametrize("rests", ["moving", "resting half of the time", "resting within another rest"])
 def test_columns_that_begin_to_act_at_a_row_score_as_if_they_were_written_so(equations, rests):
     rng = np.random.default_rng(6)
-    joints = equations.with_rests() if rests else equations.joints
+    joints = equations.with_rests() if rests == "resting half of the time" else equations.joints
+    joints = with_a_rest_within_another(joints) if rests == "resting within another rest" else joints
     before = fit(joints, NOISE, rounds=0)
     whole = {joint: smooth(rng, equations.count, 2) for joint in (0, 2)}
-    starts = np.array([0, 1, 2, 57, 58, 300, equations.count - 40])
+    starts = np.array([0, 1, 2, 57, 58, 110, 137, 300, equations.count - 40])
     begun = [
         {joint: one * (np.arange(equations.count) >= start)[:, None] for joint, one in whole.items()}
         for start in starts

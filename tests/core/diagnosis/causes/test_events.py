@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, diags_array
 
 from core.diagnosis.causes.events import find_events
 from core.diagnosis.misfit import fitted_rows, misfit, precisions
@@ -51,6 +51,18 @@ def test_a_span_is_taken_as_far_as_its_noise_lets_it_be_seen(weights):
         left = np.zeros((len(TIME), 2))
         left[:, 0] = np.sqrt(worth / square) * swell(TIME, span)
         assert len(found_in(weights, left)) == expected
+
+
+def test_of_spans_that_are_worth_the_same_rounding_does_not_choose():
+    """Where one row alone is seen, whatever holds it explains all of it."""
+    columns, seen = np.tile(np.eye(2), (len(TIME), 1, 1)), np.zeros(len(TIME))
+    seen[600] = 1.0
+    rng, left = np.random.default_rng(1), np.zeros((len(TIME), 2))
+    found = set()
+    for _ in range(20):
+        left[600] = (10.0, -3.0) * (1.0 + 1e-14 * rng.normal(size=2))
+        found.add(tuple(find_events(TIME, columns, left, [diags_array(seen).tocsr()] * 2, most=1)))
+    assert len(found) == 1
 
 
 def test_noise_that_is_large_for_a_while_by_itself_is_hardly_ever_an_event():
