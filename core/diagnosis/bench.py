@@ -20,7 +20,7 @@ from core.diagnosis.look import Look
 from core.diagnosis.ranking import Ranking, ranking_under
 from core.diagnosis.rows import Columns, extended, joint_rows
 from core.diagnosis.score import Panel, Score, score, score_from
-from core.diagnosis.suspicion import Suspicion, joined_by
+from core.diagnosis.suspicion import Suspicion, joined_by, nothing_suspected
 from core.dynamics.prediction import Prediction
 from core.regressor.columns import ColumnPlan
 from core.simulation.inverse import inverse_dynamics
@@ -70,13 +70,7 @@ class Bench:
         self._panels: WeakKeyDictionary[Ranking, Panel] = WeakKeyDictionary()
         self._ordinary = False
         self._ranking: Ranking | None = None
-        self._believe_nothing()
-
-    def _believe_nothing(self) -> None:
-        """Begin with a belief that gives no candidates."""
-        nothing = np.zeros(len(self.plan.model.parameters))
-        believed = Prediction(self.plan.model, nothing, inverse_dynamics)
-        self._now = Suspicion((), self.look, self.look, believed)
+        self._now = nothing_suspected(look, plan.model)
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -269,7 +263,7 @@ class Bench:
         """Give a bench of the same rows with ordinary noise; what ranked candidates may rank them still."""
         other = copy(self)
         other._ordinary = True  # noqa: SLF001 - of the same class
-        other._believe_nothing()  # noqa: SLF001 - of the same class
+        other._now = nothing_suspected(self.look, self.plan.model)  # noqa: SLF001 - of the same class
         return other
 
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:

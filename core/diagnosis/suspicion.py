@@ -15,8 +15,10 @@ from core.diagnosis.cause import Cause, Site
 from core.diagnosis.hypothesis import Candidate, Hypothesis, Place, Scored
 from core.diagnosis.look import Look
 from core.diagnosis.rows import Columns
+from core.dynamics.model import DynamicModel
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
+from core.simulation.inverse import inverse_dynamics
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +92,12 @@ class Suspicion:
             square += np.sum(own**2, axis=0)
             change += np.sum((theirs - own) ** 2, axis=0)
         return np.asarray(np.sqrt(change / np.maximum(square, 1e-300)))
+
+
+def nothing_suspected(look: Look, model: DynamicModel) -> Suspicion:
+    """Believe that nothing moves any link, and suspect nothing."""
+    nothing = Prediction(model, np.zeros(len(model.parameters)), inverse_dynamics)
+    return Suspicion((), look, look, nothing)
 
 
 def joined_by(look: Look, found: Hypothesis, believed: Prediction) -> Prediction:
