@@ -29,7 +29,7 @@ def pinocchio_model(robot: RobotModel) -> Any:  # noqa: ANN401 (pinocchio publis
     return model
 
 
-def regressors(model: Any, state: MotionState) -> np.ndarray:  # noqa: ANN401 (as above)
+def regressors(model: Any, state: MotionState) -> np.ndarray:  # noqa: ANN401 (pinocchio publishes no types)
     """Call pinocchio once per sample; samples x joints x (10 links)."""
     data = model.createData()
     out = np.empty((len(state.position), model.nv, 10 * model.nv))
@@ -39,7 +39,7 @@ def regressors(model: Any, state: MotionState) -> np.ndarray:  # noqa: ANN401 (a
     return out
 
 
-def base_columns(model: Any, base: BaseModel, state: MotionState) -> np.ndarray:  # noqa: ANN401 (as above)
+def base_columns(model: Any, base: BaseModel, state: MotionState) -> np.ndarray:  # noqa: ANN401 (pinocchio publishes no types)
     """Give pinocchio's columns for the base parameters, the drives' added; samples x joints x base."""
     body = regressors(model, state)
     out = np.zeros((*state.position.shape, len(base.kept)))

@@ -78,7 +78,7 @@ def peer(mechanism: Mechanism) -> Any:  # noqa: ANN401 (pinocchio publishes no t
 
 
 def looped(
-    model: Any,  # noqa: ANN401 (as above)
+    model: Any,  # noqa: ANN401 (pinocchio publishes no types)
     mechanism: Mechanism,
     start: MotionState,
     torque: np.ndarray,

@@ -3,8 +3,8 @@
 Sources: Burg 1975 (reflections); Golub & Van Loan, Matrix Computations, ch. 4.3 (banded factors).
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202  # numba: types stand in signatures
-# Types stand in numba's signatures, which mypy does not read:
+# ruff: noqa: ANN001, ANN201, ANN202  # numba reads types from its own signatures, or infers them
+# Nor does mypy read those signatures:
 # mypy: disable-error-code="no-untyped-def"
 
 import numpy as np

@@ -80,8 +80,9 @@ def free_of(columns: csr_array) -> Free:
         In the order of time: what lies apart in the order must not overlap much.
     """
     scaled = _scaled(columns)
-    indices, begins = (one.astype(np.int32, copy=False) for one in (scaled.indices, scaled.indptr))
-    products = banded(scaled.data, indices, begins, scaled.shape[1])
+    products = banded(
+        scaled.data, scaled.indices.astype(np.int32), scaled.indptr.astype(np.int32), scaled.shape[1]
+    )
     products[0] += RIDGE
     factor = cholesky_banded(products, lower=True) if products.size else products
     return Free(scaled, scaled.T.tocsr(), factor, _sizes(columns))

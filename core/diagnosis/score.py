@@ -145,9 +145,9 @@ def _scores_from(
         sums = tuple(np.empty((count, *shape)) for shape in shapes)
         equations = (one[rows.rows], rows.place, own.noise.weights, found.left[joint])
         fitted, inside, factor = (
-            np.ascontiguousarray(one) for one in (own.columns, own.inside, own.free.factor.T)
+            np.ascontiguousarray(table) for table in (own.columns, own.inside, own.free.factor.T)
         )
-        free = (loose.data, *(one.astype(np.int32) for one in (loose.indices, loose.indptr)))
+        free = (loose.data, loose.indices.astype(np.int32), loose.indptr.astype(np.int32))
         sum_begun((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
         right += sums[0]
         squares += sums[1]
