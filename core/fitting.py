@@ -53,10 +53,13 @@ class Fitted:
     estimate: Estimate
 
 
-def fitted(options: IdentifyOptions, fitting: Fitting, tell: Progress) -> Fitted:
-    """Fit one model."""
+def fitted(
+    options: IdentifyOptions, fitting: Fitting, tell: Progress, observation: Observation | None = None
+) -> Fitted:
+    """Fit one model to the data, or to what was observed of them already."""
     data, base = fitting.data, fitting.base
-    observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
+    if observation is None:
+        observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
     used, system = weighted_system(data, observation, options.estimate)
     system = _informed(system, fitting.belief)

@@ -5,6 +5,7 @@ This is the only module that meets every chapter; each step takes what the step 
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -17,7 +18,14 @@ from core.diagnosis.verdict import diagnose as find_causes
 from core.dynamics.model import DynamicModel, standard_model
 from core.errors import OptionError, SolverError, VeritorqueError
 from core.estimate.measured import Measured, smoothed
-from core.extension.extend import cures, extended_base, sizes, taken_along
+from core.extension.extend import (
+    all_proven,
+    cures,
+    extended_base,
+    places_among_all,
+    sizes,
+    taken_along,
+)
 from core.extension.fold import folded
 from core.extension.gain import JointGain, gains
 from core.extension.proving import proven
@@ -26,6 +34,7 @@ from core.log.model import JointLog
 from core.options import IdentifyOptions, parse_diagnose_options, parse_options
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
+from core.regressor.observe import Observation
 from core.report.compared import compared
 from core.report.diagnosed import Diagnosed
 from core.report.diagnosis_document import diagnosis_document
@@ -172,9 +181,15 @@ def _proven(
 ) -> tuple[Diagnosis, tuple[Fitting, Fitted] | None]:
     """Identify again with causes whose gain the search leaves in doubt; give the last such fit if any."""
 
+    @cache
+    def observed() -> Observation:
+        whole = _extended(all_proven(found), fitting)
+        return whole.data.observed(lambda _done: tell("prove", 0.78))
+
     def tried(trial: Diagnosis) -> tuple[Fitting, Fitted]:
         joined = _extended(trial, fitting)
-        return joined, fitted(options, joined, lambda _stage, _done: tell("prove", 0.78))
+        seen = observed().over(joined.data.plan, places_among_all(trial, fitting.base))
+        return joined, fitted(options, joined, lambda _stage, _done: tell("prove", 0.78), seen)
 
     def gained(*fits: tuple[Fitting, Fitted]) -> tuple[JointGain, ...]:
         now, then = ((one.observation, one.estimate.base) for _, one in fits)

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from core.arrays import Indices
 from core.diagnosis.diagnosis import Diagnosis, Finding
 from core.dynamics.model import DynamicModel
 from core.dynamics.term import Term
@@ -51,6 +52,23 @@ def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
     grouping[: len(base.kept), :old] = base.grouping
     grouping[len(base.kept) :, old:] = np.eye(new - old)
     return replace(base, model=model, kept=(*base.kept, *range(old, new)), grouping=grouping)
+
+
+def all_proven(diagnosis: Diagnosis) -> Diagnosis:
+    """Give the diagnosis with every finding's gain beyond doubt, so that all of them join."""
+    return replace(diagnosis, findings=tuple(replace(one, proven=True) for one in diagnosis.findings))
+
+
+def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
+    """Give the places of an extended model's base parameters in the model that all findings join."""
+    places = list(range(len(base.kept)))
+    members = (one for one in diagnosis.findings if one.member is not None)
+    stop = len(places)
+    for one, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
+        start, stop = stop, stop + len(term.parameters(base.model.robot))
+        if gains_surely(one):
+            places += range(start, stop)
+    return np.array(places)
 
 
 def taken_along(diagnosis: Diagnosis) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Matrix, Parameters, Rows
+from core.arrays import Indices, Matrix, Parameters, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +49,19 @@ class Factor:
         if not other.rows or not self.rows:
             return self if self.rows else other
         return Factor(_triangle(np.vstack([self.triangle, other.triangle])), self.rows + other.rows)
+
+    def over(self, columns: Indices) -> "Factor":
+        """Keep some of the columns; the last of those given is the torque's.
+
+        Examples
+        --------
+        >>> rows = np.array([[1.0, 5.0, 2.0], [1.0, 7.0, 4.0], [1.0, 8.0, 9.0]])
+        >>> fewer = np.array([0, 2])
+        >>> part, alone = Factor.of(rows).over(fewer), Factor.of(rows[:, fewer])
+        >>> bool(np.allclose(np.abs(part.triangle), np.abs(alone.triangle)))
+        True
+        """
+        return Factor(_triangle(self.triangle[:, columns]), self.rows)
 
     def scaled(self, factor: float) -> "Factor":
         """Weight all rows by a number."""

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Matrix, Parameters, Rows, Vector
+from core.arrays import Indices, Matrix, Parameters, Rows, Vector
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +44,10 @@ class LaggedProducts:
     def merged(self, other: "LaggedProducts") -> "LaggedProducts":
         """Join the products of two stretches."""
         return LaggedProducts(self.products + other.products, self.rows + other.rows)
+
+    def over(self, columns: Indices) -> "LaggedProducts":
+        """Keep the products of some of the columns; the last of those given is the torque's."""
+        return LaggedProducts(self.products[:, columns[:, None], columns], self.rows)
 
     def autocovariance(self, parameters: Parameters) -> Vector:
         """Sum the residual's products at lags 0..LAGS, for these parameters over the rows' columns."""

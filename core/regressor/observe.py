@@ -6,7 +6,7 @@ choose from.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 
 import numpy as np
@@ -88,6 +88,32 @@ class Observation:
         return tuple(
             reduce(Factor.merged, (block.factors[joint] for block in picked), Factor.empty(len(columns) + 1))
             for joint, columns in enumerate(self.columns_of)
+        )
+
+    def over(self, plan: ColumnPlan, places: Indices) -> "Observation":
+        """Give the equations of a plan all of whose columns are among this one's, without another pass.
+
+        Parameters
+        ----------
+        places
+            Rising positions of the plan's columns in `self.plan.columns`.
+        """
+        kept = [
+            np.append(np.searchsorted(own, places[wanted]), len(own))
+            for own, wanted in zip(self.columns_of, plan.columns_of, strict=True)
+        ]
+
+        def fewer(block: Block) -> Block:
+            return replace(
+                block, factors=tuple(one.over(own) for one, own in zip(block.factors, kept, strict=True))
+            )
+
+        return replace(
+            self,
+            plan=plan,
+            blocks=tuple(fewer(block) for block in self.blocks),
+            columns_of=plan.columns_of,
+            memory=tuple(one.over(own) for one, own in zip(self.memory, kept, strict=True)),
         )
 
 
