@@ -56,8 +56,14 @@ def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
         look, believed, noise = look_again(width)
         shares = position_noise_share((look, believed, noise), over_stamps=False)
     # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
-    scattered = position_noise_share((look, believed, noise), over_stamps=True)
-    return replace(look, position_share=np.maximum(shares, scattered)), believed, noise
+    made = [position_torque(look, believed, over_stamps=one) for one in (False, True)]
+    even, scattered = (white_share(look, torque, noise) for torque in made)
+    look = replace(
+        look,
+        position_share=np.maximum(even, scattered),
+        position_torque=np.where(scattered > even, made[1], made[0]),
+    )
+    return look, believed, noise
 
 
 def position_noise_share(fitted: Fitted, *, over_stamps: bool) -> JointVector:
@@ -69,17 +75,25 @@ def position_noise_share(fitted: Fitted, *, over_stamps: bool) -> JointVector:
         Whether stamps that scatter though the samples do not count as noise of the positions.
     """
     look, believed, noise = fitted
+    return white_share(look, position_torque(look, believed, over_stamps=over_stamps), noise)
+
+
+def position_torque(look: Look, believed: Prediction, *, over_stamps: bool) -> JointSeries:
+    """Draw what noise of the positions makes of the torque, N m or N."""
     size = position_noise(look, over_stamps=over_stamps)
 
     def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
         return size * rng.normal(size=position.shape)
 
-    place = places(~look.starts)
-    gained = disturbance(look, _frictionless(believed), spoil)
-    shares = []
+    return disturbance(look, _frictionless(believed), spoil)
+
+
+def white_share(look: Look, torque: JointSeries, noise: tuple[JointNoise, ...]) -> JointVector:
+    """Give, per joint, the mean square of a torque on usable rows in units of the noise's innovations."""
+    place, shares = places(~look.starts), []
     for joint, one in enumerate(noise):
-        white = one.whitened(gained[:, [joint]], place)[look.usable[:, joint]]
+        white = one.whitened(torque[:, [joint]], place)[look.usable[:, joint]]
         shares.append(float(np.sum(white**2)) / max(len(white), 1))
     return np.array(shares)
 

@@ -73,6 +73,8 @@ class Look:
         Cut-off of the parallel filter; `motion_band_hz` that of the motion.
     position_share
         Per joint, the share of the white residual's mean square that noise of the positions has.
+    position_torque
+        What such noise makes of the torque, as one draw of it: rows x joints, N m or N.
     """
 
     robot: RobotModel
@@ -90,6 +92,7 @@ class Look:
     band_hz: float
     motion_band_hz: float
     position_share: JointVector
+    position_torque: JointSeries
 
     @property
     def joints(self) -> int:
@@ -207,6 +210,7 @@ def look_at(
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
         position_share=np.zeros(len(model.robot.joints)),
+        position_torque=np.zeros((len(log), len(model.robot.joints))),
     )
 
 

@@ -168,8 +168,10 @@ def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[
         why = _impossible(bench, without, trial)
         if not why:
             margin = min(margin, behind)
-        if not why and behind < _indifference(member, rival, own_rise):
-            ambiguous.append(_undecided(member, rival, rise(without, trial), behind))
+        # One that explains no more besides than noise of the positions might refutes nobody.
+        like = min(_by_position_noise(bench, own, one) for one in (member, rival))
+        if not why and behind < max(like, _indifference(member, rival, own_rise)):
+            ambiguous.append(_undecided(member, rival, rise(without, trial), behind, like))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
             refuted.append(_refuted(rival, rise(without, trial), own_rise, why))
     return Standing(member, own_rise, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
@@ -180,15 +182,29 @@ def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float
     return max(INDIFFERENCE, shares.get(rival.cause.id, OTHER_SHARE) * own_rise)
 
 
-def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float) -> Rival:
+def _by_position_noise(bench: Bench, own: Hypothesis, one: Candidate) -> float:
+    """Give the rise that noise of the positions may bring a candidate: none where that is not like it."""
+    if not one.cause.like_position_noise:
+        return 0.0
+    joints = one.site or range(1, bench.look.joints + 1)
+    return max(
+        float(np.sum(own.fit.joints[joint - 1].noise.whitened(torque, rows.place) ** 2))
+        for joint in joints
+        for rows in [bench.base[joint - 1]]
+        for torque in [bench.look.position_torque[rows.rows, joint - 1, None]]
+    )
+
+
+def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float, like: float) -> Rival:
     known = [one for one in member.cause.confusions if one.cause == rival.cause.id]
     why = known[0].why if known else "both columns run nearly parallel in this motion"
     experiment = known[0].experiment if known else rival.cause.experiment
+    noise = f", where noise of the positions may make {like:.1f}" if like > INDIFFERENCE else ""
     return Rival(
         rival.cause.id,
         rival.site,
         statistic,
-        f"its criterion differs by only {behind:.1f}: {why}",
+        f"its criterion differs by only {behind:.1f}{noise}: {why}",
         experiment,
     )
 

@@ -53,16 +53,12 @@ class Selection:
 def select(
     bench: Bench, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
 ) -> Selection:
-    """Search for the causes that explain the rows, from those that other rows have shown if there are any.
-
-    As soon as a cause joins beside which the noise is left too much the search is over: what follows would
-    be judged by that noise (see `Bench.needs_ordinary_noise`).
-    """
+    """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
     none = bench.tried(())
     bench.believe(none)
     now = settled(bench, bench.tried(tuple(start))) if start else none
     kept = tuple(Step("kept", one, 0.0) for one in start)
-    return continued(bench, Selection(none, now, kept), {}, progress, over=bench.needs_ordinary_noise)
+    return continued(bench, Selection(none, now, kept), {}, progress)
 
 
 def continued(
@@ -71,15 +67,12 @@ def continued(
     given_up: dict[Key, float],
     progress: Callable[[float], None] | None = None,
     *,
-    over: Callable[[Hypothesis], bool] | None = None,
     known: Collection[Keys] = (),
 ) -> Selection:
     """Search for more causes than those found so far, until no more are found.
 
     Parameters
     ----------
-    over
-        Tells whether the search is over with what a cause has just joined.
     known
         Sets of causes from which another search went on: one that comes to them would go the same way.
     """
@@ -98,9 +91,6 @@ def continued(
             given_up[better.members[-1].key] = np.inf
             bench.believe(now)
             continue
-        if over is not None and over(larger):
-            now = larger
-            break
         for now in _defended(bench, larger, steps, given_up):
             through.add(frozenset(now.by_key))
             if frozenset(now.by_key) in known:

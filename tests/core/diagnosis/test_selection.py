@@ -279,10 +279,37 @@ def test_a_rival_that_explains_little_is_not_equally_good():
     assert "far" not in {rival.cause for rival in standing(bench, selection.chosen, 0).ambiguous}
 
 
-def test_a_search_is_over_once_noise_is_left_too_much_beside_what_was_found():
-    bench = bench_of(measured_arm(BOTH, seed=5), CAUSES)
-    bench.needs_ordinary_noise = lambda found: bool(found.members)
-    assert [step.action for step in select(bench).steps] == ["added"]
+@pytest.mark.parametrize(
+    ("like_noise", "size", "named"),
+    [(False, 1.0, False), (True, 0.3, False), (True, 1.0, True)],
+    ids=["unlike", "more than noise makes", "less than noise makes"],
+)
+def test_of_causes_that_noise_of_positions_passes_for_one_refutes_the_other_only_by_more_than_it_makes(
+    like_noise, size, named
+):
+    """The rival has a part of the effect, and lags behind by half of what all noise is worth."""
+    causes = tuple(
+        made_up(name, wave_of(*rates), like_position_noise=like_noise)
+        for name, rates in {"whole": (QUICK, QUICKER), "part": (QUICK,)}.items()
+    )
+    scene, harmless = (measured_arm(one) for one in (wave_effect({QUICK: 0.05, QUICKER: 0.05}), None))
+    noise = residual_of(harmless)
+    bench = bench_of(replace(scene, look=replace(scene.look, position_torque=size * noise)), causes)
+    whole, part = (bench.tried((candidate(one),)) for one in causes)
+    none, rows = nothing_found(bench), len(whole.fit.joints[1].torque)
+    assert 0.3**2 < (merit(none, whole) - merit(none, part)) / rows < 0.9
+    found = standing(bench, whole, 0)
+    assert [one.cause for one in found.ambiguous] == ["part"] * named
+    assert [one.cause for one in found.refuted] == ["part"] * (not named)
+
+
+def residual_of(scene):
+    bench = bench_of(scene, ())
+    return bench.residual(bench.tried(()))
+
+
+def wave_of(*rates):
+    return lambda state, scalars: [sum(np.sin(rate * state.position[:, 1]) for rate in rates)]
 
 
 def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
