@@ -8,12 +8,15 @@ import numpy as np
 from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
 from core.diagnosis.causes.common import OwnJointCause, before_the_gear, motor_inertias, named, shown, spread
 from core.diagnosis.look import Look
+from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.elasticity import Elasticity
 
 LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
 DAMPING_RATIOS = (0.05, 0.2)
+LIGHTEST = 1e-9
+"""Least mean inertia of a link, kg m2 (kg): believed ones may be less than nothing."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +54,14 @@ class JointElasticity(OwnJointCause):
         ]
 
     def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
-        """Give the columns."""
-        response = (scalars["resonance_hz"], scalars["damping_ratio"])
-        return Elasticity(site[0], believed, look.band_hz, *response, scalars.get("motor_inertia", 0.0))
+        """Give the columns; the resonance is that of the link's mean inertia along the motion."""
+        response, rotor = (
+            (scalars["resonance_hz"], scalars["damping_ratio"]),
+            scalars.get("motor_inertia", 0.0),
+        )
+        gear = Gear(believed, site[0], rotor)
+        usual = float(np.mean(np.concatenate([gear.inertia(one.state) for one in look.stretches])))
+        return Elasticity(site[0], believed, *response, max(usual, LIGHTEST), rotor)
 
     def possible(self, solved: Solved) -> bool:
         """Want a spring that gives way."""
