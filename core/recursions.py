@@ -92,17 +92,24 @@ def spring(load, inertia, damping, step, parts, gives):  # pragma: no cover  (co
     Parameters
     ----------
     load, inertia
-        Per sample; in between, where a step is cut in so many parts, they run straight.
+        Per sample. A step is cut in so many parts: in between the load runs on a cubic through its samples
+        with the slopes of their neighbours, the inertia straight.
     gives
         Per sample, how far, its rate, and the rate of that.
     """
     short = step / parts
     at, speed, rate = load[0], 0.0, 0.0
     gives[0, 0], gives[0, 1], gives[0, 2] = at, speed, rate
-    for row in range(1, len(load)):
+    last = len(load) - 1
+    for row in range(1, last + 1):
+        low, high = load[row - 1], load[row]
+        rises = 0.5 * (high - load[max(row - 2, 0)])
+        leaves = 0.5 * (load[min(row + 1, last)] - low)
         for part in range(1, parts + 1):
             later = part / parts
-            pull = load[row - 1] + later * (load[row] - load[row - 1])
+            earlier = 1.0 - later
+            bent = earlier * (rises - high + low) - later * (leaves - high + low)
+            pull = earlier * low + later * high + earlier * later * bent
             mass = inertia[row - 1] + later * (inertia[row] - inertia[row - 1])
             ahead = at + short * speed + 0.25 * short * short * rate
             quick = speed + 0.5 * short * rate

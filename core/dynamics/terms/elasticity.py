@@ -23,8 +23,9 @@ from core.signals.state import MotionState
 
 LEAST = 0.02
 """Share of its inertia below which no link's falls: what is believed of one may be too little to be real."""
-TURN = 0.3
-"""Angle in rad by which the spring swings in one step of its integration, at most."""
+TURN, PARTS = 0.1, 8
+"""Angle in rad by which the spring swings in a step of its integration at most; but no more parts of a sample
+than so many: what swings quicker than that lies far above any log's band."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +75,7 @@ def sprung(load: Samples, inertia: Samples, damping: float, step: float) -> Join
     Parameters
     ----------
     load
-        One value per sample, between which it runs straight; so does the inertia.
+        One value per sample.
     inertia, damping
         Over the stiffness, s^2 and s.
     step
@@ -93,6 +94,6 @@ def sprung(load: Samples, inertia: Samples, damping: float, step: float) -> Join
     [[2.0, 2.0, 2.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
     """
     found = np.empty((len(load), 3))
-    parts = np.ceil(step / (TURN * np.sqrt(inertia.min())))
-    spring(np.ascontiguousarray(load), inertia, damping, step, max(int(parts), 1), found)
+    parts = np.clip(np.ceil(step / (TURN * np.sqrt(inertia.min()))), 1, PARTS)
+    spring(np.ascontiguousarray(load), inertia, damping, step, int(parts), found)
     return found
