@@ -83,7 +83,7 @@ def innovate(residual, place, weights, innovations):  # pragma: no cover  (compi
         innovations[row] = total
 
 
-@njit("void(float64[::1], float64[::1], float64, float64, int64, float64[:,::1])", **_SUMS)
+@njit("void(float64[::1], float64[::1], float64[::1], float64, int64, float64[:,::1])", **_SUMS)
 def spring(load, inertia, damping, step, parts, gives):  # pragma: no cover  (compiled)
     """Write how far a damped spring of stiffness one gives way under a load, with an inertia on it.
 
@@ -91,9 +91,9 @@ def spring(load, inertia, damping, step, parts, gives):  # pragma: no cover  (co
 
     Parameters
     ----------
-    load, inertia
+    load, inertia, damping
         Per sample. A step is cut in so many parts: in between the load runs on a cubic through its samples
-        with the slopes of their neighbours, the inertia straight.
+        with the slopes of their neighbours, the others straight.
     gives
         Per sample, how far, its rate, and the rate of that.
     """
@@ -110,10 +110,11 @@ def spring(load, inertia, damping, step, parts, gives):  # pragma: no cover  (co
             earlier = 1.0 - later
             bent = earlier * (rises - high + low) - later * (leaves - high + low)
             pull = earlier * low + later * high + earlier * later * bent
-            mass = inertia[row - 1] + later * (inertia[row] - inertia[row - 1])
+            mass = earlier * inertia[row - 1] + later * inertia[row]
+            drag = earlier * damping[row - 1] + later * damping[row]
             ahead = at + short * speed + 0.25 * short * short * rate
             quick = speed + 0.5 * short * rate
-            rate = (pull - damping * quick - ahead) / (mass + 0.5 * short * damping + 0.25 * short * short)
+            rate = (pull - drag * quick - ahead) / (mass + 0.5 * short * drag + 0.25 * short * short)
             at = ahead + 0.25 * short * short * rate
             speed = quick + 0.5 * short * rate
         gives[row, 0], gives[row, 1], gives[row, 2] = at, speed, rate

@@ -65,6 +65,7 @@ def test_what_a_clipped_torque_leaves_is_no_push():
         Order("single", 15700199, "payload_change"),  # the likelihood of its instant has a narrow peak
         Order("single", 15700605, "payload_change", 3.0),  # and hardly more than that peak
         Order("single", 15700597, "torque_filter_lag", 3.0),  # what it leaves of a jerk looks like pushes
+        Order("single", 19100181, "joint_elasticity"),  # the inertia on the spring changes fifteenfold
     ],
     ids=lambda order: f"{order.cause}-{order.seed}",
 )
@@ -103,6 +104,8 @@ def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most
         Order("combination", 13900765, effects=3),  # the torque of two comes late with all the rest
         Order("combination", 15100784, effects=2),  # a spring beside a joint whose gear does not carry it
         Order("combination", 13900781, effects=3),  # a body joins at an instant beside a held-out block
+        Order("combination", 17300770, effects=2),  # half way the noise is left what is not found yet
+        Order("combination", 19700763, effects=3),  # positions so coarse that a delay may be a filter
     ],
     ids=lambda order: str(order.seed),
 )
