@@ -4,7 +4,7 @@ The aliases are checked at run time in the tests (jaxtyping with beartype) and c
 """
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Complex, Float, Int
 
 # "samples" are instants as measured, "instants" those a computation asks for or leaves.
 Samples = Float[np.ndarray, " samples"]
@@ -34,6 +34,7 @@ Intervals = Float[np.ndarray, "columns 2"]
 SquareMatrix = Float[np.ndarray, "size size"]
 Series = Float[np.ndarray, "entries samples"]
 KeptSeries = Float[np.ndarray, "entries instants"]
+Spectrum = Complex[np.ndarray, " _"]
 Indices = Int[np.ndarray, " _"]
 BlockKey = tuple[int, int]
 """Number of a log and of one of its blocks, both from 0."""

@@ -1,7 +1,6 @@
 """Run recursions along series, compiled: each value needs those before it, which no array operation gives.
 
-Sources: Burg 1975 (reflections); Newmark 1959 (springs); Golub & Van Loan, Matrix Computations, ch. 4.3
-(banded factors).
+Sources: Burg 1975 (reflections); Golub & Van Loan, Matrix Computations, ch. 4.3 (banded factors).
 """
 
 # ruff: noqa: ANN001, ANN201, ANN202  # numba reads types from its own signatures, or infers them
@@ -81,43 +80,6 @@ def innovate(residual, place, weights, innovations):  # pragma: no cover  (compi
         for lag in range(known + 1):
             total += weights[known, lag] * residual[row - lag]
         innovations[row] = total
-
-
-@njit("void(float64[::1], float64[::1], float64[::1], float64, int64, float64[:,::1])", **_SUMS)
-def spring(load, inertia, damping, step, parts, gives):  # pragma: no cover  (compiled)
-    """Write how far a damped spring of stiffness one gives way under a load, with an inertia on it.
-
-    By the rule of average acceleration, stable for any step; at first the spring rests.
-
-    Parameters
-    ----------
-    load, inertia, damping
-        Per sample. A step is cut in so many parts: in between the load runs on a cubic through its samples
-        with the slopes of their neighbours, the others straight.
-    gives
-        Per sample, how far, its rate, and the rate of that.
-    """
-    short = step / parts
-    at, speed, rate = load[0], 0.0, 0.0
-    gives[0, 0], gives[0, 1], gives[0, 2] = at, speed, rate
-    last = len(load) - 1
-    for row in range(1, last + 1):
-        low, high = load[row - 1], load[row]
-        rises = 0.5 * (high - load[max(row - 2, 0)])
-        leaves = 0.5 * (load[min(row + 1, last)] - low)
-        for part in range(1, parts + 1):
-            later = part / parts
-            earlier = 1.0 - later
-            bent = earlier * (rises - high + low) - later * (leaves - high + low)
-            pull = earlier * low + later * high + earlier * later * bent
-            mass = earlier * inertia[row - 1] + later * inertia[row]
-            drag = earlier * damping[row - 1] + later * damping[row]
-            ahead = at + short * speed + 0.25 * short * short * rate
-            quick = speed + 0.5 * short * rate
-            rate = (pull - drag * quick - ahead) / (mass + 0.5 * short * drag + 0.25 * short * short)
-            at = ahead + 0.25 * short * short * rate
-            speed = quick + 0.5 * short * rate
-        gives[row, 0], gives[row, 1], gives[row, 2] = at, speed, rate
 
 
 @njit("float64[:,::1](float64[::1], int32[::1], int32[::1], int64)", **_SUMS)

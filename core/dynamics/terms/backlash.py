@@ -16,10 +16,10 @@ from core.arrays import JointSeries, Samples
 from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
+from core.dynamics.terms.elasticity import smoothed
 from core.recursions import fly
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
-from core.signals.zero_phase import kernel
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,11 +60,3 @@ def twist_of(free: Samples, step: float, half_width: float) -> Samples:
     twist = np.empty(len(free))
     fly(np.array(free), step, half_width, twist)
     return twist
-
-
-def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
-    """Low-pass columns without delay; beyond its ends a series is continued by its end values."""
-    response = kernel(min(band_hz, 0.4 / step_of(state)), 1.0 / step_of(state), 2)
-    reach = len(response) // 2
-    padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
-    return np.column_stack([np.convolve(column, response, mode="valid") for column in padded.T])

@@ -1,33 +1,26 @@
 """Give what a compliant gear adds when the encoder sits on the motor: the link lags by torque over stiffness.
 
-To first order in the compliance 1 / K the link's position is q - x, with M x'' + (D + S) x' + K x = load: its
-own inertia M swings on spring and damper. M and S, by which the load grows with the link's own speed, change
-with the motion. What the load changes by is linear in 1 / K where M / K and D / K are known.
-Sources: Spong, J. Dyn. Sys. Meas. Control 109, 1987; Newmark, J. Eng. Mech. Div. 85, 1959.
+The link's position is q - H(load / K), to first order in the compliance 1 / K; H is the response of the
+link's inertia on spring and damper, one below their resonance. What the load changes by is linear in 1 / K.
+Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
-from core.arrays import JointSeries, Samples
+from core.arrays import JointSeries, Samples, Spectrum
 from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, Symbol, step_of
-from core.recursions import spring
+from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
 from core.robot.joint_units import joint_unit
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter
 from core.signals.state import MotionState
-
-LEAST = 0.02
-"""Share of its inertia below which no link's falls: what is believed of one may be too little to be real."""
-WILD = 100.0
-"""Times its load: what swings so far is driven by an inertia that is believed wrongly, and is nothing."""
-TURN, PARTS = 0.1, 8
-"""Angle in rad by which the spring swings in a step of its integration at most; but no more parts of a sample
-than so many: what swings quicker than that lies far above any log's band."""
+from core.signals.zero_phase import kernel
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,18 +29,18 @@ class Elasticity(AllJointsTerm):
 
     Attributes
     ----------
+    band_hz
+        Loads are smoothed at it before they are differentiated.
     resonance_hz, damping_ratio
-        Of an inertia on the gear's spring: below it the link follows the load at once.
-    inertia
-        Which inertia that is, above zero, kg m2 (kg): the link's own changes, and its resonance with it.
+        Of the link's inertia on the gear's spring: below it the link follows the load at once.
     motor_inertia
         What the believed load holds of the rotor's inertia, kg m2 (kg).
     """
 
     believed: Prediction
+    band_hz: float
     resonance_hz: float
     damping_ratio: float
-    inertia: float
     motor_inertia: float = 0.0
     symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
     kind: ClassVar[str] = "joint_elasticity"
@@ -62,45 +55,37 @@ class Elasticity(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per unit of compliance."""
         del robot
-        gear, own = Gear(self.believed, self.joint, self.motor_inertia), self.joint - 1
-        angular = 2.0 * np.pi * self.resonance_hz
-        stiffness = self.inertia * angular**2
-        inertia, least = gear.inertia(state), LEAST * self.inertia
-        drag = np.where(inertia > least, self.believed.slopes(state, own)[1][:, own], 0.0) / stiffness
-        damping = 2.0 * self.damping_ratio / angular + drag
-        load = gear.load(state)
-        gives = sprung(load, np.maximum(inertia, least) / stiffness, damping, step_of(state))
-        if not np.abs(gives[:, 0]).max() < WILD * np.abs(load).max():
-            gives = np.zeros_like(gives)
-        return [gear.change(state, MotionState(*(-gives.T[:, :, None])))]
+        gear = Gear(self.believed, self.joint, self.motor_inertia)
+        load = _load_spectrum(gear, state, self.band_hz)
+        lag = -swung(load, state, self.resonance_hz, self.damping_ratio)[:, None]
+        return [gear.change(state, MotionState(lag, *rates(lag, state)))]
 
 
-def sprung(load: Samples, inertia: Samples, damping: Samples, step: float) -> JointSeries:
-    """Let a spring of stiffness one give way under a load, with an inertia on it; at first it rests.
+@lru_cache(maxsize=64)
+def _load_spectrum(gear: Gear, state: MotionState, band_hz: float) -> Spectrum:
+    """Give the spectrum of a gear's smoothed load; kept, because a scan asks for the same ones again."""
+    return spectrum_of(smoothed(gear.load(state)[:, None], state, band_hz)[:, 0])
 
-    Parameters
-    ----------
-    load
-        One value per sample.
-    inertia, damping
-        Over the stiffness, s^2 and s.
-    step
-        Time between samples, s.
 
-    Returns
-    -------
-    JointSeries
-        By how much it gives way, how quickly, and the rate of that: one column each.
+def spectrum_of(values: Samples) -> Spectrum:
+    """Transform a series that is mirrored at its end, and held where it began for as long as is quick."""
+    size = next_fast_len(2 * len(values), real=True)
+    held = np.full(size - 2 * len(values), values[0])
+    return np.asarray(rfft(np.concatenate([values, values[::-1], held])))
 
-    Examples
-    --------
-    Under a load that stays, it stays where it is.
 
-    >>> gives = sprung(np.full(3, 2.0), np.full(3, 0.01), np.full(3, 0.1), 0.1)
-    >>> bool(np.allclose(gives, [2.0, 0.0, 0.0]))
-    True
-    """
-    found = np.empty((len(load), 3))
-    parts = np.clip(np.ceil(step / (TURN * np.sqrt(inertia.min()))), 1, PARTS)
-    spring(np.ascontiguousarray(load), inertia, damping, step, int(parts), found)
-    return found
+def swung(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_ratio: float) -> Samples:
+    """Let a series of a state's samples pass a spring with a mass on it, gain one at rest."""
+    count = len(state.position)
+    size = next_fast_len(2 * count, real=True)
+    ratio = rfftfreq(size, step_of(state)) / resonance_hz
+    response = 1.0 / (1.0 - ratio**2 + 2j * damping_ratio * ratio)
+    return np.asarray(irfft(spectrum * response, size)[:count])
+
+
+def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
+    """Low-pass columns without delay; beyond its ends a series is continued by its end values."""
+    response = kernel(min(band_hz, 0.4 / step_of(state)), 1.0 / step_of(state), 2)
+    reach = len(response) // 2
+    padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
+    return np.column_stack([np.convolve(column, response, mode="valid") for column in padded.T])

@@ -22,7 +22,7 @@ from tests.core.estimate.worlds import true_parameters
 ROTOR = 0.7
 TERMS = {
     "load_friction": lambda believed, rotor: LoadFriction(1, believed, rotor),
-    "spring": lambda believed, rotor: Elasticity(1, believed, 20.0, 0.1, 0.5, rotor),
+    "spring": lambda believed, rotor: Elasticity(1, believed, 10.0, 20.0, 0.1, rotor),
     "play": lambda believed, rotor: Backlash(1, believed, 2e-3, 40.0, rotor),
 }
 
