@@ -8,6 +8,7 @@ import pytest
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
+from core.dynamics.terms.delay import Delay
 from core.dynamics.terms.stribeck import Stribeck
 from core.dynamics.terms.torque_gain import TorqueGain
 from core.extension.extend import extended_base
@@ -53,6 +54,26 @@ def world() -> World:
     noise = NOISE * rng.normal(size=state.position.shape)
     noise[:, 1] += SIZE * np.sign(speed) * np.exp(-((speed / VELOCITY) ** 2))
     return World(base_model(model), truth, log_of(model, truth, state, noise), Stribeck(2, VELOCITY))
+
+
+def test_a_trials_equations_are_the_same_out_of_all_findings_as_observed_by_themselves(world):
+    """Terms on one joint and on all, before and behind the one that is left out."""
+    believed = Prediction(world.base.model, world.truth)
+    terms = (TorqueGain(1, believed), world.effect, Delay(0, believed, 0.01))
+    all_of_them, trial = (extended_base(world.base, some) for some in (terms, (terms[0], terms[2])))
+    old = len(world.base.kept)
+    places = np.array([*range(old), old, old + 2])
+    one, other = world.observed(trial), world.observed(all_of_them)
+    assert len(other.plan.columns) == len(places) + 1
+    taken = other.over(one.plan, places)
+    assert taken.kept == one.kept
+    for alone, out in zip(one.blocks, taken.blocks, strict=True):
+        for first, second in zip(alone.factors, out.factors, strict=True):
+            assert first.rows == second.rows
+            grams = [part.triangle.T @ part.triangle for part in (first, second)]
+            np.testing.assert_allclose(*grams, rtol=1e-9, atol=1e-9 * np.abs(grams[0]).max())
+    for first, second in zip(one.memory, taken.memory, strict=True):
+        np.testing.assert_allclose(second.products, first.products, rtol=1e-9, atol=1e-9)
 
 
 def test_the_standard_parameters_keep_their_names_and_groupings(world):
