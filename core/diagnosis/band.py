@@ -45,29 +45,31 @@ def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
         it leaves.
     """
     width = BAND_OVER_MOTION
-    look, believed, noise = look_again(width)
-    shares = position_noise_share((look, believed, noise), over_stamps=False)
+    fitted = look_again(width)
+    even, even_shares = position_noise_torque(fitted, over_stamps=False)
     for _ in range(_LOOKS):
-        share = float(np.max(shares))
+        look, share = fitted[0], float(np.max(even_shares))
         if share <= LARGEST_SHARE or width <= NARROWEST:
             break
         actual = look.band_hz / look.motion_band_hz
         width = max(NARROWEST, min(width, actual) * float(np.clip((LARGEST_SHARE / share) ** 0.2, 0.5, 0.85)))
-        look, believed, noise = look_again(width)
-        shares = position_noise_share((look, believed, noise), over_stamps=False)
+        fitted = look_again(width)
+        even, even_shares = position_noise_torque(fitted, over_stamps=False)
     # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
-    made = [position_torque(look, believed, over_stamps=one) for one in (False, True)]
-    even, scattered = (white_share(look, torque, noise) for torque in made)
+    scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)
+    look, believed, noise = fitted
     look = replace(
         look,
-        position_share=np.maximum(even, scattered),
-        position_torque=np.where(scattered > even, made[1], made[0]),
+        position_share=np.maximum(even_shares, scattered_shares),
+        position_torque=np.where(scattered_shares > even_shares, scattered, even),
     )
     return look, believed, noise
 
 
-def position_noise_share(fitted: Fitted, *, over_stamps: bool) -> JointVector:
-    """Give, per joint, the share of the white residual's mean square that noise of the positions has.
+def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:
+    """Draw what noise of the positions makes of the torque, N m or N.
+
+    Gives with it, per joint, the share of the white residual's mean square that it has.
 
     Parameters
     ----------
@@ -75,27 +77,19 @@ def position_noise_share(fitted: Fitted, *, over_stamps: bool) -> JointVector:
         Whether stamps that scatter though the samples do not count as noise of the positions.
     """
     look, believed, noise = fitted
-    return white_share(look, position_torque(look, believed, over_stamps=over_stamps), noise)
-
-
-def position_torque(look: Look, believed: Prediction, *, over_stamps: bool) -> JointSeries:
-    """Draw what noise of the positions makes of the torque, N m or N."""
     size = position_noise(look, over_stamps=over_stamps)
 
     def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
         return size * rng.normal(size=position.shape)
 
-    return disturbance(look, _frictionless(believed), spoil)
-
-
-def white_share(look: Look, torque: JointSeries, noise: tuple[JointNoise, ...]) -> JointVector:
-    """Give, per joint, the mean square of a torque on usable rows in units of the noise's innovations."""
-    place, shares = places(~look.starts), []
+    place = places(~look.starts)
+    torque = disturbance(look, _frictionless(believed), spoil)
+    shares = []
     for joint, one in enumerate(noise):
         white = one.whitened(torque[:, [joint]], place)[look.usable[:, joint]]
         shares.append(float(np.sum(white**2)) / max(len(white), 1))
-    return np.array(shares)
+    return torque, np.array(shares)
 
 
 def _frictionless(believed: Prediction) -> Prediction:

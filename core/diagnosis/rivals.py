@@ -169,7 +169,7 @@ def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[
         if not why:
             margin = min(margin, behind)
         # One that explains no more besides than noise of the positions might refutes nobody.
-        like = min(_by_position_noise(bench, own, one) for one in (member, rival))
+        like = _by_position_noise(bench, own, (member, rival))
         if not why and behind < max(like, _indifference(member, rival, own_rise)):
             ambiguous.append(_undecided(member, rival, rise(without, trial), behind, like))
         elif rise(without, trial) > WORTH_NAMING * own_rise:
@@ -182,17 +182,14 @@ def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float
     return max(INDIFFERENCE, shares.get(rival.cause.id, OTHER_SHARE) * own_rise)
 
 
-def _by_position_noise(bench: Bench, own: Hypothesis, one: Candidate) -> float:
-    """Give the rise that noise of the positions may bring a candidate: none where that is not like it."""
-    if not one.cause.like_position_noise:
+def _by_position_noise(bench: Bench, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
+    """Give the rise that noise of the positions may bring two candidates: none where one is not like it."""
+    if not all(one.cause.like_position_noise for one in both):
         return 0.0
-    joints = one.site or range(1, bench.look.joints + 1)
-    return max(
-        float(np.sum(own.fit.joints[joint - 1].noise.whitened(torque, rows.place) ** 2))
-        for joint in joints
-        for rows in [bench.base[joint - 1]]
-        for torque in [bench.look.position_torque[rows.rows, joint - 1, None]]
-    )
+    torque, worth = bench.look.position_torque, []
+    for rows, part, made in zip(bench.base, own.fit.joints, torque.T, strict=True):
+        worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.place) ** 2)))
+    return min(max(worth[joint - 1] for joint in one.site or range(1, len(worth) + 1)) for one in both)
 
 
 def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float, like: float) -> Rival:
