@@ -266,6 +266,12 @@ class Bench:
         other._now = nothing_suspected(self.look, self.plan.model)  # noqa: SLF001 - of the same class
         return other
 
+    def turned(self, look: Look) -> "Bench":
+        """Give a bench that holds other rows out; what ranked candidates may rank them still."""
+        other = Bench(look, self.plan, self.causes, look.usable & ~look.held_out[:, None], self.belief)
+        other._lasting, other._ranking = self._lasting, self._ranking
+        return other
+
     def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
         """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N.
 

@@ -6,7 +6,7 @@ rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -54,11 +54,23 @@ def select(
     bench: Bench, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
 ) -> Selection:
     """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
-    none = bench.tried(())
-    bench.believe(none)
-    now = settled(bench, bench.tried(tuple(start))) if start else none
-    kept = tuple(Step("kept", one, 0.0) for one in start)
-    return continued(bench, Selection(none, now, kept), {}, progress)
+    return continued(bench, _begun(bench, start), {}, progress)
+
+
+def confirmed(
+    bench: Bench, found: Selection, progress: Callable[[float], None] | None = None
+) -> Selection | None:
+    """Search on from what was found under another noise; None where not all of that holds its place."""
+    if not found.chosen.members:
+        return None
+    kept = found.chosen.by_key.keys()
+    begun = _begun(bench, found.chosen.members)
+    steps, given_up = list(begun.steps), dict[Key, float]()
+    for now in _defended(bench, begun.chosen, steps, given_up):
+        if not kept <= now.by_key.keys():
+            return None
+    more = continued(bench, replace(begun, chosen=now, steps=tuple(steps)), given_up, progress)
+    return more if kept <= more.chosen.by_key.keys() else None
 
 
 def continued(
@@ -96,6 +108,14 @@ def continued(
             if frozenset(now.by_key) in known:
                 return Selection(so_far.none, now, tuple(steps), frozenset(through))
     return Selection(so_far.none, now, tuple(steps), frozenset(through))
+
+
+def _begun(bench: Bench, start: Sequence[Candidate]) -> Selection:
+    """Begin a search with causes that are known; with none, from the standard model."""
+    none = bench.tried(())
+    bench.believe(none)
+    now = settled(bench, bench.tried(tuple(start))) if start else none
+    return Selection(none, now, tuple(Step("kept", one, 0.0) for one in start))
 
 
 def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:

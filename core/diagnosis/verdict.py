@@ -26,7 +26,7 @@ from core.diagnosis.residual.atlas import atlas
 from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
 from core.diagnosis.rise import log_p, rise
 from core.diagnosis.rivals import Standing, weighed
-from core.diagnosis.selection import Selection, continued, select
+from core.diagnosis.selection import Selection, confirmed, continued, select
 from core.diagnosis.strangers import best_stranger, strangers
 from core.diagnosis.surprise import Explained, surprised, turned, unsurprising
 from core.diagnosis.switching import switchings
@@ -117,27 +117,37 @@ def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Se
         tell("search", 0.1 + 0.5 * done)
 
     progress(0.0)
-    bench, found = _found(question, look, progress)
+    bench, found = _found(_bench(question, look), progress)
     other_look = turned(look) if surprised(bench, found.chosen) else None
     if other_look is not None:
-        other, more = _found(question, other_look, progress, found.chosen.members)
+        other, more = _found(bench.turned(other_look), progress, found.chosen.members)
         if more.chosen.members and not surprised(other, more.chosen):
             return other, more
     return bench, found
 
 
 def _found(
-    question: Question, look: Look, progress: Callable[[float], None], start: Sequence[Candidate] = ()
+    bench: Bench, progress: Callable[[float], None], start: Sequence[Candidate] = ()
 ) -> tuple[Bench, Selection]:
     """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
-    bench = _bench(question, look)
     found = select(bench, progress, start)
     if not bench.needs_ordinary_noise(found.chosen):
         found = consolidated(bench, found)
     if bench.needs_ordinary_noise(found.chosen):
-        bench = bench.with_ordinary_noise()
-        found = consolidated(bench, select(bench, progress, start))
+        bench, found = _found_anew(bench, found, progress, start)
     return bench, reconsidered(bench, found)
+
+
+def _found_anew(
+    bench: Bench, before: Selection, progress: Callable[[float], None], start: Sequence[Candidate]
+) -> tuple[Bench, Selection]:
+    """Search under ordinary noise: on from what was found where all of that stays, or from the beginning."""
+    ordinary = bench.with_ordinary_noise()
+    found = confirmed(ordinary, before, progress)
+    if found is None:
+        ordinary = bench.with_ordinary_noise()
+        found = select(ordinary, progress, start)
+    return ordinary, consolidated(ordinary, found)
 
 
 def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]:

@@ -185,10 +185,16 @@ def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np
     resting = way == 0.0
     if not resting.any():
         return _evaluated(mechanism, states, velocity), np.zeros_like(velocity)
-    ahead, behind = (
-        _evaluated(mechanism, states, np.where(resting, sign * CREEP, velocity)) for sign in (1.0, -1.0)
-    )
-    return 0.5 * (ahead + behind), np.where(resting, 0.5 * (ahead - behind), 0.0)
+    ahead, behind = (np.where(resting, sign * CREEP, velocity) for sign in (1.0, -1.0))
+    # Either side in one go: what a term costs hardly depends on how many states there are.
+    count, rests = velocity.shape[1], np.flatnonzero(resting.any(axis=0))
+    both = states.chosen(np.concatenate([np.arange(count), rests]))
+    torque = _evaluated(mechanism, both, np.hstack([ahead, behind[:, rests]]))
+    smooth, other = torque[:, :count], torque[:, count:]
+    jump = np.zeros_like(velocity)
+    jump[:, rests] = np.where(resting[:, rests], 0.5 * (smooth[:, rests] - other), 0.0)
+    smooth[:, rests] = 0.5 * (smooth[:, rests] + other)
+    return smooth, jump
 
 
 def drag_of(mechanism: Mechanism, states: States) -> np.ndarray:

@@ -44,11 +44,12 @@ class Contact(AllJointsTerm):
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque per unit of every contact's peak wrench, N and N m."""
+        time = np.zeros(len(state.position)) if state.time is None else state.time
+        heights = [swell(time, span)[:, None] for span in self.spans]
+        if not any(height.any() for height in heights):
+            return [np.zeros(state.position.shape) for _ in self.symbols]
         push = pushed(robot, self.link, state)
-        time = np.zeros(len(push)) if state.time is None else state.time
-        return [
-            -swell(time, span)[:, None] * push[:, axis] for span in self.spans for axis in range(len(WRENCH))
-        ]
+        return [-height * push[:, axis] for height in heights for axis in range(len(WRENCH))]
 
 
 def swell(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:

@@ -10,6 +10,7 @@ from core.diagnosis.bench import Bench
 from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.causes.payload_change import PayloadChange
 from core.diagnosis.hypothesis import Hypothesis, Scored
+from core.diagnosis.surprise import turned
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
 
@@ -156,6 +157,21 @@ def test_a_belief_that_hardly_differs_ranks_with_the_columns_of_the_one_before()
         built.append(built_anew(bench, none))
     # Three joints have forty points each; the best of each joint is built anew.
     assert built == [120, 3, 120]
+
+
+def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_without_building_columns_again():
+    scene = measured_arm(WAVE)
+    bench = bench_of(scene, (Counted(),))
+    bench.scanned(nothing_found(bench))
+    look = turned(scene.look)
+    other, own = bench.turned(look), bench_of(replace(scene, look=look), (Counted(),))
+    none, alone = nothing_found(other), nothing_found(own)
+    np.testing.assert_array_equal(none.fit.values, alone.fit.values)
+    assert not np.array_equal(none.fit.values, bench.tried(()).fit.values)
+    # The best of each of three joints, under what is believed now.
+    assert built_anew(other, none) == 3
+    pairs = zip(other.scanned(none), own.scanned(alone), strict=True)
+    assert all(one.candidate.key == theirs.candidate.key for one, theirs in pairs)
 
 
 def test_a_belief_that_differs_on_one_joint_ranks_anew_what_is_suspected_of_that_joint_alone():

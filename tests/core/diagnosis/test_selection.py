@@ -14,7 +14,7 @@ from core.diagnosis.foreseen import foreseen
 from core.diagnosis.joining import BESIDES, FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
 from core.diagnosis.rise import log_p, merit, rise
 from core.diagnosis.rivals import standing, weighed
-from core.diagnosis.selection import Selection, select
+from core.diagnosis.selection import Selection, confirmed, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
@@ -319,3 +319,33 @@ def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypat
     other = bench.with_ordinary_noise()
     assert names(select(other)) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
     assert bench.needs_ordinary_noise(nothing_found(bench))
+
+
+def found_with(bench, *members) -> Selection:
+    """Pretend that a search found some causes."""
+    none = nothing_found(bench)
+    return Selection(none, bench.tried(members), ())
+
+
+def waves_searched_for(*others):
+    quick, quicker = wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0})
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), (quick, quicker, *others))
+    return bench, quick
+
+
+def test_under_another_noise_a_search_goes_on_from_what_holds_its_place_to_where_a_new_one_ends():
+    bench, quick = waves_searched_for()
+    again = confirmed(bench.with_ordinary_noise(), found_with(bench, candidate(quick)))
+    assert again is not None
+    assert [step.action for step in again.steps] == ["kept", "added"]
+    anew = select(bench.with_ordinary_noise())
+    assert names(again) == names(anew) == [("quick", (2,)), ("quicker", (2,))]
+    assert abs(rise(anew.chosen, again.chosen)) < 1.0
+
+
+def test_nothing_is_confirmed_where_one_of_what_was_found_has_to_give_way():
+    slow = wave_cause("slow", {SLOW: 1.0})
+    bench, quick = waves_searched_for(slow)
+    false = found_with(bench, candidate(quick), candidate(slow))
+    assert confirmed(bench.with_ordinary_noise(), false) is None
+    assert confirmed(bench.with_ordinary_noise(), found_with(bench)) is None

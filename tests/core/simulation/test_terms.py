@@ -71,6 +71,22 @@ def test_a_jump_that_lowers_friction_at_standstill_lowers_what_holds_the_joint()
     np.testing.assert_allclose(found[:, 0], [0.0, 0.005], atol=1e-9)
 
 
+@pytest.mark.parametrize("at_rest", [0, 1, 2, 3], ids="at rest: {}".format)
+def test_states_side_by_side_are_what_each_of_them_is_alone(at_rest):
+    body, still = _with(_stribeck, FC=1.0), np.zeros((3, 1))
+    velocity = np.array([[0.01], [-0.04], [0.2]])
+    velocity[:at_rest] = 0.0
+    torque = np.array([[2.3], [-1.2], [1.5]])
+
+    def found(some):
+        state = MotionState(still[some], velocity[some], still[some])
+        return accelerations(body, state, torque[some])
+
+    np.testing.assert_array_equal(
+        found(slice(None)), np.vstack([found(slice(one, one + 1)) for one in range(3)])
+    )
+
+
 def test_a_body_on_a_spring_swings_at_its_frequency_to_order_two():
     def error(steps):
         moved = play(_with(_spring), 0.1, 0.0, 0.5, steps)
