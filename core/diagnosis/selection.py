@@ -65,7 +65,7 @@ def confirmed(
         return None
     kept = found.chosen.by_key.keys()
     begun = _begun(bench, found.chosen.members)
-    steps, given_up = list(begun.steps), dict[Key, float]()
+    steps, given_up = [*found.steps, *begun.steps], dict[Key, float]()
     for now in _defended(bench, begun.chosen, steps, given_up):
         if not kept <= now.by_key.keys():
             return None
