@@ -63,13 +63,11 @@ def confirmed(
     """Search on from what was found under another noise; None where not all of that holds its place."""
     if not found.chosen.members:
         return None
-    kept = found.chosen.by_key.keys()
-    begun = _begun(bench, found.chosen.members)
-    steps, given_up = [*found.steps, *begun.steps], dict[Key, float]()
-    for now in _defended(bench, begun.chosen, steps, given_up):
-        if not kept <= now.by_key.keys():
-            return None
-    more = continued(bench, replace(begun, chosen=now, steps=tuple(steps)), given_up, progress)
+    begun, kept = _begun(bench, found.chosen.members), frozenset(found.chosen.by_key)
+    if _challenged(bench, begun.chosen, [], {}) is not None:
+        return None
+    begun = replace(begun, steps=(*found.steps, *begun.steps), through=frozenset({kept}))
+    more = continued(bench, begun, {}, progress)
     return more if kept <= more.chosen.by_key.keys() else None
 
 

@@ -338,6 +338,10 @@ def test_under_another_noise_a_search_goes_on_from_what_holds_its_place_to_where
     again = confirmed(bench.with_ordinary_noise(), found_with(bench, candidate(quick)))
     assert again is not None
     assert [step.action for step in again.steps] == ["kept", "added"]
+    assert {frozenset(name for name, _ in came) for came in again.through} == {
+        frozenset({"quick"}),
+        frozenset({"quick", "quicker"}),
+    }
     anew = select(bench.with_ordinary_noise())
     assert names(again) == names(anew) == [("quick", (2,)), ("quicker", (2,))]
     assert abs(rise(anew.chosen, again.chosen)) < 1.0
