@@ -65,6 +65,7 @@ def test_what_a_clipped_torque_leaves_is_no_push():
         Order("single", 15700199, "payload_change"),  # the likelihood of its instant has a narrow peak
         Order("single", 15700605, "payload_change", 3.0),  # and hardly more than that peak
         Order("single", 15700597, "torque_filter_lag", 3.0),  # what it leaves of a jerk looks like pushes
+        Order("single", 22300597, "torque_filter_lag", 3.0),  # and what it leaves of friction, like Stribeck's
     ],
     ids=lambda order: f"{order.cause}-{order.seed}",
 )
@@ -105,6 +106,7 @@ def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most
         Order("combination", 13900781, effects=3),  # a body joins at an instant beside a held-out block
         Order("combination", 17300770, effects=2),  # half way the noise is left what is not found yet
         Order("combination", 19700763, effects=3),  # positions so coarse that a delay may be a filter
+        Order("combination", 21100775, effects=3),  # friction like Stribeck's that a delay does not leave
     ],
     ids=lambda order: str(order.seed),
 )

@@ -26,8 +26,9 @@ class TimeDelay(OwnJointCause, MendsLog):
 
     id = "time_delay"
     excludes = ("torque_filter_lag",)
-    # A column of first order is late where velocities turn, and lacks what grows with frequency squared.
-    leaves = ("friction_presliding", "joint_elasticity")
+    # A column of first order is late where velocities turn: the friction there looks like another one. And it
+    # lacks what grows with frequency squared.
+    leaves = ("friction_presliding", "friction_stribeck", "joint_elasticity")
     like_position_noise = True
     title = "The torque channel is late"
     cure = "signal"

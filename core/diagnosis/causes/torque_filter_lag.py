@@ -33,8 +33,9 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
 
     id = "torque_filter_lag"
     excludes = ("time_delay",)
-    # A column of first order is late where velocities turn, and lacks what grows with frequency squared.
-    leaves = ("friction_presliding", "joint_elasticity")
+    # A column of first order is late where velocities turn: the friction there looks like another one. And it
+    # lacks what grows with frequency squared.
+    leaves = ("friction_presliding", "friction_stribeck", "joint_elasticity")
     like_position_noise = True
     title = "The torque channel is low-pass filtered"
     cure = "signal"
