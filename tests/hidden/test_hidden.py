@@ -65,7 +65,9 @@ def test_what_a_clipped_torque_leaves_is_no_push():
         Order("single", 15700199, "payload_change"),  # the likelihood of its instant has a narrow peak
         Order("single", 15700605, "payload_change", 3.0),  # and hardly more than that peak
         Order("single", 15700597, "torque_filter_lag", 3.0),  # what it leaves of a jerk looks like pushes
-        Order("single", 22300597, "torque_filter_lag", 3.0),  # and what it leaves of friction, like Stribeck's
+        Order(
+            "single", 22300597, "torque_filter_lag", 3.0
+        ),  # and what it leaves of friction, like Stribeck's
     ],
     ids=lambda order: f"{order.cause}-{order.seed}",
 )
