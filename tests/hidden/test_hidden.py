@@ -108,6 +108,7 @@ def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most
         Order("combination", 13900781, effects=3),  # a body joins at an instant beside a held-out block
         Order("combination", 17300770, effects=2),  # half way the noise is left what is not found yet
         Order("combination", 19700763, effects=3),  # positions so coarse that a delay may be a filter
+        Order("combination", 22300790, effects=2),  # what a wrong angle leaves looks like a wrong length
         Order("combination", 21100775, effects=3),  # friction like Stribeck's that a delay does not leave
     ],
     ids=lambda order: str(order.seed),

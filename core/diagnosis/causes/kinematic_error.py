@@ -27,8 +27,9 @@ class KinematicError(OwnJointCause, MendsRobot):
     cure = "robot"
     units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
     unrefined = ("entry",)
-    # Its columns are those of a small error; what they miss of a larger one is a torque over the angle.
-    leaves = ("spring_compensator", "cable_force")
+    # Its columns are those of a small error; what they miss of a larger one is a torque over the angle, or
+    # looks like a small error of another length.
+    leaves = ("spring_compensator", "cable_force", "kinematic_error")
     confusions = (
         Confusion(
             "encoder_offset",
