@@ -79,9 +79,8 @@ class Bench:
         """
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.fit.values[: len(self.plan.columns)]
-        left = self._without_lasting(found)
         believed = joined_by(self.look, found, Prediction(self.plan.model, standard, inverse_dynamics))
-        self._now = Suspicion(self.causes, self.look, left, believed)
+        self._now = Suspicion(self.causes, self.look, self._without_lasting(found), believed)
 
     def remembered(self) -> Callable[[], None]:
         """Give what brings back what is believed now, after something else was."""
@@ -179,8 +178,7 @@ class Bench:
         kept = self._now.less
         if now not in kept:
             kept.clear()
-            everyone = range(len(now.members))
-            rest = ((*now.members[:one], *now.members[one + 1 :]) for one in everyone)
+            rest = ((*now.members[:one], *now.members[one + 1 :]) for one in range(len(now.members)))
             kept[now] = tuple(self.tried(members, now) for members in rest)
             self._now.trials.update({one: {} for one in kept[now]})
         return kept[now]
