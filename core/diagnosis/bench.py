@@ -39,13 +39,11 @@ class Bench:
     Parameters
     ----------
     look
-        The rows.
+        The rows; a fit may use those that are usable and not held out.
     plan
         The model's base columns.
     causes
         What is suspected.
-    mask
-        Rows (rows x joints) that a fit may use.
     belief
         What is believed of the base parameters beforehand; None where the rows alone tell them.
     """
@@ -55,7 +53,6 @@ class Bench:
         look: Look,
         plan: ColumnPlan,
         causes: Sequence[Cause],
-        mask: np.ndarray,
         belief: Belief | None = None,
     ) -> None:
         self.look = look
@@ -63,7 +60,7 @@ class Bench:
         self.causes = tuple(causes)
         self.belief = belief
         columns = look.observed(plan)
-        self.base = joint_rows(look, columns, mask)
+        self.base = joint_rows(look, columns, look.usable & ~look.held_out[:, None])
         self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
         self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
         self._lasting: dict[Place, Columns] = {}
@@ -264,9 +261,9 @@ class Bench:
         other._now = nothing_suspected(self.look, self.plan.model)  # noqa: SLF001 - of the same class
         return other
 
-    def turned(self, look: Look) -> "Bench":
-        """Give a bench that holds other rows out; what ranked candidates may rank them still."""
-        other = Bench(look, self.plan, self.causes, look.usable & ~look.held_out[:, None], self.belief)
+    def with_look(self, look: Look) -> "Bench":
+        """Give a bench of a look that holds other rows out; what ranked candidates may rank them still."""
+        other = Bench(look, self.plan, self.causes, self.belief)
         other._lasting, other._ranking = self._lasting, self._ranking
         return other
 

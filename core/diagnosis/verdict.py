@@ -120,7 +120,7 @@ def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Se
     bench, found = _found(_bench(question, look), progress)
     other_look = turned(look) if surprised(bench, found.chosen) else None
     if other_look is not None:
-        other, more = _found(bench.turned(other_look), progress, found.chosen.members)
+        other, more = _found(bench.with_look(other_look), progress, found.chosen.members)
         if more.chosen.members and not surprised(other, more.chosen):
             return other, more
     return bench, found
@@ -145,6 +145,7 @@ def _found_anew(
     ordinary = bench.with_ordinary_noise()
     found = confirmed(ordinary, before, progress)
     if found is None:
+        # What was ranked meanwhile is of beliefs that did not hold.
         ordinary = bench.with_ordinary_noise()
         found = select(ordinary, progress, start)
     return ordinary, consolidated(ordinary, found)
@@ -163,9 +164,9 @@ def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]
 
 def _bench(question: Question, look: Look) -> Bench:
     """Lay out what is suspected, and what is believed beforehand."""
-    mask, reference = look.usable & ~look.held_out[:, None], question.reference
+    reference = question.reference
     causes, belief = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.belief)
-    return Bench(look, question.plan, causes, mask, belief)
+    return Bench(look, question.plan, causes, belief)
 
 
 def _looked(question: Question) -> tuple[list[Finding], Look]:
@@ -191,8 +192,7 @@ def _looked(question: Question) -> tuple[list[Finding], Look]:
 
 def _bare(question: Question, look: Look) -> Explained:
     """Fit the model with nothing suspected, under ordinary noise where that is left too much."""
-    mask = look.usable & ~look.held_out[:, None]
-    bench = Bench(look, question.plan, (), mask)
+    bench = Bench(look, question.plan, ())
     found = bench.tried(())
     if bench.needs_ordinary_noise(found):
         bench = bench.with_ordinary_noise()

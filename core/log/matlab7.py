@@ -46,7 +46,7 @@ def open_matlab7(path: Path) -> MemoryTable:
     return expand(variables)
 
 
-def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, Any]]:  # noqa: ANN401  # untyped
+def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, Any]]:  # noqa: ANN401  # h5py gives any type
     """Walk the datasets by hard links only; None stands for what is no array of numbers."""
     import h5py
 
@@ -68,7 +68,7 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
             yield from _datasets(item, f"{name}.", seen)
 
 
-def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # untyped
+def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # h5py gives any type
     """Tell MATLAB's text, which is stored as 16-bit numbers."""
     if "MATLAB_class" not in dataset.attrs:
         return False
@@ -76,7 +76,7 @@ def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # untyped
     return named.get_storage_size() <= LONGEST_CLASS and bytes(dataset.attrs["MATLAB_class"]) in TEXT
 
 
-def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # untyped
+def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # h5py gives any type
     if dataset.is_virtual:
         raise _refers_outside(name, "a virtual dataset")
     if dataset.external:

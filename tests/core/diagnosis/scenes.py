@@ -154,4 +154,4 @@ def bench_of(scene: Scene, causes: Sequence[Cause], belief: Belief | None = None
     """Put a scene, what is suspected and what is believed beforehand on a bench."""
     model = scene.believed.model
     plan = ColumnPlan(model, base_model(model).kept)
-    return Bench(scene.look, plan, causes, scene.look.usable & ~scene.look.held_out[:, None], belief)
+    return Bench(scene.look, plan, causes, belief)

@@ -164,7 +164,7 @@ def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_withou
     bench = bench_of(scene, (Counted(),))
     bench.scanned(nothing_found(bench))
     look = turned(scene.look)
-    other, own = bench.turned(look), bench_of(replace(scene, look=look), (Counted(),))
+    other, own = bench.with_look(look), bench_of(replace(scene, look=look), (Counted(),))
     none, alone = nothing_found(other), nothing_found(own)
     np.testing.assert_array_equal(none.fit.values, alone.fit.values)
     assert not np.array_equal(none.fit.values, bench.tried(()).fit.values)
