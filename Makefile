@@ -105,11 +105,11 @@ openapi: $(READY) ## rewrite openapi.json after a change of the API
 	mv openapi.json.new openapi.json
 
 reference: $(READY) ## rewrite the generated pages of docs/ after a change of the API, causes, terms, formats or problems
-	$(RUN) -m app.guide < openapi.json > docs/api.md.new
-	$(RUN) -m app.problem_guide > docs/problems.md.new
+	$(RUN) -m app.reference.api < openapi.json > docs/api.md.new
+	$(RUN) -m app.reference.problems > docs/problems.md.new
 	$(RUN) -m core.dynamics.guide > docs/terms.md.new
 	$(RUN) -m core.export.guide > docs/formats.md.new
-	$(RUN) -m core.diagnosis.guide > docs/causes.md.new
+	$(RUN) -m core.diagnosis.causes.guide > docs/causes.md.new
 	for page in api problems terms formats causes; do mv docs/$$page.md.new docs/$$page.md; done
 
 docs: $(READY) ## build the pages of docs/ as a site in site/, which opens without a server

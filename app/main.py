@@ -11,17 +11,17 @@ from typing import Any
 import anyio
 from fastapi import FastAPI
 
-from app import handlers, openapi
-from app.digests import ContentDigest
-from app.disk import DiskReserve
-from app.door import Door
+from app.http import exception_handlers, openapi
+from app.http.body.content_digest import ContentDigest
+from app.http.disk_reserve import DiskReserve
+from app.http.host_guard import Door
+from app.http.middleware import BodyLimit, HeadAsGet, SafeHeaders
+from app.http.request_log import Observe
 from app.jobs.executor import Executor
 from app.jobs.supervisor import Supervisor
-from app.metrics import Metrics
-from app.middleware import BodyLimit, HeadAsGet, SafeHeaders
-from app.observing import Observe
 from app.routes import events, health, identify, jobs, logs, pages, robots, traces
-from app.services import Services
+from app.services.metrics import Metrics
+from app.services.services import Services
 from app.settings import Settings
 from app.version import VERSION
 
@@ -79,7 +79,7 @@ def create_app(
     )
     for chapter in (jobs, traces, events, robots, logs, identify, health, pages):
         app.router.routes.extend(chapter.ROUTER.routes)
-    handlers.install(app)
+    exception_handlers.install(app)
     app.add_middleware(ContentDigest)
     disk = DiskReserve(chosen.data_dir, chosen.disk_reserve_bytes)
     app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes, disk=disk)

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from starlette.exceptions import HTTPException
 
-from app.documents import plain
+from app.json_text import plain
 from app.store.errors import Damaged
 from core.errors import ExcitationError, LogError, OptionError, RobotError, SolverError, VeritorqueError
 

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
-from core.diagnosis.verdict import Question, diagnose
+from core.diagnosis.diagnose import Question, diagnose
 from core.dynamics.model import standard_model
 from core.reduction.base import base_model
 from core.regressor.columns import ColumnPlan

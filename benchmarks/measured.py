@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from benchmarks.figures import Figure
-from core.diagnosis.diagnosis import Finding
+from core.diagnosis.result import Finding
+from core.extension.result import Diagnosed
 from core.log.model import JointLog
-from core.report.diagnosed import Diagnosed
 from core.robot.model import RobotModel
 from core.study import IdentifyRequest, diagnose_in_full
 from core.validation.scores import JointScore

@@ -12,10 +12,10 @@ from scipy import optimize
 
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import Figure, processor_seconds
+from core.document.identification import Identification
 from core.estimate.estimate import estimate
 from core.estimate.feasibility import feasibility
 from core.estimate.options import EstimateOptions
-from core.report.document import Identification
 from core.study import IdentifyRequest, identify_in_full
 from core.validation.mass_matrix import mass_matrices
 

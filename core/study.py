@@ -9,16 +9,18 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from core.admission import admit, known_log
 from core.arrays import Parameters
-from core.diagnosis.diagnosis import Diagnosis
-from core.diagnosis.reference import PRIOR, Reference, reference_from_prior
-from core.diagnosis.verdict import Question
-from core.diagnosis.verdict import diagnose as find_causes
+from core.diagnosis.diagnose import Question
+from core.diagnosis.diagnose import diagnose as find_causes
+from core.diagnosis.result import Diagnosis
+from core.document.diagnosis import diagnosis_document
+from core.document.identification import grouping_row, identification_document
+from core.document.numbers import plain
+from core.document.reference import reference_from_document
 from core.dynamics.model import DynamicModel, standard_model
 from core.errors import OptionError, SolverError, VeritorqueError
 from core.estimate.measured import Measured, smoothed
-from core.extension.extend import (
+from core.extension.cure import (
     all_proven,
     cures,
     extended_base,
@@ -28,20 +30,18 @@ from core.extension.extend import (
 )
 from core.extension.fold import folded
 from core.extension.gain import JointGain, gains
-from core.extension.proving import proven
-from core.fitting import Fitted, Fitting, Progress, fitted, identified
+from core.extension.result import Diagnosed
+from core.extension.verification import proven
+from core.identification.admission import admit, known_log
+from core.identification.against_reference import compared
+from core.identification.identify import Fitted, Fitting, Progress, fitted, identified
+from core.identification.options import IdentifyOptions, parse_diagnose_options, parse_options
+from core.identification.reference import PRIOR, Reference, reference_from_prior
+from core.identification.result import Identification
 from core.log.model import JointLog
-from core.options import IdentifyOptions, parse_diagnose_options, parse_options
 from core.reduction.base import BaseModel, base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import Observation
-from core.report.compared import compared
-from core.report.diagnosed import Diagnosed
-from core.report.diagnosis_document import diagnosis_document
-from core.report.document import grouping_row, identification_document
-from core.report.earlier import reference_from_document
-from core.report.identification import Identification
-from core.report.numbers import plain
 from core.report.traces.writing import write_traces
 from core.robot.model import RobotModel
 from core.signals.several import condition_all
@@ -53,7 +53,9 @@ __all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full",
 
 @dataclass(frozen=True, eq=False)
 class IdentifyRequest:
-    """Ask for an identification: a robot, its logs, and options as plain data (see `core.options`).
+    """Ask for an identification: a robot, its logs, and options as plain data.
+
+    The options are those of `core.identification.options`.
 
     `reference` is the result document of the job that the option of that name means, where it means one;
     `traces` the file to write motion, torque and residual to, where somebody wants to look at them.

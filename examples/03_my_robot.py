@@ -10,7 +10,7 @@ from math import pi
 from pathlib import Path
 
 from core import base_parameters, robot_from_description
-from core.robot.suspicions import suspicions
+from core.robot.plausibility import suspicions
 
 #        alpha     d     r   theta_offset   position limits, rad
 TABLE = (

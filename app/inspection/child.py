@@ -13,18 +13,18 @@ from multiprocessing.connection import Connection
 
 import pyarrow as pa
 
-from app.documents import json_bytes
-from app.forks import READERS
 from app.inspection.budget import Budget
 from app.inspection.confinement import confine
+from app.json_text import json_bytes
 from app.problems import problem_of, problem_of_damage
+from app.processes.fork_server import READERS
 from app.store.errors import Damaged
 from app.store.records import Document
 from core.errors import LogError, VeritorqueError
 
 Work = Callable[[], Document]
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
-NEEDED = ("app.jobs.science", *READERS)
+NEEDED = ("app.jobs.computations", *READERS)
 """What the work and the libraries that read take long to load."""
 
 

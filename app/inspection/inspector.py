@@ -14,12 +14,12 @@ from pathlib import Path
 
 import anyio
 
-from app.forks import Child, Standby, fork_server
 from app.inspection import child
 from app.inspection.budget import Budget, budget_for
-from app.jobs import science
+from app.jobs import computations as science
 from app.jobs.computation import Glance, LogFile
 from app.problems import Problem, problem_of
+from app.processes.fork_server import Child, Standby, fork_server
 from app.store.records import Document
 from core.errors import LogError
 

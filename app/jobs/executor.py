@@ -14,8 +14,7 @@ from multiprocessing.connection import wait
 from threading import Event
 from typing import Protocol
 
-from app.forks import READERS, Child, NotWanted, Standby, fork_server
-from app.jobs import child, science
+from app.jobs import computations, job_process
 from app.jobs.computation import (
     Computation,
     Died,
@@ -29,6 +28,7 @@ from app.jobs.computation import (
 )
 from app.jobs.limits import Limits
 from app.problems import Problem
+from app.processes.fork_server import READERS, Child, NotWanted, Standby, fork_server
 
 LOGGER = logging.getLogger(__name__)
 LOOK_EVERY_S = 0.05
@@ -71,16 +71,16 @@ class ProcessExecutor:
 
     def __init__(
         self,
-        work: Work = science.compute,
+        work: Work = computations.compute,
         *,
         limits: Limits = Limits(),  # noqa: B008 - it never changes
         preload: tuple[str, ...] = ("core.study", "sklearn.ensemble", *READERS),
-        rehearse: Rehearse = child.nothing,
+        rehearse: Rehearse = job_process.nothing,
         at_once: int = 1,
     ) -> None:
-        self._context = fork_server("app.jobs.undisturbed", "app.jobs.child", *preload)
+        self._context = fork_server("app.jobs.fork_hooks", "app.jobs.job_process", *preload)
         self._at_once = at_once
-        self._standby = Standby(lambda: Child(self._context, child.compute, work, limits, rehearse))
+        self._standby = Standby(lambda: Child(self._context, job_process.compute, work, limits, rehearse))
 
     def prepare(self) -> None:
         """Let the server process load the solver, and compile the kernels where the disk holds none yet."""
@@ -126,11 +126,11 @@ def _follow(process: Child, *, progress: Progress, stop: Event, timeout_s: float
 
 def _read(message: bytes, progress: Progress) -> Outcome | None:
     letter, content = message[:1], message[1:]
-    if letter == child.RESULT:
+    if letter == job_process.RESULT:
         return Finished(content)
-    if letter == child.FAILURE:
+    if letter == job_process.FAILURE:
         return Failed(json.loads(content))
-    if letter == child.TRACE:
+    if letter == job_process.TRACE:
         LOGGER.error("a computation met a mistake of ours:\n%s", content.decode(errors="replace"))
     else:
         stage, fraction = json.loads(content)

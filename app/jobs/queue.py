@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from app.catalogue import Catalogue
-from app.jobs import science
+from app.jobs import computations as science
 from app.jobs.references import check_reference
 from app.problems import Problem
+from app.services.catalogue import Catalogue
 from app.store.queueing import Asked, Outcome
 from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
 from app.store.store import TenantStore

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from app.jobs import science
+from app.jobs import computations as science
 from app.problems import Problem
 from app.store.records import Document, RobotRecord
 from app.store.store import TenantStore

@@ -12,14 +12,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from app import journal
-from app.jobs.child import mistake
+from app import logging as journal
 from app.jobs.computation import Computation, Died, Ended, Failed, Finished, LogFile, Outcome, Stopped
 from app.jobs.executor import Executor
-from app.jobs.lives import Lives
-from app.jobs.presence import Presence
+from app.jobs.job_process import mistake
+from app.jobs.liveness import Presence
+from app.jobs.progress import Reporter
+from app.jobs.reclaim import Lives
 from app.jobs.references import reference_file
-from app.jobs.reporting import Reporter
 from app.lifecycle.retention import expire
 from app.problems import URN, Problem, problem_of
 from app.settings import Kept

@@ -10,14 +10,14 @@ from typing import Annotated
 from fastapi import Header, Response
 from fastapi.responses import StreamingResponse
 
-from app.documents import json_bytes
-from app.feed import JobFeed, no_such_job
-from app.openapi import problems
-from app.routing import chapter
-from app.services import DeskOf
+from app.http.openapi import problems
+from app.http.routing import chapter
+from app.json_text import json_bytes
+from app.services.job_feed import JobFeed, no_such_job
+from app.services.serialisers import job_document
+from app.services.services import DeskOf
 from app.store.errors import Unavailable
 from app.store.records import JobRecord
-from app.views import job_document
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
 MEDIA_TYPE = "text/event-stream"

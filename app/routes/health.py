@@ -6,10 +6,10 @@ from importlib.metadata import version
 from fastapi import Request, Response
 from fastapi.responses import JSONResponse
 
-from app.callers import require_scope
-from app.openapi import problems
-from app.routing import chapter
-from app.services import CallerOf, ServicesOf
+from app.auth.callers import require_scope
+from app.http.openapi import problems
+from app.http.routing import chapter
+from app.services.services import CallerOf, ServicesOf
 from app.version import VERSION
 
 ROUTER = chapter(tag="service")

@@ -7,7 +7,7 @@ with a key where one is needed. Nothing is asked of any other place.
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse
 
-from app.negotiation import matches
+from app.http.negotiation import matches
 from app.pages.files import PLAIN, STATIC, STRICT, PageFile, shell
 from app.problems import Problem
 

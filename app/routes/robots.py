@@ -6,15 +6,15 @@ import anyio
 from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
-from app.listing import CursorOf, Limit, before, following
-from app.openapi import body, problems, reference
+from app.http.body.json_body import parse_json, require_media_type
+from app.http.openapi import body, problems, reference
+from app.http.pagination import CursorOf, Limit, before, following
+from app.http.routing import chapter
 from app.problems import Problem
-from app.reading import parse_json, require_media_type
-from app.routing import chapter
 from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
 from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
-from app.services import DeskOf, ServicesOf
-from app.views import robot_document, robot_summary
+from app.services.serialisers import robot_document, robot_summary
+from app.services.services import DeskOf, ServicesOf
 
 ROUTER = chapter("/v1/robots", tag="robots")
 XML_TYPES = ("application/xml", "text/xml")

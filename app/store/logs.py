@@ -5,7 +5,7 @@ import json
 
 from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select
 
-from app.documents import canonical_json
+from app.json_text import canonical_json
 from app.store.database import Database, insert_if_new
 from app.store.quota import refuse_beyond, refuse_more
 from app.store.records import UNBOUNDED, Document, LogRecord, Quota

@@ -12,7 +12,7 @@ from functools import cached_property
 
 from sqlalchemy import Connection, and_, bindparam, delete, insert, select
 
-from app.documents import canonical_json
+from app.json_text import canonical_json
 from app.store.database import take_turns
 from app.store.errors import KeyReused, OverQuota
 from app.store.quota import room_for_jobs

@@ -5,7 +5,7 @@ import json
 
 from sqlalchemy import ColumnElement, Connection, and_, delete, select
 
-from app.documents import canonical_json
+from app.json_text import canonical_json
 from app.store.database import Database, insert_if_new
 from app.store.records import Document, RobotRecord
 from app.store.rows import robot_record

@@ -9,7 +9,7 @@ import typer
 from pydantic import ValidationError
 
 from app.settings import PREFIX, Settings
-from app.terminal.exits import Exit
+from app.terminal.output.exit_codes import Exit
 
 if TYPE_CHECKING:
     from app.store.store import Store

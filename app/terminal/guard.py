@@ -16,9 +16,9 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from app.terminal.exits import Exit, exit_of, exit_of_error
 from app.terminal.interruption import let_commands_hear
-from app.terminal.speech import complain, note
+from app.terminal.output.exit_codes import Exit, exit_of, exit_of_error
+from app.terminal.output.streams import complain, note
 from core.errors import VeritorqueError
 
 NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})

@@ -5,25 +5,25 @@ from typing import Annotated
 import typer
 
 from app.terminal.guard import Commands
-from app.terminal.speech import say, speak_any_alphabet
+from app.terminal.output.streams import say, speak_any_alphabet
 from app.version import VERSION
 
 HOMES = {
-    "identify": "app.terminal.identify",
-    "diagnose": "app.terminal.diagnose",
-    "logs": "app.terminal.logs",
-    "robots": "app.terminal.robots",
-    "report": "app.terminal.report",
-    "export": "app.terminal.export",
-    "serve": "app.terminal.serve",
-    "work": "app.terminal.work",
-    "keys": "app.terminal.keys",
-    "doctor": "app.terminal.upkeep",
-    "backup": "app.terminal.upkeep",
-    "restore": "app.terminal.upkeep",
-    "gc": "app.terminal.upkeep",
-    "openapi": "app.terminal.contract",
-    "version": "app.terminal.contract",
+    "identify": "app.terminal.commands.identify",
+    "diagnose": "app.terminal.commands.diagnose",
+    "logs": "app.terminal.commands.logs",
+    "robots": "app.terminal.commands.robots",
+    "report": "app.terminal.commands.report",
+    "export": "app.terminal.commands.export",
+    "serve": "app.terminal.commands.serve",
+    "work": "app.terminal.commands.work",
+    "keys": "app.terminal.commands.keys",
+    "doctor": "app.terminal.commands.upkeep",
+    "backup": "app.terminal.commands.upkeep",
+    "restore": "app.terminal.commands.upkeep",
+    "gc": "app.terminal.commands.upkeep",
+    "openapi": "app.terminal.commands.contract",
+    "version": "app.terminal.commands.contract",
 }
 
 

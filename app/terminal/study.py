@@ -8,9 +8,9 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from app.terminal.bench import Document, Study, bench
-from app.terminal.files import require_folder, save
-from app.terminal.speech import aside, write
+from app.terminal.backend.protocol import Document, Study, bench
+from app.terminal.output.files import require_folder, save
+from app.terminal.output.streams import aside, write
 
 OutOption = Annotated[Path | None, typer.Option(help="Save the result document here.")]
 ReportOption = Annotated[Path | None, typer.Option(help="Save the report, one HTML file, here.")]

@@ -11,11 +11,11 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from core.document.caveats import caveats
+from core.document.identified import IdentifiedRobot
 from core.dynamics.terms.coulomb import Coulomb
 from core.dynamics.terms.coupling import GearCoupling
 from core.export.c_source import TYPES_AND_TORQUE
-from core.export.caveats import caveats
-from core.export.identified import IdentifiedRobot
 from core.robot.model import Link
 
 WIDTH = 110

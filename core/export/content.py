@@ -6,8 +6,8 @@ inertial parameters refer to.
 
 from collections.abc import Mapping
 
-from core.export.caveats import REPRESENTATIVE, SOURCE, smoothing
-from core.export.identified import IdentifiedRobot
+from core.document.caveats import REPRESENTATIVE, SOURCE, smoothing
+from core.document.identified import IdentifiedRobot
 from core.robot.model import Link
 from core.robot.parameters import INERTIAL_SYMBOLS
 

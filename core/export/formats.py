@@ -35,50 +35,50 @@ def _standard_csv(document: Document) -> bytes:
 
 
 def _yaml(document: Document) -> bytes:
-    from core.export.reading import identified_robot
+    from core.document.reading import identified_robot
     from core.export.yaml import write_yaml
 
     return write_yaml(identified_robot(document)).encode()
 
 
 def _matlab(document: Document) -> bytes:
+    from core.document.reading import identified_robot
     from core.export.matlab import write_matlab
-    from core.export.reading import identified_robot
 
     return write_matlab(identified_robot(document))
 
 
 def _c_header(document: Document) -> bytes:
+    from core.document.reading import identified_robot
     from core.export.c_header import write_c_header
-    from core.export.reading import identified_robot
 
     return write_c_header(identified_robot(document)).encode()
 
 
 def _urdf(document: Document) -> bytes:
-    from core.export.reading import identified_robot
+    from core.document.reading import identified_robot
     from core.export.urdf import write_urdf
 
     return write_urdf(identified_robot(document)).encode()
 
 
 def _mjcf(document: Document) -> bytes:
+    from core.document.reading import identified_robot
     from core.export.mjcf import write_mjcf
-    from core.export.reading import identified_robot
 
     return write_mjcf(identified_robot(document)).encode()
 
 
 def _sdf(document: Document) -> bytes:
-    from core.export.reading import identified_robot
+    from core.document.reading import identified_robot
     from core.export.sdf import write_sdf
 
     return write_sdf(identified_robot(document)).encode()
 
 
 def _model(document: Document) -> bytes:
-    from core.export.model_file import write_model
-    from core.export.reading import identified_model
+    from core.document.model_file import write_model
+    from core.document.reading import identified_model
 
     return write_model(identified_model(document)).encode()
 

@@ -6,7 +6,7 @@
 import sys
 
 from core.export.formats import FORMATS
-from core.log.content import FORMS
+from core.log.formats.content import FORMS
 from core.log.profiles import PROFILES, Pattern
 from core.log.units import PREFIXES, UNITS, Unit
 

@@ -8,9 +8,9 @@ import io
 
 import numpy as np
 
-from core.export.caveats import by_identifiability
+from core.document.caveats import by_identifiability
+from core.document.identified import IdentifiedRobot
 from core.export.content import Row, content
-from core.export.identified import IdentifiedRobot
 
 VARIABLE = "identified"
 HEADER = b"MATLAB 5.0 MAT-file, identified robot written by Veritorque"

@@ -12,9 +12,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation as Turn
 
 from core.arrays import LinkParameters, Rotation, Vector
-from core.export.caveats import caveats, smoothing
+from core.document.caveats import caveats, smoothing
+from core.document.identified import IdentifiedRobot
 from core.export.elements import child, comment, document
-from core.export.identified import IdentifiedRobot
 from core.export.movers import Mover, free_name, movers
 from core.robot.inertia import mass_properties
 

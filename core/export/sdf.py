@@ -14,9 +14,9 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from core.arrays import LinkParameters, Rotation, Vector3
-from core.export.caveats import caveats, rotors
+from core.document.caveats import caveats, rotors
+from core.document.identified import IdentifiedRobot
 from core.export.elements import child, comment, document, text_of
-from core.export.identified import IdentifiedRobot
 from core.export.movers import Mover, free_name, movers
 from core.export.urdf import left_out, upright
 from core.robot.frames import rpy_of_rotation

@@ -10,9 +10,9 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from core.arrays import LinkParameters, Rotation, Vector3
-from core.export.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
+from core.document.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
+from core.document.identified import IdentifiedRobot
 from core.export.elements import child, comment, document
-from core.export.identified import IdentifiedRobot
 from core.export.movers import Mover, free_name, movers
 from core.robot.frames import rotation_to, rpy_of_rotation
 from core.robot.inertia import mass_properties

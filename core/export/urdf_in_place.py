@@ -10,15 +10,15 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
+from core.document.caveats import caveats
+from core.document.identified import IdentifiedRobot
 from core.errors import RobotError
-from core.export.caveats import caveats
 from core.export.elements import comment, text_of
-from core.export.identified import IdentifiedRobot
 from core.export.urdf import left_out, write_inertial
 from core.export.urdf_spans import Element, Span, find_elements
+from core.robot.differences import differences
 from core.robot.frames import rotation_to
 from core.robot.inertia import moved
-from core.robot.likeness import differences
 from core.robot.model import RobotModel
 from core.robot.urdf import robot_from_urdf
 from core.robot.urdf_document import UrdfDocument, read_urdf_document

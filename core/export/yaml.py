@@ -9,9 +9,9 @@ import json
 import textwrap
 from collections.abc import Mapping
 
-from core.export.caveats import caveats
+from core.document.caveats import caveats
+from core.document.identified import IdentifiedRobot
 from core.export.content import content
-from core.export.identified import IdentifiedRobot
 
 WIDTH = 110
 

@@ -7,13 +7,13 @@ there. It is of first order where its finding is: after a large one a second dia
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from core.diagnosis.catalogue import BY_ID
-from core.diagnosis.cause import Numbers, Site, Solved
-from core.diagnosis.diagnosis import Diagnosis, Finding
-from core.diagnosis.hypothesis import Candidate
-from core.diagnosis.mending import Mends, MendsRobot, mends
-from core.diagnosis.raw import RawCause
-from core.extension.extend import gains_surely
+from core.diagnosis.causes.protocol import Numbers, Site, Solved
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.causes.repairs import Mends, MendsRobot, mends
+from core.diagnosis.causes.sample_check import RawCause
+from core.diagnosis.result import Diagnosis, Finding
+from core.diagnosis.search.hypothesis import Candidate
+from core.extension.cure import gains_surely
 from core.robot.model import RobotModel
 
 NOT_SURE = "Nothing is changed for it: its gain on rows that no fit has seen is not beyond doubt"

@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from core.arrays import JointVector
-from core.diagnosis.catalogue import BY_ID
-from core.diagnosis.mending import MendsLog
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.causes.repairs import MendsLog
 from core.errors import LogError
 from core.extension.repair import Repair
 from core.log.model import JointLog, LogRows, rows_at

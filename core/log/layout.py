@@ -13,10 +13,10 @@ import numpy as np
 
 from core.arrays import JointSeries, Series
 from core.errors import LogError
+from core.log.formats.table import Table
 from core.log.mapping import ChannelRequest, LogMapping
 from core.log.model import LogRows
-from core.log.readings import plausible_readings
-from core.log.table import Table
+from core.log.plausible_units import plausible_readings
 from core.log.units import PREFIXES, TIME, UNITS
 
 SHOWN_COLUMNS = 24

@@ -11,19 +11,19 @@ from pathlib import Path
 import numpy as np
 
 from core.errors import LogError
-from core.log.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
 from core.log.defects.examine import examine
-from core.log.delimited import open_delimited
+from core.log.formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
+from core.log.formats.delimited import open_delimited
+from core.log.formats.matlab5 import open_matlab5
+from core.log.formats.matlab7 import open_matlab7
+from core.log.formats.npz import open_npz
+from core.log.formats.parquet import ParquetSource, ParquetTable, open_parquet
+from core.log.formats.recording import open_bag, open_mcap
+from core.log.formats.table import Table
 from core.log.layout import Channel, Layout, bind
 from core.log.mapping import parse_mapping
-from core.log.matlab5 import open_matlab5
-from core.log.matlab7 import open_matlab7
 from core.log.model import ArraySource, JointLog, LogRows, LogSource
-from core.log.npz import open_npz
-from core.log.parquet import ParquetSource, ParquetTable, open_parquet
 from core.log.profiles import fill_in
-from core.log.recording import open_bag, open_mcap
-from core.log.table import Table
 from core.log.units import PREFIXES
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {

@@ -21,7 +21,7 @@ from rich.markup import escape
 from app.client.client import Client
 from app.client.progress import bar
 from app.client.records import Job
-from app.terminal.findings import Document
+from app.terminal.output.findings import Document
 from core.errors import VeritorqueError
 from examples.yumi.diagnosis import print_diagnosis
 from examples.yumi.service import ROOT, running_service

@@ -7,9 +7,9 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from app.terminal import findings
-from app.terminal.findings import spoken
-from app.terminal.tables import number
+from app.terminal.output import findings
+from app.terminal.output.findings import spoken
+from app.terminal.output.tables import number
 from examples.yumi.summary import LEFT, score
 
 Document = Mapping[str, Any]

@@ -2,9 +2,9 @@
 
 import threading
 
-from app.documents import json_bytes
-from app.jobs import science
+from app.jobs import computations as science
 from app.jobs.computation import Failed, Finished, Stopped
+from app.json_text import json_bytes
 from app.problems import Problem, problem_of
 from core.errors import VeritorqueError
 from tests.core.report.documents import identified

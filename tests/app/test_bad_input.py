@@ -8,7 +8,7 @@ import pickle  # noqa: TID251  (to show that it is refused)
 import numpy as np
 import pytest
 
-from app.uploads import LONGEST_TEXT_FILE
+from app.http.body.uploads import LONGEST_TEXT_FILE
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns, csv_log, description
 

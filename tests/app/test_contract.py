@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
-from app import readiness
-from app.jobs import science
+from app.jobs import computations as science
 from app.main import create_app
 from app.problems import KINDS, Problem
 from app.schemas import examples
 from app.schemas.jobs import Job, JobList, JobRequest
 from app.schemas.logs import LogList, LogSummary
 from app.schemas.robots import Robot, RobotDescription, RobotList
+from app.services import readiness
 from app.settings import Settings
 from app.store.logs import log_id as id_of_log
 from app.version import VERSION

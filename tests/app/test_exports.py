@@ -5,11 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from app.artifacts import ARTIFACTS
-from app.documents import json_bytes
 from app.jobs.computation import Finished
-from core.export.model_file import read_model
-from core.export.reading import identified_robot
+from app.json_text import json_bytes
+from app.services.export_files import ARTIFACTS
+from core.document.model_file import read_model
+from core.document.reading import identified_robot
 from core.log.reader import log_from_arrays
 from core.robot.description import robot_from_description
 from core.robot.urdf import robot_from_urdf

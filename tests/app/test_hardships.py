@@ -19,9 +19,9 @@ from app.store import tables
 from app.store.errors import Unavailable
 from tests.app import work
 from tests.app.conftest import assert_problem, service
+from tests.app.jobs.test_executor import COMPUTATION
+from tests.app.jobs.test_jobs import another, asked, state_of
 from tests.app.stubs import InlineExecutor, StubExecutor
-from tests.app.test_executor import COMPUTATION
-from tests.app.test_jobs import another, asked, state_of
 
 MIB = 1024**2
 

@@ -13,13 +13,13 @@ from pathlib import Path
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from app import journal
+from app import logging as journal
+from app.http.trace_context import trace_id
 from app.settings import Settings
 from app.store.store import Store
-from app.tracing import trace_id
 from tests.app.conftest import assert_problem, service
+from tests.app.jobs.test_jobs import asked
 from tests.app.stubs import StubExecutor, failing
-from tests.app.test_jobs import asked
 
 TRACE = "4bf92f3577b34da6a3ce929d0e0e4736"
 TRACEPARENT = f"00-{TRACE}-00f067aa0ba902b7-01"

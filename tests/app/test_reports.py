@@ -5,15 +5,15 @@ import json
 import pytest
 from starlette.testclient import TestClient
 
-from app.documents import json_bytes
 from app.jobs.computation import Finished
+from app.json_text import json_bytes
 from app.main import create_app
 from app.schemas.results import ResultDocument
 from app.settings import Settings
 from tests.app.conftest import assert_problem, service
+from tests.app.jobs.test_jobs import asked
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import RESULT, StubExecutor, failing
-from tests.app.test_jobs import asked
 from tests.core.report.documents import diagnosed, nothing_found
 
 WAIT = {"Prefer": "wait=10"}

@@ -1,9 +1,9 @@
 """What was accepted is computed, even if the service is stopped or dies meanwhile."""
 
 from tests.app.conftest import service
+from tests.app.jobs.test_jobs import asked, state_of
 from tests.app.planar_arm import description
 from tests.app.stubs import StubExecutor
-from tests.app.test_jobs import asked, state_of
 
 
 def test_a_job_that_ran_when_the_service_stopped_is_computed_after_the_restart(tmp_path, log_bytes):

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app import disk
-from app.pace import BURST_S, Pace
+from app.auth.rate_limit import BURST_S, Pace
+from app.http import disk_reserve as disk
 from app.problems import Problem
 from tests.app.conftest import assert_problem, service
+from tests.app.jobs.test_jobs import another, asked
 from tests.app.planar_arm import csv_log, description
-from tests.app.test_jobs import another, asked
 
 CSV = {"Content-Type": "text/csv"}
 

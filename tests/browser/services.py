@@ -5,8 +5,8 @@ import socket
 import threading
 import time
 
+from app.http.server import Server
 from app.main import create_app
-from app.server import Server
 from app.settings import Settings
 
 START_SECONDS = 120.0

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from app.documents import json_bytes
 from app.jobs.computation import Computation, LogFile
+from app.json_text import json_bytes
 from app.settings import LOCAL
 from app.store.store import Store
 from tests.chaos.work import compute

@@ -10,8 +10,9 @@ import sys
 
 def main():
     """Run a command of the service."""
-    from app import services
-    from app.jobs import process, supervisor
+    from app.jobs import supervisor
+    from app.jobs import worker_process as process
+    from app.services import services
     from app.terminal.main import main as command
 
     process.executor_of = services.executor_of = _executor

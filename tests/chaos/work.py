@@ -7,7 +7,7 @@ import csv
 import hashlib
 import time
 
-from app.documents import canonical_json
+from app.json_text import canonical_json
 from app.store.blobs import check_file
 
 STAGES = 3

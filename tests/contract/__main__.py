@@ -11,8 +11,8 @@ from pathlib import Path
 
 from app.main import create_app
 from app.settings import Settings
+from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
-from tests.app.test_server import listening_service
 
 CONFIGURATION = Path(__file__).with_name("schemathesis.toml")
 CHECKS = (

@@ -8,16 +8,16 @@ import pytest
 from pydantic import BaseModel
 
 from app.schemas import diagnosis as contract
-from core.diagnosis.diagnosis import Verdict
-from core.diagnosis.joining import LEVEL
-from core.diagnosis.rivals import INDIFFERENCE
-from core.diagnosis.selection import MOST
-from core.diagnosis.verdict import UNEXPLAINED_SHARE
+from core.diagnosis.checks.alternatives import INDIFFERENCE
+from core.diagnosis.diagnose import UNEXPLAINED_SHARE
+from core.diagnosis.result import Verdict
+from core.diagnosis.search.entry_test import LEVEL
+from core.diagnosis.search.stepwise import MOST
 from tests.core.dynamics.every_term import cures_by_cause
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
-STORY = (ROOT / "core" / "study.py", ROOT / "core" / "diagnosis" / "verdict.py")
+STORY = (ROOT / "core" / "study.py", ROOT / "core" / "diagnosis" / "diagnose.py")
 NAMED = set(re.findall(r"\w+", " ".join(re.findall(r"`([^`\n]+)`", GUIDE))))
 MODELS = [
     one

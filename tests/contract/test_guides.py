@@ -11,11 +11,11 @@ from app.problems import KINDS, URN
 from app.settings import PREFIX, Settings
 from core.dynamics.model import STANDARD_TERMS
 from core.estimate.options import ESTIMATORS
-from core.log.content import FORMS
+from core.identification.options import parse_options
+from core.log.formats.content import FORMS
 from core.log.mapping import parse_mapping
 from core.log.model import Defect
 from core.log.units import PREFIXES, UNITS
-from core.options import parse_options
 from core.robot.description import (
     COUPLING_FIELDS,
     JOINT_FIELDS,
@@ -24,7 +24,7 @@ from core.robot.description import (
     ROW_FIELDS,
     robot_from_description,
 )
-from core.robot.suspicions import suspicions
+from core.robot.plausibility import suspicions
 from core.robot.urdf import robot_from_urdf
 
 ROOT = Path(__file__).parents[2]

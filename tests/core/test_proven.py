@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import core.fitting
+import core.identification.identify
 import core.study
-from core.diagnosis.diagnosis import Diagnosis
+from core.diagnosis.result import Diagnosis
 from core.errors import SolverError
-from core.report.diagnosed import Diagnosed
+from core.extension.result import Diagnosed
 from core.study import IdentifyRequest, diagnose_in_full
 from tests.core.diagnosis.scenes import measured_arm, skew_arm
-from tests.core.diagnosis.test_verdict import diagnosed, hidden
+from tests.core.diagnosis.test_diagnose import diagnosed, hidden
 
 HARMLESS, HIDDEN = measured_arm(), measured_arm(hidden)
 

@@ -7,7 +7,7 @@ seen, at the band of the fit.
 import numpy as np
 import pytest
 
-from core.report.diagnosed import Diagnosed
+from core.extension.result import Diagnosed
 from core.study import IdentifyRequest, diagnose_in_full
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
 

@@ -1,7 +1,8 @@
 """What a diagnosis found stands, even where the programme of the cured model cannot be solved."""
 
-from core import fitting, study
+from core import study
 from core.errors import SolverError
+from core.identification import identify as fitting
 from core.study import IdentifyRequest
 from tests.plant.cache import kept
 from tests.plant.cases import draw

@@ -8,12 +8,12 @@ import time
 
 import pytest
 
+from app.http.server import Server
 from app.main import create_app
 from app.schemas.common import ProblemDocument
 from app.schemas.robots import RobotDescription
-from app.server import Server
 from app.settings import Settings
-from core.options import parse_options
+from core.identification.options import parse_options
 from tests.app.postgres import binaries, cluster, new_database
 from tests.docs.blocks import BLOCKS, ROOT, blocks_of
 from tests.docs.runner import DATABASE, RUN, run_page, run_page_that_serves

@@ -6,14 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from app import guide as api
-from app import problem_guide as problems
 from app.problems import KINDS
+from app.reference import api, problems
 from core.dynamics import guide as terms
 from core.dynamics.model import STANDARD_TERMS
 from core.export import guide as formats
 from core.export.formats import FORMATS
-from core.log.content import FORMS
+from core.log.formats.content import FORMS
 from core.log.profiles import PROFILES
 from tests.core.dynamics.every_term import cures
 from tests.docs.blocks import PAGES, ROOT

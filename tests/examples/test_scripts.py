@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from app.documents import json_bytes
 from app.jobs.computation import Finished
+from app.json_text import json_bytes
+from tests.app.http.test_server import listening_service
 from tests.app.stubs import InlineExecutor, StubExecutor
-from tests.app.test_server import listening_service
 from tests.core.report.documents import diagnosed
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -21,9 +21,9 @@ from pathlib import Path
 from random import Random
 from statistics import median
 
-from app.documents import json_bytes
-from app.jobs import science
+from app.jobs import computations as science
 from app.jobs.computation import LogFile
+from app.json_text import json_bytes
 from core.errors import VeritorqueError
 from tests.fuzz.mutation import spoilt
 from tests.fuzz.seeds import seeds

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import BY_ID
-from core.diagnosis.mending import mends
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.causes.repairs import mends
+from core.document.repairs import read_repairs
 from core.extension.repaired_log import repaired_log
-from core.report.repairs import read_repairs
 from core.robot.description import robot_from_description
 from core.study import IdentifyRequest, diagnose
 from tests.hidden.plan import Order, drawn

@@ -9,8 +9,8 @@ from pathlib import Path
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from app.jobs.lives import Lives
-from app.jobs.presence import Presence
+from app.jobs.liveness import Presence
+from app.jobs.reclaim import Lives
 from app.store.errors import KeyReused
 from app.store.records import JobRequestRecord
 from app.store.store import Store

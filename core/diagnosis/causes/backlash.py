@@ -3,10 +3,17 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, before_the_gear, motor_inertias, named, shown, spread
-from core.diagnosis.causes.sites import revolute_joints
-from core.diagnosis.look import Look
+from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.shared.common import (
+    OwnJointCause,
+    before_the_gear,
+    motor_inertias,
+    named,
+    shown,
+    spread,
+)
+from core.diagnosis.causes.shared.sites import revolute_joints
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.backlash import Backlash as BacklashTerm

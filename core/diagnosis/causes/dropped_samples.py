@@ -12,9 +12,9 @@ from scipy.interpolate import CubicSpline
 from scipy.stats import poisson
 
 from core.arrays import JointSeries
-from core.diagnosis.cause import Confusion, Cure, Quantity
-from core.diagnosis.look import Look
-from core.diagnosis.raw import LEVEL, RawFinding, Spoil, residual_share
+from core.diagnosis.causes.protocol import Confusion, Cure, Quantity
+from core.diagnosis.causes.sample_check import LEVEL, RawFinding, Spoil, residual_share
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.log.model import LogRows
 from core.signals.condition import Motion

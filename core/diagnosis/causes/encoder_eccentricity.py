@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.causes.sites import revolute_joints
-from core.diagnosis.causes.waves import amplitude_and_angle
-from core.diagnosis.look import Look
-from core.diagnosis.mending import MendsLog
+from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.repairs import MendsLog
+from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
+from core.diagnosis.causes.shared.sites import revolute_joints
+from core.diagnosis.causes.shared.waves import amplitude_and_angle
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm

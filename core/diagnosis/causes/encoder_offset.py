@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.causes.sites import revolute_joints
-from core.diagnosis.look import Look
-from core.diagnosis.mending import MendsRobot
+from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
+from core.diagnosis.causes.repairs import MendsRobot
+from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
+from core.diagnosis.causes.shared.sites import revolute_joints
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm

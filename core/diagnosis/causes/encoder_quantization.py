@@ -6,9 +6,9 @@ from typing import ClassVar
 import numpy as np
 
 from core.arrays import JointSeries, JointVector
-from core.diagnosis.cause import Confusion, Cure, Quantity
-from core.diagnosis.look import Look
-from core.diagnosis.raw import RawFinding, Spoil, disturbance, share_of_residual
+from core.diagnosis.causes.protocol import Confusion, Cure, Quantity
+from core.diagnosis.causes.sample_check import RawFinding, Spoil, disturbance, share_of_residual
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from core.log.defects.stretch import stretches

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, rounded
-from core.diagnosis.causes.events import find_events
-from core.diagnosis.causes.sites import end_links
-from core.diagnosis.look import Look
-from core.diagnosis.misfit import fitted_rows, misfit, precisions
-from core.diagnosis.spikes import spiked
+from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.shared.common import OwnJointCause, rounded
+from core.diagnosis.causes.shared.events import find_events
+from core.diagnosis.causes.shared.sites import end_links
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.dataset.spikes import spiked
+from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit, precisions
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.contact import WRENCH, Contact, Span, pushed

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, shown
-from core.diagnosis.look import Look
+from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.shared.common import OwnJointCause, shown
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.coulomb import Coulomb

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.cause import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
-from core.diagnosis.causes.harmonics import harmonics, wave_quantities
-from core.diagnosis.look import Look
+from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
+from core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.position_friction import PositionFriction

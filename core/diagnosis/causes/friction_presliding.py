@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown, spread
-from core.diagnosis.look import Look
+from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
+from core.diagnosis.causes.shared.common import OwnJointCause, named, shown, spread
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.presliding import Presliding

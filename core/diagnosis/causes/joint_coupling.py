@@ -6,10 +6,10 @@ from itertools import count
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, shown
-from core.diagnosis.look import Look
-from core.diagnosis.mending import MendsRobot
+from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.repairs import MendsRobot
+from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.missing_coupling import MissingCoupling

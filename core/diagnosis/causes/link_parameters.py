@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.bodies import is_body
-from core.diagnosis.causes.common import OwnJointCause, shown
-from core.diagnosis.causes.sites import links_by_joint
-from core.diagnosis.look import Look
+from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.shared.bodies import is_body
+from core.diagnosis.causes.shared.common import OwnJointCause, shown
+from core.diagnosis.causes.shared.sites import links_by_joint
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.link_change import LinkChange

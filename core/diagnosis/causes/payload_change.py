@@ -6,11 +6,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.bodies import MASS, body_of, is_body
-from core.diagnosis.causes.common import NOTHING, OwnJointCause, named, rounded, shown
-from core.diagnosis.causes.sites import end_links, links_by_joint
-from core.diagnosis.look import Look
+from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.shared.bodies import MASS, body_of, is_body
+from core.diagnosis.causes.shared.common import NOTHING, OwnJointCause, named, rounded, shown
+from core.diagnosis.causes.shared.sites import end_links, links_by_joint
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.payload import Payload

@@ -14,10 +14,10 @@ from scipy.signal import oaconvolve
 from scipy.stats import binom, norm
 
 from core.arrays import JointSeries, Vector
-from core.diagnosis.cause import Confusion, Cure, Quantity
-from core.diagnosis.causes.common import rounded
-from core.diagnosis.look import Look
-from core.diagnosis.raw import LEVEL, RawFinding, Spoil, residual_share
+from core.diagnosis.causes.protocol import Confusion, Cure, Quantity
+from core.diagnosis.causes.sample_check import LEVEL, RawFinding, Spoil, residual_share
+from core.diagnosis.causes.shared.common import rounded
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.log.model import LogRows
 from core.signals.resample import dropped, is_uniform, on_grid

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.cause import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.look import Look
-from core.diagnosis.mending import MendsLog, with_torque
+from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
+from core.diagnosis.causes.repairs import MendsLog, with_torque
+from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term
 from core.dynamics.terms.drift import Drift, course

@@ -17,8 +17,8 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.stats import chi2
 
 from core.arrays import Indices, JointSeries, SquareMatrix, Vector
-from core.diagnosis.look import Look
-from core.diagnosis.noise import JointNoise, learn_noise, places
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.regression.ar_noise import JointNoise, learn_noise, places
 from core.diagnosis.residual.coordinates import coordinate, coordinate_names
 from core.diagnosis.residual.floor import NoiseFloor, noise_floor
 from core.diagnosis.residual.memory import covariance_of_sums

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.stats import t as student
 
 from core.arrays import Indices, Vector
-from core.diagnosis.look import Look
+from core.diagnosis.dataset.dataset import Look
 
 BLOCKS = 20
 LEVEL = 0.975

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import JointSeries, Samples
-from core.diagnosis.look import Look
+from core.diagnosis.dataset.dataset import Look
 from core.dynamics.prediction import Prediction
 from core.errors import OptionError
 from core.robot.joint_units import joint_unit

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.signal import detrend, welch
 
 from core.arrays import JointSeries, JointVector, Vector
-from core.diagnosis.look import Look
+from core.diagnosis.dataset.dataset import Look
 from core.diagnosis.residual.period import Repeats, both_clear, later_by, repeating, repeats
 from core.signals.zero_phase import gain
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Indices, JointMask, JointSeries, Matrix, Vector
-from core.diagnosis.look import Look
-from core.diagnosis.noise import JointNoise
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.regression.ar_noise import JointNoise
 from core.diagnosis.residual.blocks import Share, row_blocks, share_on_blocks
 from core.diagnosis.residual.coordinates import coordinate, coordinate_series
 from core.diagnosis.residual.memory import memory

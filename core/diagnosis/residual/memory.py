@@ -11,7 +11,7 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
 from core.arrays import Indices, Matrix, SquareMatrix, Vector
-from core.diagnosis.noise import JointNoise
+from core.diagnosis.regression.ar_noise import JointNoise
 
 FORGOTTEN = 0.1
 """A noise has forgotten where its correlation with the past stays below this."""

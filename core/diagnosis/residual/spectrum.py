@@ -11,7 +11,7 @@ import numpy as np
 from scipy.signal import welch
 
 from core.arrays import JointSeries, Vector
-from core.diagnosis.look import Look
+from core.diagnosis.dataset.dataset import Look
 from core.diagnosis.residual.floor import NoiseFloor, passed
 
 LONGEST = 256

@@ -17,7 +17,7 @@ from core.dynamics.gear import Gear
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
 from core.dynamics.terms.elasticity import smoothed
-from core.recursions import fly
+from core.numerics.recursions import fly
 from core.robot.model import RobotModel
 from core.signals.state import MotionState
 

@@ -15,10 +15,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from core.arrays import BaseParameters
+from core.extension.result import Diagnosed
+from core.identification.result import Identification
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import compare
-from core.report.diagnosed import Diagnosed
-from core.report.identification import Identification
 from core.report.traces.layout import (
     EXTENDED,
     HELD_OUT,

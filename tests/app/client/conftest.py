@@ -1,8 +1,8 @@
 import pytest
 
 from app.client.client import Client
+from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
-from tests.app.test_server import listening_service
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ import pytest
 from app.client.client import Client
 from app.client.errors import NoAnswerError, NoResultError, RefusedError
 from core.errors import LogError, OptionError, RobotError
+from tests.app.http.test_server import listening_service
 from tests.app.planar_arm import columns, csv_log, description
 from tests.app.stubs import RESULT, StubExecutor, failing
-from tests.app.test_server import listening_service
 
 
 @pytest.fixture(scope="module")

@@ -3,8 +3,8 @@
 import re
 from pathlib import Path
 
+from tests.app.http.test_server import listening_service
 from tests.app.stubs import InlineExecutor
-from tests.app.test_server import listening_service
 
 ROOT = Path(__file__).parents[3]
 GUIDE = (ROOT / "docs" / "client.md").read_text(encoding="utf-8")

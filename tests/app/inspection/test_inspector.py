@@ -103,7 +103,7 @@ from app.inspection.child import NEEDED
 for name in NEEDED:
     import_module(name)
 loaded = set(sys.modules)
-from app.jobs import science
+from app.jobs import computations as science
 from app.jobs.computation import LogFile
 science.summarise_log(LogFile(Path(sys.argv[1]), "arm", None, "f" * 64), media_type=None)
 print(*(name for name in sys.modules if name not in loaded and not name.startswith("encodings.")))

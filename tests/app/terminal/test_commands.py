@@ -13,14 +13,14 @@ import pyarrow.parquet as pq
 import pytest
 
 from app.client.client import Client
-from app.jobs import science
+from app.jobs import computations as science
 from app.problems import KINDS
-from app.terminal.exits import NO_RESULT, NO_SERVICE, Exit
+from app.terminal.output.exit_codes import NO_RESULT, NO_SERVICE, Exit
 from core.errors import ExcitationError, LogError, SolverError
+from tests.app.http.test_server import listening_service
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import InlineExecutor, StubExecutor, failing
 from tests.app.terminal.conftest import ROOT, run
-from tests.app.test_server import listening_service
 from tests.core.report.documents import diagnosed, nothing_found
 
 QUICK = ("--set", "bootstrap.draws=0")
@@ -55,7 +55,7 @@ def test_files_and_a_service_give_the_same_document_byte_for_byte(planar, tmp_pa
 
 def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
     monkeypatch.setattr(
-        "app.terminal.local.LocalBench.run", lambda *_: identified.read_bytes()
+        "app.terminal.backend.local.LocalBench.run", lambda *_: identified.read_bytes()
     )  # the same document, printed
     ended = run("identify", "yumi-left", "examples/yumi/log.csv", COLUMNS="40")
     rows = [line.split() for line in ended.stdout.splitlines()]
@@ -72,7 +72,7 @@ def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
 @pytest.mark.parametrize(("document", "code"), [(diagnosed(), Exit.FOUND), (nothing_found(), Exit.DONE)])
 def test_a_diagnosis_fails_on_findings_only_where_that_is_asked_for(desk, monkeypatch, document, code):
     content = json.dumps(document).encode()
-    monkeypatch.setattr("app.terminal.local.LocalBench.run", lambda *_: content)
+    monkeypatch.setattr("app.terminal.backend.local.LocalBench.run", lambda *_: content)
     command = ("diagnose", "yumi-left", "examples/yumi/log.csv")
     assert run(*command).exit_code == Exit.DONE
     failing_run = run(*command, "--fail-on-findings", "--json")
@@ -387,8 +387,8 @@ def test_a_command_whose_errors_nobody_reads_works_and_ends_as_ever():
         "app.terminal.main",
         "typer",
         "app.terminal.guard",
-        "app.terminal.robots",
-        "app.terminal.local",
+        "app.terminal.commands.robots",
+        "app.terminal.backend.local",
     ],
 )
 def test_an_interruption_while_the_command_is_being_loaded_ends_as_any_other(loaded):

@@ -9,16 +9,16 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from app.documents import json_bytes
-from app.jobs import process
+from app.jobs import worker_process as process
 from app.jobs.computation import Finished
-from app.terminal import serve
-from app.terminal.exits import Exit
-from app.terminal.local import LocalBench
+from app.json_text import json_bytes
+from app.terminal.backend.local import LocalBench
+from app.terminal.commands import serve
 from app.terminal.main import COMMANDS
+from app.terminal.output.exit_codes import Exit
+from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT, run
-from tests.app.test_server import listening_service
 from tests.core.report.documents import diagnosed
 
 

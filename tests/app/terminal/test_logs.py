@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from app.terminal.exits import Exit
+from app.terminal.output.exit_codes import Exit
 from tests.app.planar_arm import columns
 from tests.app.terminal.conftest import ROOT, run
 

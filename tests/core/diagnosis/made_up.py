@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Samples
-from core.diagnosis.bench import Bench
-from core.diagnosis.cause import Cause, Scalars
-from core.diagnosis.causes.common import NOTHING, OwnJointCause
-from core.diagnosis.hypothesis import Candidate, Hypothesis
+from core.diagnosis.causes.protocol import Cause, Scalars
+from core.diagnosis.causes.shared.common import NOTHING, OwnJointCause
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis
 from core.dynamics.terms.effect import OneJointTerm
 from core.robot.model import RobotModel
 from core.robot.parameters import Parameter

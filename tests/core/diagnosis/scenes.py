@@ -7,12 +7,12 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.diagnosis.belief import Belief
-from core.diagnosis.bench import Bench
-from core.diagnosis.cause import Cause, Scalars, Site
-from core.diagnosis.look import Look, look_at
+from core.diagnosis.causes.protocol import Cause, Scalars, Site
+from core.diagnosis.dataset.dataset import Look, look_at
+from core.diagnosis.search.fitter import Bench
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
+from core.estimate.gaussian_prior import Belief
 from core.log.reader import log_from_arrays
 from core.reduction.base import base_model
 from core.regressor.columns import ColumnPlan

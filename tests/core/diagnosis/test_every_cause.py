@@ -13,15 +13,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import AGAINST_REFERENCE, BY_ID, CAUSES, RAW_CAUSES
-from core.diagnosis.cause import Cause, Solved
-from core.diagnosis.curve import STAND_IN
-from core.diagnosis.mending import MendsLog, MendsRobot, mends
-from core.diagnosis.raw import RawCause
+from core.diagnosis.causes.protocol import Cause, Solved
+from core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, RAW_CAUSES
+from core.diagnosis.causes.repairs import MendsLog, MendsRobot, mends
+from core.diagnosis.causes.sample_check import RawCause
+from core.diagnosis.checks.figure import STAND_IN
 from core.diagnosis.residual.coordinates import coordinate, coordinate_names
 from core.log.model import whole_rows
+from core.robot.differences import differences
 from core.robot.inertia import from_mass_properties
-from core.robot.likeness import differences
 from tests.core.diagnosis.scenes import (
     UNTOUCHED,
     Scene,
@@ -34,7 +34,7 @@ from tests.core.diagnosis.scenes import (
 )
 
 FOLDER = Path(__file__).parents[3] / "core" / "diagnosis" / "causes"
-SHARED_PARTS = {"__init__", "bodies", "common", "events", "harmonics", "sites", "waves"}
+SHARED_PARTS = {"__init__", "guide", "protocol", "registry", "repairs", "sample_check"}
 FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
 PUBLIC = {
     *("friction_stribeck", "friction_viscous_nonlinear", "friction_asymmetric", "friction_load_dependent"),

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import CAUSES
-from core.diagnosis.cause import Cause
-from core.diagnosis.equations import Fit
+from core.diagnosis.causes.protocol import Cause
+from core.diagnosis.causes.registry import CAUSES
+from core.diagnosis.regression.gls import Fit
 from tests.core.diagnosis.scenes import Scene, bench_of, eventful_scene, measured_arm
 
 

@@ -7,27 +7,21 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array, identity
 
-from core.diagnosis import selection
-from core.diagnosis.catalogue import BY_ID
 from core.diagnosis.causes import external_contact
+from core.diagnosis.causes.registry import BY_ID
 from core.diagnosis.causes.torque_gain import TorqueGain
-from core.diagnosis.equations import refit
-from core.diagnosis.noise import JointNoise
-from core.diagnosis.rows import joint_rows
-from core.diagnosis.whitened import Whitened
+from core.diagnosis.regression.ar_noise import JointNoise
+from core.diagnosis.regression.gls import refit
+from core.diagnosis.regression.prewhitening import Whitened
+from core.diagnosis.regression.rows import joint_rows
+from core.diagnosis.search import stepwise as selection
 from core.dynamics.terms.effect import OneJointTerm
-from tests.core.diagnosis import (
-    equations_world,
-    test_equations,
-    test_every_cause,
-    test_held_out,
-    test_noise,
-    test_score,
-    test_selection,
-)
-from tests.core.diagnosis.equations_world import Equations
+from tests.core.diagnosis import test_every_cause, test_held_out
 from tests.core.diagnosis.processes import SLOW
+from tests.core.diagnosis.regression import gls_world, test_ar_noise, test_gls, test_score_test
+from tests.core.diagnosis.regression.gls_world import Equations
 from tests.core.diagnosis.scenes import eventful_scene
+from tests.core.diagnosis.search import test_stepwise
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +54,15 @@ def test_a_column_of_measured_torque_is_seen():
 @pytest.mark.parametrize(
     "law",
     [
-        lambda: test_noise.test_what_was_learned_from_coloured_noise_makes_it_white(SLOW, 0),
-        lambda: test_noise.test_the_likelihood_of_gappy_rows_is_that_of_the_dense_normal_distribution(SLOW),
-        lambda: (
-            test_equations.test_a_fit_under_known_noise_is_the_generalised_least_squares_of_dense_matrices(
-                Equations()
-            )
+        lambda: test_ar_noise.test_what_was_learned_from_coloured_noise_makes_it_white(SLOW, 0),
+        lambda: test_ar_noise.test_the_likelihood_of_gappy_rows_is_that_of_the_dense_normal_distribution(
+            SLOW
         ),
-        partial(test_equations.test_parameters_scatter_as_their_covariance_says, ordinary=False),
-        test_score.test_where_nothing_is_hidden_and_the_noise_was_learned_small_chances_stay_rare,
+        lambda: test_gls.test_a_fit_under_known_noise_is_the_generalised_least_squares_of_dense_matrices(
+            Equations()
+        ),
+        partial(test_gls.test_parameters_scatter_as_their_covariance_says, ordinary=False),
+        test_score_test.test_where_nothing_is_hidden_and_the_noise_was_learned_small_chances_stay_rare,
     ],
     ids=["white", "likelihood", "dense", "scatter", "chances"],
 )
@@ -84,7 +78,7 @@ def test_rows_taken_for_independent_are_seen(law, monkeypatch):
 
 
 def test_a_row_that_looks_across_a_gap_is_seen(monkeypatch):
-    law = test_noise.test_a_row_after_a_gap_knows_nothing_of_the_rows_before_it
+    law = test_ar_noise.test_a_row_after_a_gap_knows_nothing_of_the_rows_before_it
     law()
     honest = JointNoise.whitening
     monkeypatch.setattr(JointNoise, "whitening", lambda noise, place: honest(noise, np.arange(len(place))))
@@ -93,20 +87,20 @@ def test_a_row_that_looks_across_a_gap_is_seen(monkeypatch):
 
 
 def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
-    law = test_equations.test_what_free_columns_can_stand_for_does_not_reach_the_parameters
+    law = test_gls.test_what_free_columns_can_stand_for_does_not_reach_the_parameters
     law(Equations())
 
     def without_standstill(look, columns, mask):
         bare = tuple(csr_array((len(look.time), 0)) for _ in range(look.joints))
         return joint_rows(replace(look, sticking=bare), columns, mask)
 
-    monkeypatch.setattr(equations_world, "joint_rows", without_standstill)
+    monkeypatch.setattr(gls_world, "joint_rows", without_standstill)
     with pytest.raises(AssertionError):
         law(Equations())
 
 
 def test_friction_at_rest_that_is_taken_out_row_by_row_is_seen(monkeypatch):
-    law = partial(test_equations.test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it, 0)
+    law = partial(test_gls.test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it, 0)
     law()
     monkeypatch.setattr(Whitened, "missed", lambda white, rows, values: rows.missed(values))
     with pytest.raises(AssertionError):
@@ -114,11 +108,9 @@ def test_friction_at_rest_that_is_taken_out_row_by_row_is_seen(monkeypatch):
 
 
 def test_a_noise_model_that_was_learned_with_the_effect_in_it_is_seen(monkeypatch):
-    law = partial(
-        test_equations.test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away, ordinary=False
-    )
+    law = partial(test_gls.test_the_noise_is_learned_anew_where_a_column_takes_an_effect_away, ordinary=False)
     law()
-    monkeypatch.setattr(test_equations, "refit", partial(refit, rounds=0))
+    monkeypatch.setattr(test_gls, "refit", partial(refit, rounds=0))
     with pytest.raises(AssertionError):
         law()
 
@@ -148,9 +140,9 @@ def test_a_search_that_looks_at_what_is_held_out_is_seen(monkeypatch):
 
 
 def test_a_search_that_never_looks_back_is_seen(monkeypatch):
-    law = test_selection.test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found
+    law = test_stepwise.test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found
     law()
-    monkeypatch.setattr(test_selection, "misled", test_selection.misled.__wrapped__)
+    monkeypatch.setattr(test_stepwise, "misled", test_stepwise.misled.__wrapped__)
     monkeypatch.setattr(selection, "_defended", lambda bench, now, *rest: [now])
     with pytest.raises(AssertionError):
         law()

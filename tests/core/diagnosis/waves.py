@@ -7,8 +7,8 @@ from typing import ClassVar
 import numpy as np
 
 from core.arrays import Samples
-from core.diagnosis.cause import Confusion
-from core.diagnosis.causes.common import OwnJointCause
+from core.diagnosis.causes.protocol import Confusion
+from core.diagnosis.causes.shared.common import OwnJointCause
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.effect import OneJointTerm
 from core.robot.model import RobotModel

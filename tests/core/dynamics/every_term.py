@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from core.diagnosis.catalogue import AGAINST_REFERENCE
-from core.diagnosis.cause import Cause
-from core.diagnosis.unlisted import Unlisted
+from core.diagnosis.causes.protocol import Cause
+from core.diagnosis.causes.registry import AGAINST_REFERENCE
+from core.diagnosis.checks.unnamed_pattern import Unlisted
 from core.dynamics.model import STANDARD_TERMS
 from core.dynamics.prediction import Prediction
 from core.dynamics.term import Term

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from core.document.identified import BaseValue, IdentifiedRobot
 from core.dynamics.model import standard_model
-from core.export.identified import BaseValue, IdentifiedRobot
 from core.robot.builtin import builtin_robot
 from core.robot.description import robot_from_description
 from core.robot.model import Coupling, Link, RobotModel

@@ -11,12 +11,12 @@ import pytest
 from ruamel.yaml import YAML
 from scipy.io import loadmat
 
+from core.document.identified import IdentifiedRobot
 from core.dynamics.terms.coulomb import Coulomb
 from core.dynamics.terms.coupling import GearCoupling
 from core.export.c_header import c_name, write_c_header
 from core.export.content import content
 from core.export.formats import FORMATS
-from core.export.identified import IdentifiedRobot
 from core.export.matlab import write_matlab
 from core.export.yaml import write_yaml
 from core.robot.parameters import INERTIAL_SYMBOLS

@@ -16,7 +16,7 @@ from core.errors import RobotError
 from core.export.movers import movers
 from core.export.urdf import write_urdf
 from core.export.urdf_in_place import urdf_with_inertials
-from core.robot.likeness import differences
+from core.robot.differences import differences
 from core.robot.urdf import robot_from_urdf
 from tests.core.export import engines
 from tests.core.export.robots import ROBOTS, brisk, identified

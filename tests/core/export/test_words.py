@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
+from core.document.caveats import REPRESENTATIVE
+from core.document.identified import IdentifiedRobot
+from core.document.model_file import write_model
 from core.dynamics.model import standard_model
 from core.errors import OptionError, RobotError
 from core.export.c_header import write_c_header
-from core.export.caveats import REPRESENTATIVE
-from core.export.identified import IdentifiedRobot
 from core.export.matlab import write_matlab
 from core.export.mjcf import write_mjcf
-from core.export.model_file import write_model
 from core.export.sdf import write_sdf
 from core.export.urdf import write_urdf
 from core.export.yaml import write_yaml

@@ -5,15 +5,15 @@ import json
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import BY_ID
-from core.diagnosis.mending import mends
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.causes.repairs import mends
+from core.document.numbers import plain
+from core.document.repairs import read_repairs, repaired_description
 from core.dynamics.model import standard_model
 from core.dynamics.newton_euler import inverse_dynamics
 from core.extension.repair import Repair, repaired_robot
-from core.report.numbers import plain
-from core.report.repairs import read_repairs, repaired_description
 from core.robot.description import robot_from_description
-from core.robot.likeness import differences
+from core.robot.differences import differences
 from core.robot.model import RobotModel
 from core.robot.writing import to_description
 from core.signals.state import MotionState

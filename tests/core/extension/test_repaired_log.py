@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from core.diagnosis.catalogue import BY_ID
-from core.diagnosis.mending import mends
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.causes.repairs import mends
 from core.errors import LogError
 from core.extension.repair import Repair
 from core.extension.repaired_log import repaired_log

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from core.errors import LogError
 from core.log.mapping import parse_mapping
 from core.log.model import whole_rows
+from core.log.plausible_units import plausible_readings
 from core.log.reader import read_log
-from core.log.readings import plausible_readings
 from core.log.units import UNITS
 from tests.core.log.writers import swing, write_parquet
 

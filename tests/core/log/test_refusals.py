@@ -169,7 +169,7 @@ def test_numbers_without_a_header_are_refused(tmp_path):
 
 
 def test_more_rows_than_can_be_studied_are_refused_from_the_footer(tmp_path, monkeypatch):
-    monkeypatch.setattr("core.log.table.MAX_ROWS", 2999)
+    monkeypatch.setattr("core.log.formats.table.MAX_ROWS", 2999)
     assert refusal(swing(), tmp_path).evidence == {"rows": 3000, "at_most": 2999}
 
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from core.document.numbers import plain
 from core.dynamics.model import standard_model
 from core.estimate.system import weighted
 from core.precision.covariance import Precision, assess, relative_deviation_percent
 from core.reduction.base import base_model
 from core.regressor.columns import ColumnPlan
 from core.regressor.observe import observe
-from core.report.numbers import plain
 from core.signals.condition import condition
 from core.signals.recipe import FilterOptions
 from core.study import IdentifyRequest, identify

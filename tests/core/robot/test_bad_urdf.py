@@ -5,7 +5,7 @@ import pytest
 
 from core.errors import RobotError
 from core.robot.inertia import from_mass_properties
-from core.robot.suspicions import suspicions
+from core.robot.plausibility import suspicions
 from core.robot.urdf import robot_from_urdf
 from tests.core.robot.urdf_makers import joint, link, robot
 

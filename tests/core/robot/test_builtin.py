@@ -5,7 +5,7 @@ import pytest
 
 from core.errors import RobotError
 from core.robot.builtin import builtin_description, builtin_robot, builtin_robots
-from core.robot.suspicions import suspicions
+from core.robot.plausibility import suspicions
 from core.robot.writing import to_description
 from tests.tools import Motion, pinocchio_model, pinocchio_torque, random_bodies, random_motion
 

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.document.identification import Identification
 from core.dynamics.model import standard_model
 from core.errors import OptionError
 from core.log.model import JointLog, whole_rows
 from core.log.reader import log_from_arrays
 from core.regressor.observe import residuals
-from core.report.document import Identification
 from core.study import IdentifyRequest, identify_in_full
 from core.validation.holdout import HoldOut
 from core.validation.scores import JointScore, scores, total_percent

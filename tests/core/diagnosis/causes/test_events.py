@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array, diags_array
 
-from core.diagnosis.causes.events import find_events
-from core.diagnosis.misfit import fitted_rows, misfit, precisions
-from core.diagnosis.noise import places
+from core.diagnosis.causes.shared.events import find_events
+from core.diagnosis.regression.ar_noise import places
+from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit, precisions
 from core.dynamics.terms.contact import swell
 from tests.core.diagnosis.processes import (
     SLOW,

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
-from core.diagnosis.grid import neighbours
-from core.diagnosis.hypothesis import Candidate
-from core.diagnosis.scalars import refined
-from core.diagnosis.verdict import diagnose
+from core.diagnosis.diagnose import diagnose
+from core.diagnosis.search.grid import neighbours
+from core.diagnosis.search.hypothesis import Candidate
+from core.diagnosis.search.profile_likelihood import refined
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm, skew_arm
-from tests.core.diagnosis.test_verdict import asked
+from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
 
 ROTOR, SHARE = 1.5, 0.15

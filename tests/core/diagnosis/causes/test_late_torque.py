@@ -5,11 +5,11 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.signal import lfilter
 
-from core.diagnosis.verdict import diagnose
+from core.diagnosis.diagnose import diagnose
 from core.dynamics.model import standard_model
 from core.dynamics.terms.filter_lag import low_passed
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, measured_arm, skew_arm
-from tests.core.diagnosis.test_verdict import asked
+from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
 
 NEARLY_A_WALK = 0.995

@@ -7,22 +7,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.diagnosis.cause import Cause, Solved
 from core.diagnosis.causes.cable_force import CableForce
 from core.diagnosis.causes.friction_asymmetric import FrictionAsymmetric
 from core.diagnosis.causes.friction_position_dependent import FrictionPositionDependent
 from core.diagnosis.causes.friction_presliding import FrictionPresliding
 from core.diagnosis.causes.friction_temperature import FrictionTemperature
 from core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
-from core.diagnosis.causes.harmonics import harmonics, wave_quantities
 from core.diagnosis.causes.joint_coupling import JointCoupling
+from core.diagnosis.causes.protocol import Cause, Solved
 from core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
+from core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
 from core.diagnosis.causes.spring_compensator import SpringCompensator
 from core.diagnosis.causes.torque_gain_nonlinear import TorqueGainNonlinear
 from core.diagnosis.causes.torque_offset_drift import TorqueOffsetDrift
 from core.diagnosis.causes.torque_ripple import TorqueRipple
 from core.diagnosis.causes.torque_saturation import TorqueSaturation
-from core.diagnosis.look import Look, look_at
+from core.diagnosis.dataset.dataset import Look, look_at
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
 from core.dynamics.terms.coulomb import Coulomb

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.look import Look, look_at
+from core.diagnosis.dataset.dataset import Look, look_at
 from core.diagnosis.residual.floor import noise_floor
 from core.diagnosis.residual.period import later_by, repeats
 from core.dynamics.model import standard_model

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import toeplitz
 
-from core.diagnosis.noise import JointNoise
+from core.diagnosis.regression.ar_noise import JointNoise
 from core.diagnosis.residual.memory import covariance_of_sums, memory, spectrum
 
 

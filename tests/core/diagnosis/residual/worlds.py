@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import lfilter
 
-from core.diagnosis.equations import fit
-from core.diagnosis.look import Look, look_at
-from core.diagnosis.noise import JointNoise
-from core.diagnosis.rows import joint_rows
+from core.diagnosis.dataset.dataset import Look, look_at
+from core.diagnosis.regression.ar_noise import JointNoise
+from core.diagnosis.regression.gls import fit
+from core.diagnosis.regression.rows import joint_rows
 from core.dynamics.model import standard_model
 from core.dynamics.prediction import Prediction
 from core.log.reader import read_log

@@ -1,0 +1,62 @@
+"""See every request come and go: give it an id, time it, count it, and write down what is worth reading.
+
+Reads that succeed are counted only; whoever polls would fill the disk with them.
+"""
+
+import logging
+import secrets
+import time
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from app import logging as journal
+from app.http.trace_context import trace_id
+from app.services.metrics import Metrics
+
+LOGGER = logging.getLogger(__name__)
+SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
+
+
+class Observe:
+    """Stand before everything else.
+
+    Parameters
+    ----------
+    app
+        What comes next.
+    metrics
+        Where requests are counted.
+    """
+
+    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
+        self._app, self._metrics = app, metrics
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Handle one request."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        begun, status = time.perf_counter(), 500  # unless an answer begins, it is the answer to a mistake
+        request, trace = secrets.token_hex(8), trace_id(Headers(scope=scope).get("traceparent"))
+        journal.begin(request=request, trace=trace)
+        scope.setdefault("state", {})["trace"] = trace
+
+        async def noted(message: Message) -> None:
+            nonlocal status
+            if message["type"] == "http.response.start":
+                status = message["status"]
+                message["headers"] = [*message.get("headers", []), (b"x-request-id", request.encode())]
+            await send(message)
+
+        try:
+            await self._app(scope, receive, noted)
+        finally:
+            self._note(scope, status, time.perf_counter() - begun)
+
+    def _note(self, scope: Scope, status: int, seconds: float) -> None:
+        method, route = scope["method"], getattr(scope.get("route"), "path", "none")
+        self._metrics.answered(method=method, route=route, status=status, seconds=seconds)
+        level = logging.DEBUG if method in SAFE_METHODS and status < 400 else logging.INFO
+        told = {"method": method, "path": scope["path"], "status": status, "seconds": round(seconds, 6)}
+        LOGGER.log(level, "answered", extra=told)

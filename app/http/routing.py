@@ -1,0 +1,117 @@
+"""Hold routes to their contract: what it does not name is refused, and what it makes simple is quick.
+
+The framework ignores parameters of the query that it does not know, so that a slip of the pen would go
+unseen. And it works out again at every request what an endpoint takes; where that is nothing but plain
+strings and the caller's desk, the endpoint is called straight away, because clients poll jobs thousands of
+times a second.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Coroutine, Iterator, Mapping
+from inspect import iscoroutinefunction
+from typing import Any
+from urllib.parse import parse_qsl
+
+from fastapi import APIRouter, Request, Response
+from fastapi.dependencies.models import Dependant
+from fastapi.routing import APIRoute
+
+from app.http.body.json_body import invalid
+from app.problems import Problem
+from app.services.services import desk_of
+
+Handler = Callable[[Request], Coroutine[Any, Any, Response]]
+MOST_PARAMETERS = 100
+
+
+def chapter(prefix: str = "", *, tag: str) -> APIRouter:
+    """Make the router of one resource."""
+    return APIRouter(
+        prefix=prefix,
+        tags=[tag],
+        route_class=StrictRoute,
+        generate_unique_id_function=lambda route: (
+            route.name
+        ),  # short names for clients and for links to /docs
+    )
+
+
+class StrictRoute(APIRoute):
+    """Answer requests that name only what the contract names."""
+
+    def get_route_handler(self) -> Handler:
+        """Give what answers a request."""
+        answer = _straight(self.dependant) or super().get_route_handler()
+        known = frozenset(_query_names(self.dependant))
+
+        async def strict(request: Request) -> Response:
+            if request.scope["query_string"]:
+                refuse_unknown_parameters(request.scope["query_string"], known)
+            return await answer(request)
+
+        return strict
+
+
+def refuse_unknown_parameters(query: bytes, known: frozenset[str]) -> None:
+    """Refuse parameters of a query that do not exist, or are given twice.
+
+    Raises
+    ------
+    Problem
+        If there is one (422).
+    """
+    try:
+        pairs = parse_qsl(query.decode("latin-1"), keep_blank_values=True, max_num_fields=MOST_PARAMETERS)
+    except ValueError:
+        raise _refused({"": f"there are more than {MOST_PARAMETERS} parameters"}, known) from None
+    given = Counter(name for name, _ in pairs)
+    wrong = {name: f"there is no parameter {name}" for name in given if name not in known}
+    wrong |= {name: f"the parameter {name} is given twice" for name in given if given[name] > 1}
+    if wrong:
+        raise _refused(wrong, known)
+
+
+def _refused(wrong: Mapping[str, str], known: frozenset[str]) -> Problem:
+    errors = [{"parameter": name, "message": message} for name, message in wrong.items()]
+    return Problem(
+        "request",
+        errors[0]["message"],
+        evidence={"errors": errors, "known": sorted(known)},
+        remedy="send the known parameters only, each once" if known else "send no parameters",
+    )
+
+
+def _query_names(dependant: Dependant) -> Iterator[str]:
+    """Name the parameters of an endpoint's query, those of what it depends on included."""
+    yield from (field.alias for field in dependant.query_params)
+    for inner in dependant.dependencies:
+        yield from _query_names(inner)
+
+
+def _straight(dependant: Dependant) -> Handler | None:
+    """Give what calls an endpoint straight away; None where it takes more than strings and the desk."""
+    endpoint = dependant.call
+    more = dependant.query_params or dependant.cookie_params or dependant.body_params
+    others = [one for one in dependant.dependencies if one.call is not desk_of]
+    if more or others or not iscoroutinefunction(endpoint):
+        return None
+    desks = [str(one.name) for one in dependant.dependencies]
+    request_name = dependant.request_param_name
+
+    async def answer(request: Request) -> Response:
+        taken: dict[str, Any] = dict(request.path_params)
+        for field in dependant.header_params:
+            given = request.headers.get(field.alias)
+            if given is not None:
+                given, errors = field.validate(given, {}, loc=("header", field.alias))
+                if errors:
+                    raise invalid(errors)
+            taken[field.name] = given
+        for name in desks:
+            taken[name] = await desk_of(request)
+        if request_name is not None:
+            taken[request_name] = request
+        answered: Response = await endpoint(**taken)
+        return answered
+
+    return answer

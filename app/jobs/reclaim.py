@@ -1,0 +1,58 @@
+"""Find the jobs of workers that died, froze or were cut off, and let others compute them.
+
+How long a worker has been silent is measured by this worker's own steady clock, never by the time of day: a
+clock that is set back an hour takes no job from anybody. Source: Gray & Cheriton, Leases, SOSP 1989.
+"""
+
+import time
+from collections.abc import Callable
+
+from app.jobs.liveness import Presence
+from app.problems import Problem
+from app.store.store import Store
+from app.store.work import MOST_ATTEMPTS, Held
+
+LEASE_S = 10.0
+"""A worker that shows no life for so long no longer holds its jobs."""
+
+
+class Lives:
+    """Watch the other workers.
+
+    Parameters
+    ----------
+    clock
+        Gives seconds that only ever grow.
+    """
+
+    def __init__(
+        self, store: Store, presence: Presence, *, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._work, self._presence, self._clock = store.work, presence, clock
+        self._seen: dict[Held, tuple[int, float]] = {}
+
+    def look(self) -> int:
+        """Take back the jobs of those who are gone or silent, and count them."""
+        now, freed = self._clock(), 0
+        elsewhere = self._work.running_elsewhere(self._presence.name)
+        seen = {}
+        for held, (owner, beat) in elsewhere.items():
+            known_beat, since = self._seen.get(held, (beat, now))
+            seen[held] = (beat, since if known_beat == beat else now)
+            if self._presence.is_gone(owner):
+                freed += self._work.bury(held, died_too_often().document())
+            elif now - seen[held][1] > LEASE_S:
+                freed += self._work.bury(held, died_too_often().document(), beat=beat)
+        self._seen = seen
+        self._presence.tidy()
+        return freed
+
+
+def died_too_often() -> Problem:
+    """Say that a job took down whoever computed it, again and again."""
+    return Problem(
+        "computation-stopped",
+        f"whoever computed this job died or froze {MOST_ATTEMPTS} times, so it is not tried again",
+        evidence={"attempts": MOST_ATTEMPTS},
+        remedy="shorten the log or raise the decimation; the service's own log may say more",
+    )

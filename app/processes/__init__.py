@@ -1,0 +1,1 @@
+"""Start and end processes: a function comes in, a forked process of it goes out."""

@@ -1,0 +1,196 @@
+"""Hold what requests need, opened once at the start of the service and closed at its end."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Annotated
+
+import anyio
+from fastapi import Depends, Request
+
+from app.auth.callers import Caller, caller_of
+from app.auth.keys import KeyRing
+from app.auth.rate_limit import Pace
+from app.inspection.inspector import Inspector
+from app.jobs import computations as science
+from app.jobs.computation import Ended
+from app.jobs.executor import Executor, ProcessExecutor
+from app.jobs.limits import Limits
+from app.jobs.queue import Queue, Wanted
+from app.jobs.supervisor import Supervisor
+from app.jobs.warm_up import rehearse
+from app.jobs.worker import Capacity, Worker
+from app.problems import Problem
+from app.services.batching import Intake
+from app.services.catalogue import Catalogue, built_in_robots
+from app.services.job_feed import JobFeed
+from app.services.metrics import Metrics
+from app.services.readiness import Readiness
+from app.settings import Settings
+from app.store.lock import DirectoryLock
+from app.store.records import Document, JobRecord, Quota, RobotRecord
+from app.store.store import Store, TenantStore
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Carry what belongs to the tenant of one request; `readers` bounds how many read logs at a time."""
+
+    caller: Caller
+    store: TenantStore
+    catalogue: Catalogue
+    queue: Queue
+    readers: anyio.CapacityLimiter
+    feed: JobFeed
+    intake: Intake[Wanted, JobRecord]
+
+
+@dataclass(frozen=True)
+class Services:
+    """Carry the settings and the parts of the service that requests use.
+
+    `computing` is a worker within this process, or keeps one beside it; None where others compute.
+    """
+
+    settings: Settings
+    lock: DirectoryLock
+    store: Store
+    keys: KeyRing
+    feed: JobFeed
+    intake: Intake[Wanted, JobRecord]
+    pace: Pace
+    inspector: Inspector
+    computing: Worker | Supervisor | None
+    metrics: Metrics
+    readiness: Readiness
+    built_in: dict[str, RobotRecord]
+    base_parameters: dict[str, Document] = field(default_factory=dict)
+
+    @classmethod
+    def open(
+        cls, settings: Settings, metrics: Metrics, executor: Executor | None, supervisor: Supervisor | None
+    ) -> "Services":
+        """Open the store, and begin to work through the queue where there is something to compute with."""
+        lock = DirectoryLock(settings.data_dir)
+        quota = Quota(queued=settings.queued_per_tenant, stored_bytes=settings.stored_bytes_per_tenant)
+        store = Store(settings.data_dir, settings.database_url, quota=quota)
+        store.blobs.remove_leftovers()
+        inspector = Inspector()
+        built_in = built_in_robots()
+        computing: Worker | Supervisor | None = supervisor
+        if computing is None and settings.workers:
+            chosen = executor or executor_of(settings, store)
+            computing = worker_of(store, settings, chosen, built_in, metrics.ended)
+        if computing is not None:
+            computing.start()
+        inspector.prepare()
+        science.read_options("identify", {})  # loads what that needs, so that no request waits for it
+
+        def alive() -> bool:
+            return computing is None or computing.alive
+
+        def ready() -> bool:
+            return computing is None or computing.ready.is_set()
+
+        metrics.watch(store, settings, alive)
+        readiness = Readiness(store, settings, worker_alive=alive, worker_ready=ready)
+        return cls(
+            settings=settings,
+            lock=lock,
+            store=store,
+            keys=KeyRing(store.database),
+            feed=JobFeed(store.many_jobs),
+            intake=Intake(computing.wake) if computing else Intake(),
+            pace=Pace(settings.requests_per_second),
+            inspector=inspector,
+            computing=computing,
+            metrics=metrics,
+            readiness=readiness,
+            built_in=built_in,
+        )
+
+    def desk(self, caller: Caller) -> Desk:
+        """Open what belongs to the tenant of a request."""
+        store = self.store.of(caller.tenant)
+        catalogue = Catalogue(store, self.inspector, self.built_in, self.base_parameters)
+        queue, readers = Queue(store, catalogue), self.inspector.limiter
+        return Desk(caller, store, catalogue, queue, readers, self.feed, self.intake)
+
+    def close(self) -> None:
+        """Stop the computations, hand their jobs back, and close the store."""
+        if self.computing is not None:
+            self.computing.close()
+        self.inspector.close()
+        self.store.close()
+        self.lock.release()
+
+
+def executor_of(settings: Settings, store: Store) -> Executor:
+    """Make what computes as the settings limit it, and rehearses beside what the store takes in."""
+    limits = Limits(settings.job_memory_bytes, settings.job_cpus)
+    return ProcessExecutor(limits=limits, rehearse=partial(rehearse, store.blobs), at_once=settings.workers)
+
+
+def worker_of(
+    store: Store,
+    settings: Settings,
+    executor: Executor,
+    built_in: dict[str, RobotRecord],
+    told: Callable[[Ended], None] | None,
+) -> Worker:
+    """Make a worker as the settings ask for it; `told` hears how every computation went."""
+    return Worker(
+        store,
+        executor,
+        robots={identity: robot.description for identity, robot in built_in.items()},
+        capacity=Capacity(
+            slots=settings.workers,
+            most_per_tenant=settings.running_per_tenant,
+            timeout_s=settings.job_timeout_s,
+            retention_days=settings.retention_days,
+        ),
+        told=told,
+    )
+
+
+async def _services(request: Request) -> Services:
+    services: Services = request.app.state.services
+    return services
+
+
+async def known_caller(request: Request) -> Caller:
+    """Find out who asks.
+
+    Raises
+    ------
+    Problem
+        If the request may not be answered to them, or not yet (401, 403, 429).
+    """
+    services: Services = request.app.state.services
+    if not services.keys.fresh:
+        await anyio.to_thread.run_sync(services.keys.read)
+    address = request.client.host if request.client else ""
+    try:
+        caller = caller_of(request, services.keys, open_to_all=not services.settings.needs_keys)
+    except Problem:
+        services.pace.keep(address)  # whoever guesses keys is held up, too
+        raise
+    services.pace.keep(caller.key.id if caller.key else address)
+    return caller
+
+
+async def desk_of(request: Request) -> Desk:
+    """Open what belongs to whoever asks.
+
+    Raises
+    ------
+    Problem
+        As `known_caller`.
+    """
+    services: Services = request.app.state.services
+    return services.desk(await known_caller(request))
+
+
+ServicesOf = Annotated[Services, Depends(_services)]
+CallerOf = Annotated[Caller, Depends(known_caller)]
+DeskOf = Annotated[Desk, Depends(desk_of)]

@@ -1,0 +1,103 @@
+"""Say what a command asks of whoever computes: this process on files, or a service.
+
+Both give the documents of the API, so that what is printed does not depend on where it came from.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+from core.errors import OptionError
+
+Document = dict[str, Any]
+Tell = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class FromUrdf:
+    """Say which part of a URDF is meant, and where down is (m/s2 in the base frame)."""
+
+    base_link: str | None = None
+    tip_link: str | None = None
+    gravity: tuple[float, ...] | None = None
+
+
+WHOLE = FromUrdf()
+
+
+@dataclass(frozen=True)
+class Study:
+    """Ask for a computation.
+
+    Attributes
+    ----------
+    kind
+        ``identify`` or ``diagnose``.
+    robot
+        What `Bench.robot` takes.
+    mapping
+        Of all logs; None for the default names.
+    part
+        Of the robot, where it is a URDF.
+    """
+
+    kind: str
+    robot: str
+    logs: tuple[Path, ...]
+    mapping: Mapping[str, object] | None = None
+    options: Mapping[str, object] = field(default_factory=dict)
+    part: FromUrdf = WHOLE
+
+
+def require_whole(given: str, part: FromUrdf) -> None:
+    """Return where nothing was asked of a robot that only a URDF can be asked for.
+
+    Raises
+    ------
+    OptionError
+        If something was.
+    """
+    asked = {name: value for name, value in vars(part).items() if value is not None}
+    if asked:
+        raise OptionError(
+            f"{given} is no URDF, and says itself which links it has and where gravity points",
+            evidence={"given": asked},
+            remedy="leave these options out, or change the description",
+        )
+
+
+class Bench(Protocol):
+    """Do the work of the commands."""
+
+    def robots(self) -> list[Document]:
+        """List the robots as `GET /v1/robots` does."""
+        ...
+
+    def robot(self, given: str, part: FromUrdf = WHOLE) -> Document:
+        """Read a robot as `GET /v1/robots/{id}` gives it."""
+        ...
+
+    def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
+        """Say what motion of a robot can tell apart."""
+        ...
+
+    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
+        """Compute; give the result document, and write the report where one is wanted."""
+        ...
+
+
+@contextmanager
+def bench(url: str, key: str) -> Iterator[Bench]:
+    """Choose who computes: the service at `url`, or this process where it is empty."""
+    if url:
+        from app.client.client import Client
+        from app.terminal.backend.remote import RemoteBench
+
+        with Client(url, key or None) as client:
+            yield RemoteBench(client)
+    else:
+        from app.terminal.backend.local import LocalBench
+
+        yield LocalBench()

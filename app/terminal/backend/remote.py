@@ -1,0 +1,68 @@
+"""Let a service compute: upload, ask, follow, and dismiss the job when the command is interrupted."""
+
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+
+from app.client.client import Client
+from app.client.errors import ServiceError
+from app.client.parcel import require_file
+from app.client.records import Robot
+from app.terminal.backend.protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
+from app.terminal.output.files import means_a_file, save
+from app.terminal.output.streams import note
+from core.errors import LogError
+
+
+class RemoteBench:
+    """Do the work on a service."""
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+
+    def robots(self) -> list[Document]:
+        """List the robots of the service."""
+        return [_summary(robot) for robot in self._client.robots()]
+
+    def robot(self, given: str, part: FromUrdf = WHOLE) -> Document:
+        """Read a robot of the service, or describe one to it."""
+        robot = self._robot(given, part)
+        return _summary(robot) | {
+            "suspicions": list(robot.suspicions),
+            "description": dict(robot.description),
+        }
+
+    def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
+        """Say what motion of a robot can tell apart."""
+        return self._client.base_parameters(self._robot(given, part))
+
+    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
+        """Compute; whoever interrupts this dismisses the job."""
+        for path in study.logs:
+            require_file(path, LogError)
+        robot = self._robot(study.robot, study.part)
+        tell("upload", 0.0)
+        logs = [self._client.upload(path, mapping=study.mapping) for path in study.logs]
+        ask = partial(self._client.submit, study.kind, robot, logs, study.options)
+        job = None
+        try:
+            job = ask()
+            note(f"job {job.id}")
+            self._client.wait(job, tell)
+        except KeyboardInterrupt:
+            with suppress(ServiceError):
+                self._client.cancel(job or ask())  # asked for again, it is the same job
+            raise
+        if report is not None:
+            save(report, self._client.report(job))
+        return self._client.result_bytes(job)
+
+    def _robot(self, given: str, part: FromUrdf) -> Robot:
+        if means_a_file(given):
+            return self._client.add_robot(Path(given), **vars(part))
+        require_whole(given, part)
+        return self._client.robot(given)
+
+
+def _summary(robot: Robot) -> Document:
+    return {"id": robot.id, "name": robot.name, "joints": robot.joints, "built_in": robot.built_in}

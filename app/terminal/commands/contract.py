@@ -1,0 +1,25 @@
+"""Print what the service is: its contract and its version."""
+
+import typer
+
+from app.terminal.output.streams import say
+from app.version import VERSION
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque openapi > openapi.json")
+def openapi() -> None:
+    """Print the contract as OpenAPI 3.1."""
+    import json
+
+    from app.main import create_app
+    from app.settings import Settings
+
+    say(json.dumps(create_app(Settings.model_construct()).openapi(), indent=2))
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque version")
+def version() -> None:
+    """Print the version."""
+    say(VERSION)

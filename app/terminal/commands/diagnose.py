@@ -1,0 +1,74 @@
+"""Diagnose what the simulation of a robot gets wrong."""
+
+from typing import Annotated
+
+import typer
+
+from app.terminal.backend.protocol import Study
+from app.terminal.options import (
+    BaseLinkOption,
+    GravityOption,
+    JsonOption,
+    KeyOption,
+    LogsArgument,
+    MappingOption,
+    OptionsOption,
+    ProfileOption,
+    RobotArgument,
+    SetOption,
+    TipLinkOption,
+    UrlOption,
+    mapping_of,
+    options_of,
+    part_of,
+)
+from app.terminal.output.exit_codes import Exit
+from app.terminal.study import OutOption, ReportOption, Wanted, run
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+EPILOG = """\b
+Examples:
+  veritorque diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html --fail-on-findings
+  veritorque diagnose robot.urdf examples/yumi/hidden_log.csv --tip-link joint_7 --gravity=0,0,-9.81
+"""
+ReferenceOption = Annotated[
+    str,
+    typer.Option(
+        help="What the logs are compared with: an earlier result (a file; with --url a job), or prior."
+    ),
+]
+FailOption = Annotated[bool, typer.Option("--fail-on-findings", help="End with 1 where something is wrong.")]
+
+
+@COMMANDS.command(epilog=EPILOG)
+def diagnose(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    logs: LogsArgument,
+    *,
+    reference: ReferenceOption = "",
+    fail_on_findings: FailOption = False,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    mapping: MappingOption = "",
+    profile: ProfileOption = "",
+    options: OptionsOption = "",
+    settings: SetOption = [],  # noqa: B006  # typer reads it and makes a new one
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
+    out: OutOption = None,
+    report: ReportOption = None,
+) -> None:
+    """Identify a robot, then name what its simulation gets wrong, why, and what mending it gains."""
+    chosen = options_of(options, settings) | ({"reference": reference} if reference else {})
+    part = part_of(base_link, tip_link, gravity)
+    study = Study("diagnose", robot, tuple(logs), mapping_of(mapping, profile), chosen, part)
+    document = run(study, url=url, key=key, wanted=Wanted(json, out, report))
+    if not json:
+        from app.terminal.output.findings import print_diagnosis
+        from app.terminal.output.streams import out as console
+
+        print_diagnosis(console(), document)
+    if fail_on_findings and document["diagnosis"]["verdict"] != "nothing_found":
+        raise typer.Exit(Exit.FOUND)

@@ -1,0 +1,66 @@
+"""Make, list and revoke the keys of a service, where its data are kept."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from app.settings import LOCAL, SCOPES
+from app.terminal.environment import chosen_settings, opened, require_directory, stop
+from app.terminal.output.streams import say
+
+if TYPE_CHECKING:
+    from app.store.keys import KeyStore
+
+COMMANDS = typer.Typer(
+    help="Make, list and revoke the keys of a service.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    epilog="\b\nExample:\n  veritorque keys list",
+)
+ScopesOption = Annotated[str, typer.Option(help="What it permits: read, write and admin, with commas.")]
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque keys create my-notebook --scopes read,write")
+def create(
+    name: Annotated[str, typer.Argument(help="Whose key it is, for your own records.")],
+    tenant: Annotated[str, typer.Option(help="Whose robots, logs and jobs it opens.")] = LOCAL,
+    scopes: ScopesOption = "read,write",
+) -> None:
+    """Make a key and print its secret, which is not kept and cannot be shown again."""
+    wanted = tuple(one.strip() for one in scopes.split(",") if one.strip())
+    unknown = sorted(set(wanted) - set(SCOPES))
+    if unknown or not wanted:
+        stop(f"there is no scope {', '.join(unknown) or '(none)'}; the scopes are {', '.join(SCOPES)}")
+    with _keys() as keys:
+        _, secret = keys.create(tenant=tenant, name=name, scopes=wanted)
+    say(secret)
+
+
+@COMMANDS.command(name="list", epilog="\b\nExample:\n  veritorque keys list")
+def list_keys() -> None:
+    """List all keys: id, tenant, name, scopes, and since when they are valid or were revoked."""
+    with _keys() as keys:
+        for one in keys.all():
+            since = f"revoked {one.revoked_at}" if one.revoked_at else f"since {one.created_at}"
+            say(f"{one.id}  {one.tenant}  {one.name}  {','.join(one.scopes)}  {since}")
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque keys revoke 3f2a91")
+def revoke(identity: Annotated[str, typer.Argument(help="The id that `keys list` shows.")]) -> None:
+    """Revoke a key; a running service refuses it within seconds."""
+    with _keys() as keys:
+        if not keys.revoke(identity):
+            stop(f"there is no valid key {identity}; `veritorque keys list` shows all")
+
+
+@contextmanager
+def _keys() -> Iterator["KeyStore"]:
+    from app.store.keys import KeyStore
+
+    settings = chosen_settings()
+    require_directory(settings.data_dir)
+    with opened(settings) as store:
+        yield KeyStore(store.database)

@@ -1,0 +1,149 @@
+"""List, show and check robots before a motion is run on one."""
+
+from typing import Annotated, Any
+
+import typer
+
+from app.json_text import json_bytes
+from app.terminal.backend.protocol import bench
+from app.terminal.options import (
+    BaseLinkOption,
+    GravityOption,
+    JsonOption,
+    KeyOption,
+    RobotArgument,
+    TipLinkOption,
+    UrlOption,
+    part_of,
+)
+from app.terminal.output.exit_codes import Exit
+from app.terminal.output.streams import out, say, write
+
+COMMANDS = typer.Typer(
+    help="List, show and check robots.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    epilog="\b\nExample:\n  veritorque robots list",
+)
+GEOMETRY = ("alpha", "d", "theta_offset", "r", "gamma", "b")
+
+
+@COMMANDS.command(name="list", epilog="\b\nExample:\n  veritorque robots list")
+def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False) -> None:
+    """List the robots that need no description."""
+    with bench(url, key) as one:
+        robots = one.robots()
+    if json:
+        write(json_bytes(robots))
+        return
+    for robot in robots:
+        say(f"{robot['id']:<16}  {robot['joints']:>2} joints  {robot['name']}")
+
+
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots show yumi-left\n"
+    "  veritorque robots show robot.urdf --tip-link joint_7 --json"
+)
+def show(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
+) -> None:
+    """Show a robot as it is understood; with --json its description, which a URDF becomes as well."""
+    with bench(url, key) as one:
+        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
+    if json:
+        write(json_bytes(seen["description"]))
+        return
+    say(f"{seen['name']}: {seen['joints']} joints, gravity {_listed(seen['description']['gravity'])} m/s2")
+    _print_joints(seen["description"]["joints"])
+    _tell_suspicions(seen)
+
+
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots check examples/yumi/robot.json\n"
+    "  veritorque robots check robot.urdf --tip-link joint_7 --gravity=0,0,-9.81"
+)
+def check(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    fail_on_findings: Annotated[
+        bool, typer.Option("--fail-on-findings", help="End with 1 where something looks like a mistake.")
+    ] = False,
+    url: UrlOption = "",
+    key: KeyOption = "",
+) -> None:
+    """Check a description: what cannot be used is an error, what is rarely meant is told with its numbers."""
+    with bench(url, key) as one:
+        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
+    say(f"{seen['name']}: {seen['joints']} joints; it can be used")
+    _tell_suspicions(seen)
+    if fail_on_findings and seen["suspicions"]:
+        raise typer.Exit(Exit.FOUND)
+
+
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots base-parameters yumi-left\n"
+    "  veritorque robots base-parameters robot.urdf --tip-link joint_3"
+)
+def base_parameters(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    *,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
+) -> None:
+    """List the combinations of parameters that a motion of the robot can tell apart, with their groupings."""
+    with bench(url, key) as one:
+        document = one.base_parameters(robot, part_of(base_link, tip_link, gravity))
+    if json:
+        write(json_bytes(document))
+        return
+    counts = document["counts"]
+    say(f"{counts['standard']} standard parameters, {counts['base']} base parameters")
+    for row in document["base_parameters"]:
+        say(f"{row['name']:<8}{row['unit']:<12}{row['grouping']}")
+    if document["without_effect"]:
+        say(f"without effect on the torque: {', '.join(document['without_effect'])}")
+
+
+def _print_joints(rows: list[dict[str, Any]]) -> None:
+    from app.terminal.output.columns import Column, print_table
+
+    shown = [name for name in GEOMETRY if any(row.get(name) for row in rows)]
+    limits = [(row.get("limits") or {}).get("position") for row in rows]
+    kinds = [
+        str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else "") for row in rows
+    ]
+    columns = [
+        Column("joint", [str(place) for place in range(1, len(rows) + 1)]),
+        Column("name", [str(row.get("name", "")) for row in rows], is_text=True, spare=3),
+        Column("type", kinds, is_text=True, spare=1),
+        Column("on", [str(row.get("antecedent", "")) for row in rows], spare=2),
+        *(Column(name, [f"{row.get(name) or 0.0:.4g}" for row in rows]) for name in shown),
+        Column(
+            "position", ["" if one is None else f"{one[0]:.4g} .. {one[1]:.4g}" for one in limits], spare=4
+        ),
+    ]
+    print_table(out(), columns)
+
+
+def _tell_suspicions(seen: dict[str, Any]) -> None:
+    for one in seen["suspicions"]:
+        say(f"rarely meant: {one}")
+
+
+def _listed(values: list[float]) -> str:
+    return ", ".join(f"{value:.4g}" for value in values)

@@ -1,0 +1,129 @@
+"""Start the service from a terminal; every setting can also stand in the environment.
+
+Source of the names: `app.settings`.
+"""
+
+import socket
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from app.settings import PREFIX, Settings
+from app.terminal.environment import (
+    chosen_settings,
+    opened,
+    require_directory,
+    stop,
+)
+from app.terminal.kernel_cache import COMPILING, keep_compiled_kernels
+from app.terminal.output.streams import say
+from app.terminal.threads import limit_threads
+
+if TYPE_CHECKING:
+    from app.store.store import Store
+
+DEFAULTS = Settings.model_construct()
+
+OPTIONS = ("host", "port", "data_dir", "workers", "max_upload_bytes", "job_timeout_s")
+"""Settings that are options, too."""
+
+OTHERS = ", ".join(PREFIX + name.upper() for name in Settings.model_fields if name not in OPTIONS)
+EPILOG = f"""\b
+Examples:
+  veritorque serve
+  veritorque serve --port 9000 --data-dir lab-data
+
+In the environment, besides these: {OTHERS}"""
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+@COMMANDS.command(epilog=EPILOG)
+def serve(
+    host: Annotated[str, typer.Option(envvar=PREFIX + "HOST", help="Address to listen on.")] = DEFAULTS.host,
+    port: Annotated[int, typer.Option(envvar=PREFIX + "PORT", help="Port to listen on.")] = DEFAULTS.port,
+    data_dir: Annotated[
+        Path,
+        typer.Option(envvar=PREFIX + "DATA_DIR", help="Where logs, results and compiled kernels are kept."),
+    ] = DEFAULTS.data_dir,
+    workers: Annotated[
+        int, typer.Option(envvar=PREFIX + "WORKERS", help="Computations at the same time.")
+    ] = DEFAULTS.workers,
+    max_upload_bytes: Annotated[
+        int, typer.Option(envvar=PREFIX + "MAX_UPLOAD_BYTES", help="Largest log taken.")
+    ] = DEFAULTS.max_upload_bytes,
+    job_timeout_s: Annotated[
+        float, typer.Option(envvar=PREFIX + "JOB_TIMEOUT_S", help="Longest computation, s.")
+    ] = DEFAULTS.job_timeout_s,
+) -> None:
+    """Start the service.
+
+    On loopback no key is needed. On any other address it starts only where there is one: veritorque keys
+    create.
+    """
+    settings = chosen_settings(
+        host=host,
+        port=port,
+        data_dir=data_dir,
+        workers=workers,
+        max_upload_bytes=max_upload_bytes,
+        job_timeout_s=job_timeout_s,
+    )
+    require_directory(settings.data_dir)
+    limit_threads(settings.job_cpus)
+    _require_to_be_alone(settings.data_dir)
+    with opened(settings) as store:
+        if settings.needs_keys:
+            _require_a_key(store, settings.host)
+    kernels = keep_compiled_kernels(settings.data_dir)
+    if kernels is not None:
+        say(f"compiling once, {COMPILING} (kept in {kernels}); jobs wait for it")
+    _listen(settings)
+
+
+def _require_a_key(store: "Store", host: str) -> None:
+    from app.auth.keys import KeyRing
+
+    if not KeyRing(store.database).any():
+        stop(
+            f"{host} can be reached from other machines, and there is no key yet; make one with "
+            "`veritorque keys create NAME`, or keep --host 127.0.0.1"
+        )
+
+
+def _require_to_be_alone(data_dir: Path) -> None:
+    from app.store.lock import DirectoryInUse, DirectoryLock
+
+    try:
+        DirectoryLock(data_dir).release()
+    except DirectoryInUse:
+        stop(f"another service uses {data_dir}; stop it, or choose another --data-dir")
+
+
+def _require_free(host: str, port: int) -> None:
+    try:
+        family, kind, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        with socket.socket(family, kind) as door:
+            door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            door.bind(address)
+    except OSError as error:
+        stop(f"nothing can listen on {host}, port {port}: {error.strerror}; choose another --host or --port")
+
+
+def _listen(settings: Settings) -> None:
+    from app.http.server import Server
+    from app.jobs.supervisor import Supervisor
+    from app.logging import open_journal
+    from app.main import create_app
+    from app.services.metrics import Metrics
+
+    _require_free(settings.host, settings.port)
+    open_journal(settings)
+    shown = f"[{settings.host}]" if ":" in settings.host else settings.host
+    say(f"http://{shown}:{settings.port}/docs")
+    metrics = Metrics()
+    supervisor = Supervisor(settings, told=metrics.ended) if settings.workers else None
+    with suppress(KeyboardInterrupt):
+        Server(create_app(settings, supervisor=supervisor, metrics=metrics), settings).run()

@@ -1,0 +1,96 @@
+"""Offer operators what keeps a store healthy on the command line."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.lifecycle.backup import NoBackup, back_up
+from app.lifecycle.backup import restore as restore_backup
+from app.lifecycle.doctor import examine
+from app.lifecycle.retention import expire
+from app.settings import Settings
+from app.store.errors import Damaged, Unavailable
+from app.store.store import Store
+from app.store.sweep import Sweep
+from app.terminal.environment import chosen_settings, stop
+from app.terminal.output.exit_codes import Exit
+from app.terminal.output.streams import say
+
+PAUSE_S = 20.0
+
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque gc --pause-s 1")
+def gc(
+    pause_s: Annotated[
+        float, typer.Option(help="Between the two looks that find bytes needless, s.")
+    ] = PAUSE_S,
+) -> None:
+    """Remove what has been kept long enough (VERITORQUE_RETENTION_DAYS), and bytes that nothing needs.
+
+    The service may run meanwhile; it does the same by itself every minute.
+    """
+    settings = chosen_settings()
+    with _opened(settings) as store:
+        for kind, count in expire(store.database, settings.retention_days).items():
+            say(f"{count} {kind} expired")
+        sweep = Sweep(store)
+        sweep.look()
+        time.sleep(pause_s)
+        say(f"{sweep.look()} files removed that nothing needed")
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")
+def backup(directory: Annotated[Path, typer.Argument(help="A new directory for the backup.")]) -> None:
+    """Copy everything into a new directory while the service runs."""
+    with _opened(chosen_settings()) as store:
+        _say(back_up(store, directory))
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday")
+def restore(directory: Annotated[Path, typer.Argument(help="The directory of a backup.")]) -> None:
+    """Copy a backup into VERITORQUE_DATA_DIR (and VERITORQUE_DATABASE_URL), which has to be empty."""
+    with _opened(chosen_settings()) as store:
+        _say(restore_backup(directory, store))
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  veritorque doctor")
+def doctor() -> None:
+    """Examine database, files, permissions and disk, and say what to do; ends with 1 where harm is done."""
+    harm = False
+    for finding in examine(chosen_settings()):
+        harm |= finding.harm
+        word = "WRONG" if finding.harm else "note" if finding.remedy else "ok"
+        say(f"{word:6}{finding.subject}: {finding.seen}")
+        if finding.remedy:
+            say(f"      -> {finding.remedy}")
+    if harm:
+        raise typer.Exit(Exit.FOUND)
+
+
+@contextmanager
+def _opened(settings: Settings) -> Iterator[Store]:
+    try:
+        store = Store(settings.data_dir, settings.database_url)
+        try:
+            yield store
+        finally:
+            store.close()
+    except NoBackup as error:
+        stop(str(error))
+    except Damaged as error:
+        stop(f"{error.sha256} is damaged: {error.evidence}; veritorque doctor says who needs it")
+    except Unavailable as error:
+        stop(f"the database does not answer: {error.reason}; veritorque doctor says more")
+    except OSError as error:
+        stop(f"{error.filename}: {error.strerror}; choose another directory or make room")
+
+
+def _say(counts: dict[str, int]) -> None:
+    say("copied " + ", ".join(f"{count} {name}" for name, count in counts.items()))

@@ -1,0 +1,38 @@
+"""Compute jobs beside the service, on this machine or on another one."""
+
+from typing import Annotated
+
+import typer
+
+from app.terminal.environment import (
+    chosen_settings,
+    opened,
+    require_directory,
+)
+from app.terminal.kernel_cache import keep_compiled_kernels
+from app.terminal.threads import limit_threads
+
+COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+@COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=lab-data veritorque work")
+def work(
+    *,
+    beside: Annotated[
+        bool, typer.Option(hidden=True, help="Say that it lives, and end with the service.")
+    ] = False,
+) -> None:
+    """Compute jobs in this process, beside the service or on another machine.
+
+    It needs the same VERITORQUE_DATABASE_URL and the same VERITORQUE_DATA_DIR as the service.
+    """
+    settings = chosen_settings()
+    require_directory(settings.data_dir)
+    limit_threads(settings.job_cpus)
+    keep_compiled_kernels(settings.data_dir)
+    from app.jobs.worker_process import work_until_told
+    from app.logging import open_journal
+
+    open_journal(settings)
+    with opened(settings) as store:
+        work_until_told(store, settings, beside=beside)

@@ -1,0 +1,1 @@
+"""Write results for a terminal: documents come in, lines, tables, files and exit codes go out."""

@@ -1,0 +1,93 @@
+"""Write what a look at a log found: as lines for people and as a document for programs."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from app.json_text import plain
+from core.log.check import LogCheck, Reach
+from core.log.layout import Channel
+from core.log.units import UNITS
+
+SHOWN = 6
+
+
+def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
+    """Say it in lines: the file, its channels, what moved, and the defects."""
+    log = seen.log
+    yield f"{path.name}: {seen.format}, {len(seen.columns)} columns"
+    if log is not None:
+        yield (
+            f"{log.samples} samples, {log.duration:.4g} s at {log.rate_hz:.4g} Hz, {log.joints} joints, "
+            f"{len(log.segments)} {'stretch' if len(log.segments) == 1 else 'stretches'} without a gap"
+        )
+    for channel in seen.recognised:
+        yield f"  {channel.name:<12}{_units(channel):<8}{_shortened(channel.columns)}"
+    if log is None:
+        yield f"  columns     {_shortened(seen.columns)}"
+        return
+    if log.ignored_columns:
+        yield f"  {'not used':<20}{_shortened(log.ignored_columns)}"
+    yield from _reach_lines(seen.reach)
+    yield f"{len(log.defects)} {'defect' if len(log.defects) == 1 else 'defects'}{':' if log.defects else ''}"
+    for defect in log.defects:
+        joint = "" if defect.joint is None else f" {defect.joint}"
+        yield f"  {defect.kind:<18}{defect.channel + joint:<14}{defect.statement}"
+
+
+def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
+    """Say it as a document."""
+    log = seen.log
+    told: dict[str, Any] = {
+        "name": path.name,
+        "format": seen.format,
+        "columns": seen.columns,
+        "usable": log is not None,
+        "recognised": [
+            {"channel": channel.name, "columns": channel.columns, "units": channel.units}
+            for channel in seen.recognised
+        ],
+        "defects": [] if log is None else [asdict(defect) for defect in log.defects],
+        "suggestion": seen.suggestion,
+    }
+    if log is not None:
+        told |= {
+            "samples": log.samples,
+            "duration_s": log.duration,
+            "rate_hz": log.rate_hz,
+            "joints": log.joints,
+            "segments": log.segments,
+            "ignored_columns": log.ignored_columns,
+            "reach": [{"channel": one.channel, "low": one.low, "high": one.high} for one in seen.reach],
+        }
+    if seen.refusal is not None:
+        told["problem"] = {
+            "cause": seen.refusal.cause,
+            "evidence": seen.refusal.evidence,
+            "remedy": seen.refusal.remedy,
+        }
+    return {name: plain(value) for name, value in told.items()}
+
+
+def _reach_lines(reach: Sequence[Reach]) -> Iterator[str]:
+    if reach:
+        yield "  joint " + "".join(f"{_heading(one.channel):>26}" for one in reach)
+        for joint in range(len(reach[0].low)):
+            cells = (f"{one.low[joint]:.4g} .. {one.high[joint]:.4g}" for one in reach)
+            yield f"  {joint + 1:>5} " + "".join(f"{cell:>26}" for cell in cells)
+
+
+def _heading(channel: str) -> str:
+    return f"{channel}, {next(iter(UNITS[channel]))}"
+
+
+def _units(channel: Channel) -> str:
+    """Name the unit that all columns share, or all units."""
+    return ", ".join(dict.fromkeys(channel.units))
+
+
+def _shortened(names: Sequence[str]) -> str:
+    if len(names) <= SHOWN:
+        return " ".join(names)
+    return f"{names[0]} {names[1]} ... {names[-1]} ({len(names)})"

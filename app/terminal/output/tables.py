@@ -1,0 +1,120 @@
+"""Print an identification: parameters, how well each is known, errors per joint, and a verdict in words."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Final
+
+from rich.console import Console
+from rich.markup import escape
+
+from app.terminal.output.columns import Column, print_table
+from core.report.page.units import unit_of_effort
+
+Document = Mapping[str, Any]
+
+FRICTION: Final = ("OFF", "FC", "FV")
+
+
+def print_result(console: Console, result: Document) -> None:
+    """Print everything that a first reader asks."""
+    friction, inertial = parted(result["base_parameters"])
+    for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
+        if part:
+            print_table(console, parameter_columns(part), title=title, caption="* essential")
+    title = "Error of the predicted torque, % of its range and of its rms"
+    print_table(console, score_columns(result), title=title)
+    for line in verdict(result):
+        console.print(line)
+
+
+def parted(rows: Iterable[Document]) -> tuple[list[Document], list[Document]]:
+    """Part the parameters of friction and offsets from those of the bodies."""
+    rows = list(rows)
+    friction = [row for row in rows if str(row["name"]).startswith(FRICTION)]
+    return friction, [row for row in rows if row not in friction]
+
+
+def parameter_columns(rows: Sequence[Document]) -> list[Column]:
+    """Give the columns of a table of parameters; a star marks the essential ones."""
+    return [
+        Column("", [f"{row['name']}{'*' if row.get('essential') else ''}" for row in rows], is_text=True),
+        Column("value", [number(row["value"]) for row in rows]),
+        Column("deviation", [number(row.get("standard_deviation"), digits=2) for row in rows], spare=2),
+        Column("%P", [percent(row.get("relative_deviation_percent")) for row in rows]),
+        Column("OLS", [number(row.get("value_ols")) for row in rows], spare=3),
+        Column("unit", [str(row.get("unit", "")) for row in rows], is_text=True, spare=1),
+    ]
+
+
+def score_columns(result: Document) -> list[Column]:
+    """Give the error of the predicted torque per joint, fitted and held out."""
+    fitted = result["fit"]
+    unseen = {row["joint"]: row for row in result.get("validation") or []}
+    held_out = [unseen.get(row["joint"], {}) for row in fitted]
+    errors = [
+        Column(f"{name}: {of}", [percent(row.get(f"nrmse_of_{of}_percent")) for row in rows], spare=spare)
+        for name, rows, spare in (("fitted", fitted, 2), ("held out", held_out, 0))
+        for of in ("range", "rms")
+    ]
+    return [
+        Column("joint", [str(row["joint"]) for row in fitted]),
+        effort_column(result, "rms", fitted, "rms_torque", spare=1),
+        *errors,
+    ]
+
+
+def effort_column(result: Document, heading: str, rows: Sequence[Document], key: str, spare: int) -> Column:
+    """Give torques of joints; where others slide, whose forces stand beside them, every row has its unit."""
+    numbers = [number(row.get(key)) for row in rows]
+    units = [unit_of_effort(result, row["joint"]) for row in rows]
+    if len(set(units)) == 1:
+        return Column(f"{heading}, {units[0]}", numbers, spare=spare)
+    told = [f"{value} {unit}" if value else "" for value, unit in zip(numbers, units, strict=True)]
+    return Column(heading, told, spare=spare)
+
+
+def verdict(result: Document) -> list[str]:
+    """Sum up in a few sentences: how many parameters, whether the robot can exist, what to look at twice."""
+    counts, feasibility, solver = result["counts"], result["feasibility"], result["solver"]
+    smallest = min(feasibility["pseudo_inertia_min_eigenvalue"])
+    objective, least = number(solver["objective"]), number(solver["objective_ols"])
+    steps = " -> ".join(f"{counts[kind]} {kind}" for kind in ("standard", "base", "essential"))
+    lines = [
+        f"Parameters: {steps}.",
+        f"Least squares: {existence(feasibility.get('ols_feasible'))}.",
+        f"Semidefinite programme: {existence(smallest > 0.0)}.",
+        f"Smallest eigenvalue of a link's pseudo-inertia: {smallest:.2g}.",
+        f"Solver: {solver['status']}, {solver['iterations']} iterations.",
+        f"Price of existence: objective {objective} beside {least} of least squares.",
+    ]
+    workspace = feasibility.get("mass_matrix_min_eigenvalue") or {}
+    if "workspace" in workspace:
+        lines.append(
+            f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
+            f"configurations: {number(workspace['workspace'])}."
+        )
+    return lines + [f"Look at this twice: {escape(doubt)}" for doubt in result.get("doubts", [])]
+
+
+def existence(feasible: bool | None) -> str:  # noqa: FBT001  (three-valued answer, printed)
+    """Say whether a robot can exist, as far as the document tells."""
+    if feasible is None:
+        return "not told whether such a robot can exist"
+    return "[green]a robot that can exist[/]" if feasible else "[red]a robot that cannot exist[/]"
+
+
+def number(value: float | None, *, digits: int = 4) -> str:
+    """Write four significant digits, or as many as are asked for.
+
+    Examples
+    --------
+    >>> number(0.0123456), number(0.0123456, digits=2), number(None)
+    ('0.01235', '0.012', '')
+    """
+    return "" if value is None else f"{value:.{digits}g}"
+
+
+def percent(value: float | None) -> str:
+    """Write a percentage as far as it says anything."""
+    if value is None:
+        return ""
+    return "> 999" if value > 999.0 else f"{value:.2f}" if value < 100.0 else f"{value:.0f}"

@@ -1,0 +1,149 @@
+"""Look no higher than the positions allow: above some frequency their own noise rules the residual.
+
+Noise of a position grows with the square of frequency on its way to a torque. Where it does, the columns
+themselves are noisy, every coefficient is drawn towards zero at high frequencies, and a delay or a filter
+would seem to explain it. Source: Fuller, Measurement Error Models (1987), ch. 1.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy.stats import median_abs_deviation
+
+from core.arrays import JointSeries, JointVector, Mask, Matrix, Samples
+from core.diagnosis.causes.sample_check import disturbance
+from core.diagnosis.dataset.dataset import BAND_OVER_MOTION, Look
+from core.diagnosis.regression.ar_noise import JointNoise, places
+from core.dynamics.prediction import Prediction
+from core.robot.parameters import INERTIAL_SYMBOLS
+
+LARGEST_SHARE = 0.05
+"""Share of a joint's mean square residual that the positions' noise may have."""
+NARROWEST = 10.0
+"""A look is at least as wide as the fit's own filter, ten times the motion's band."""
+_POINTS = 5
+"""Neighbours that a fourth difference is of."""
+OFF, FEW = 6.0, 0.025
+"""A stamp is off by so many deviations from its neighbours, and few are where so small a share of all samples
+lies beside one: they spoil the rows there, and say nothing of the rest."""
+LEAST_OFF = 1e-3
+"""Share of the time from stamp to stamp below which none is off."""
+_LOOKS = 4
+
+Fitted = tuple[Look, Prediction, tuple[JointNoise, ...]]
+
+
+def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
+    """Narrow a look until the noise of the positions has little share in any joint's residual.
+
+    Parameters
+    ----------
+    look_again
+        Gives the look of a width (band over the motion's band), what a plain fit then believes, and the noise
+        it leaves.
+    """
+    width = BAND_OVER_MOTION
+    fitted = look_again(width)
+    even, even_shares = position_noise_torque(fitted, over_stamps=False)
+    for _ in range(_LOOKS):
+        look, share = fitted[0], float(np.max(even_shares))
+        if share <= LARGEST_SHARE or width <= NARROWEST:
+            break
+        actual = look.band_hz / look.motion_band_hz
+        width = max(NARROWEST, min(width, actual) * float(np.clip((LARGEST_SHARE / share) ** 0.2, 0.5, 0.85)))
+        fitted = look_again(width)
+        even, even_shares = position_noise_torque(fitted, over_stamps=False)
+    # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
+    scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)
+    look, believed, noise = fitted
+    look = replace(
+        look,
+        position_share=np.maximum(even_shares, scattered_shares),
+        position_torque=np.where(scattered_shares > even_shares, scattered, even),
+    )
+    return look, believed, noise
+
+
+def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:
+    """Draw what noise of the positions makes of the torque, N m or N.
+
+    Gives with it, per joint, the share of the white residual's mean square that it has.
+
+    Parameters
+    ----------
+    over_stamps
+        Whether stamps that scatter though the samples do not count as noise of the positions.
+    """
+    look, believed, noise = fitted
+    size = position_noise(look, over_stamps=over_stamps)
+
+    def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
+        del velocity
+        return size * rng.normal(size=position.shape)
+
+    place = places(~look.starts)
+    torque = disturbance(look, _frictionless(believed), spoil)
+    shares = []
+    for joint, one in enumerate(noise):
+        white = one.whitened(torque[:, [joint]], place)[look.usable[:, joint]]
+        shares.append(float(np.sum(white**2)) / max(len(white), 1))
+    return torque, np.array(shares)
+
+
+def _frictionless(believed: Prediction) -> Prediction:
+    """Leave out what jumps with the sign of velocity: there rows stand for themselves."""
+    kept = np.array(
+        [one.symbol in {*INERTIAL_SYMBOLS, "IA", "IAM"} for one in believed.model.parameters], dtype=bool
+    )
+    return Prediction(believed.model, np.where(kept, believed.standard, 0.0), believed.newton_euler)
+
+
+def position_noise(look: Look, *, over_stamps: bool) -> JointVector:
+    """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has.
+
+    Over the stamps that is without the samples beside stamps that are off, where these are few.
+    """
+    found = []
+    for motion in look.motions:
+        start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
+        rows = motion.log.source.rows(start, min(stop, start + 65536))
+        time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)
+        beyond = beyond_cubics(time, rows.position)
+        if over_stamps:
+            beyond = beyond[~few_off(rows.time)]
+        found.append(np.sqrt(np.mean(beyond**2, axis=0)))
+    return np.asarray(np.max(found, axis=0))
+
+
+def few_off(stamps: Samples) -> Mask:
+    """Mark the groups of five neighbours among which a stamp is off; none where that is not rare.
+
+    Examples
+    --------
+    >>> stamps = np.arange(1000.0)
+    >>> stamps[500] += 0.3
+    >>> np.flatnonzero(few_off(stamps))
+    array([496, 497, 498, 499, 500])
+    """
+    scatter = beyond_cubics(np.arange(len(stamps), dtype=float), stamps[:, None])[:, 0]
+    usual = float(median_abs_deviation(scatter, scale="normal"))
+    off = np.abs(scatter) > max(OFF * usual, LEAST_OFF * float(np.median(np.diff(stamps))))
+    return np.asarray(off & (off.mean() <= FEW))
+
+
+def beyond_cubics(time: Samples, position: JointSeries) -> Matrix:
+    """Give fourth divided differences, scaled so that white noise of a position keeps its size.
+
+    Examples
+    --------
+    >>> time = np.array([0.0, 1.0, 2.5, 3.0, 4.0, 5.5])
+    >>> bool(np.allclose(beyond_cubics(time, time[:, None] ** 3), 0.0))
+    True
+    """
+    stamps = sliding_window_view(time, _POINTS)
+    apart = stamps[:, :, None] - stamps[:, None, :] + np.diag(np.full(_POINTS, stamps[0, -1] - stamps[0, 0]))
+    weights = 1.0 / np.prod(apart / apart[0, 0, 0], axis=2)
+    weights /= np.linalg.norm(weights, axis=1, keepdims=True)
+    return np.asarray(np.einsum("np,njp->nj", weights, sliding_window_view(position, _POINTS, axis=0)))

@@ -1,0 +1,151 @@
+"""Look at raw samples for faults that no torque term can mend: stamps, rows and resolution.
+
+A raw cause shows in the samples themselves. How much of the residual it accounts for is found by doing it to
+the smooth motion once more: the error goes through position filter, differences and predicted torque like the
+first one did. Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for the estimates.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import ClassVar, Protocol, runtime_checkable
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.signal import oaconvolve
+
+from core.arrays import JointSeries, JointVector
+from core.diagnosis.causes.protocol import Confusion, Cure, Quantity, Site
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.dataset.stretch import Stretch
+from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit
+from core.dynamics.prediction import Prediction
+from core.dynamics.terms.effect import step_of
+from core.signals.condition import Motion
+from core.signals.derivative import median
+from core.signals.state import MotionState
+from core.signals.zero_phase import kernel
+
+LEVEL = 1e-5
+"""Chance with which a raw check may see something in samples that have nothing."""
+
+SMOOTH_OVER_MOTION = 5.0
+"""Smooth motion holds this many times the motion's band."""
+
+Spoil = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
+"""Take smooth positions and velocities at the log's rate, give the errors of position."""
+
+
+@dataclass(frozen=True, eq=False)
+class RawFinding:
+    """State what a raw check found.
+
+    Attributes
+    ----------
+    statistic, p_value
+        What decided, and how likely chance reaches it.
+    residual_share
+        Per joint, the share of the residual's mean square that the fault accounts for.
+    """
+
+    site: Site
+    quantities: tuple[Quantity, ...]
+    statement: str
+    statistic: float
+    p_value: float
+    residual_share: JointVector
+
+
+@runtime_checkable
+class RawCause(Protocol):
+    """Suspect a fault of the samples; the attributes are those of `Cause`.
+
+    Attributes
+    ----------
+    beyond_repair
+        Why no log can be mended of it, in a sentence.
+    """
+
+    id: ClassVar[str]
+    title: ClassVar[str]
+    experiment: ClassVar[str]
+    beyond_repair: ClassVar[str]
+
+    @property
+    def units(self) -> tuple[tuple[str, str], ...]:
+        """List name and unit of every number it reports."""
+        ...
+
+    @property
+    def cure(self) -> Cure:
+        """Tell what is to be mended."""
+        ...
+
+    @property
+    def confusions(self) -> tuple[Confusion, ...]:
+        """List what it is mistaken for."""
+        ...
+
+    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+        """Look for it in the logs."""
+        ...
+
+
+def residual_share(look: Look, believed: Prediction, spoil: Spoil) -> JointVector:
+    """Spoil the smooth motion and give, per joint, the mean square of what that adds over the residual's."""
+    return share_of_residual(look, believed, disturbance(look, believed, spoil))
+
+
+def share_of_residual(look: Look, believed: Prediction, gained: JointSeries) -> JointVector:
+    """Give, per joint, the mean square of a disturbance over the residual's."""
+    left, mask = misfit(look, believed), fitted_rows(look)
+    had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
+    return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
+
+
+def disturbance(look: Look, believed: Prediction, spoil: Spoil) -> JointSeries:
+    """Spoil the smooth motion and give what that adds to the torque at the look's rows, N m or N."""
+    rng = np.random.default_rng(0)
+    gained = np.zeros_like(look.torque)
+    for stretch in look.stretches:
+        state, motion = stretch.state, look.motions[look.log[stretch.rows.start]]
+        spoilt = _spoilt(state, motion, spoil, rng)
+        gained[stretch.rows] = _change(stretch, believed, spoilt)
+    return gained
+
+
+def _change(stretch: Stretch, believed: Prediction, spoilt: MotionState) -> JointSeries:
+    change = believed.torque(spoilt) - believed.torque(stretch.state)
+    return stretch.filtered(change.T).T
+
+
+def _spoilt(state: MotionState, motion: Motion, spoil: Spoil, rng: np.random.Generator) -> MotionState:
+    rate_hz, recipe = motion.log.rate_hz, motion.recipe
+    thin = max(1, round(step_of(state) * rate_hz))
+    count = len(state.position)
+    fine = np.arange((count - 1) * thin + 1) / thin
+    measured = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
+    # The measured motion has its error already; what is spoilt anew must be smoother.
+    smooth = _filtered(measured, min(SMOOTH_OVER_MOTION * recipe.motion_band_hz, 0.2 * rate_hz), rate_hz)
+    spoilt = smooth + spoil(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
+    error = _without_spikes(spoilt, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
+    error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
+    rate = np.gradient(error, 1.0 / rate_hz, axis=0)
+    second = np.gradient(rate, 1.0 / rate_hz, axis=0)
+    return replace(
+        state,
+        position=state.position + error[::thin],
+        velocity=state.velocity + rate[::thin],
+        acceleration=state.acceleration + second[::thin],
+    )
+
+
+def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSeries:
+    low_pass = kernel(cutoff_hz, rate_hz, 5)
+    reach = len(low_pass) // 2
+    padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
+    return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))
+
+
+def _without_spikes(values: JointSeries, order: int) -> JointSeries:
+    reach = order // 2
+    return median(np.pad(values, ((reach, reach), (0, 0)), mode="edge"), order)

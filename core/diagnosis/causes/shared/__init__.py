@@ -1,0 +1,1 @@
+"""Share what several causes need: joints and links, waves, events, bodies."""

@@ -1,0 +1,79 @@
+"""Look for a torque that switches by itself between two levels, at instants which the residual gives away.
+
+The residual is smoothed more and less, and changes sides where it is far enough over on the other one. Each
+of these ways is scored like any pattern; every instant is paid for as one of all that the band tells apart.
+Source: Yao, Statistics & Probability Letters 6(3), 1988, on what a change that is looked for costs.
+"""
+
+from collections.abc import Iterator
+from itertools import product
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from core.arrays import Indices, JointSeries, Vector
+from core.diagnosis.checks.unnamed_pattern import Unlisted
+from core.diagnosis.dataset.dataset import ROWS_OVER_BAND
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from core.numerics.chi2_tail import log_chance
+
+SMOOTHED = (3, 5, 9, 15)
+"""Rows that are averaged."""
+FAR = (0.0, 0.3, 0.6, 0.9, 1.2)
+"""How far over counts, in RMS of the smoothed residual."""
+LEAST_ROWS, LEAST_CHANGES = 200, 2
+MOST_LOG_TRIALS = 600.0
+"""What has more ways than this (a logarithm) could be anything."""
+_UNLISTED = Unlisted()
+
+
+def switchings(bench: Bench, now: Hypothesis, residual: JointSeries) -> tuple[Candidate, ...]:
+    """Give, per joint, the likeliest way in which its residual (rows x joints) switches.
+
+    None where there are several logs: their instants are the same, and what happened at them is not.
+    """
+    look, found = bench.look, []
+    for joint, (series, usable) in enumerate(zip(residual.T, look.usable.T, strict=True), start=1):
+        rows = int(np.count_nonzero(usable))
+        if rows < LEAST_ROWS or look.log.any():
+            continue
+        ways = []
+        for changes in _changes(np.where(usable, series, 0.0)):
+            trials = _log_trials(len(changes), rows / ROWS_OVER_BAND)
+            if len(changes) >= LEAST_CHANGES and trials < MOST_LOG_TRIALS:
+                instants = 0.5 * (look.time[changes] + look.time[changes + 1])
+                scalars = _UNLISTED.switching(instants)
+                ways.append(Candidate(_UNLISTED, (joint,), scalars, float(np.exp(trials))))
+        chances = [
+            log_chance(scored.statistic, scored.freedom) + np.log(way.trials)
+            for scored, way in zip(bench.scored(now, ways), ways, strict=True)
+        ]
+        if ways:
+            found.append(ways[int(np.argmin(chances))])
+    return tuple(found)
+
+
+def _changes(series: Vector) -> Iterator[Indices]:
+    """List after which rows a series changes sides, in all ways of looking at it."""
+    for width, far in product(SMOOTHED, FAR):
+        side = sides(uniform_filter1d(series, width), far)
+        yield np.flatnonzero(side[1:] != side[:-1])
+
+
+def sides(series: Vector, far: float) -> Vector:
+    """Say on which side a series is: where it was last far over, so many RMS, on one of them.
+
+    Examples
+    --------
+    >>> sides(np.array([0.1, 2.0, -0.1, 0.1, -2.0]), 0.5)
+    array([ 1.,  1.,  1.,  1., -1.])
+    """
+    over = np.abs(series) > far * np.sqrt(np.mean(series**2))
+    last = np.maximum.accumulate(np.where(over, np.arange(len(series)), np.argmax(over)))
+    return np.asarray(np.sign(series[last]))
+
+
+def _log_trials(changes: int, instants: float) -> float:
+    """Give the logarithm of how many ways there are to choose so many of the instants."""
+    return float(changes * (1.0 + np.log(max(instants / changes, 1.0)))) if changes else 0.0

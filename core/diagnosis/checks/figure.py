@@ -1,0 +1,103 @@
+"""Show a finding: one joint's residual over the coordinate that explains it, before and after.
+
+Friction's sign follows the direction of motion, so that over a load or an angle its effects of both
+directions cancel. Where the coordinate alone does not tell what a finding adds, each direction has its curve.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from core.arrays import Indices, JointSeries, Vector, Weights
+from core.diagnosis.causes.protocol import Site
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.regression.rows import Columns
+from core.diagnosis.residual.coordinates import coordinate
+from core.diagnosis.result import Curve
+from core.diagnosis.search.hypothesis import Hypothesis
+from core.dynamics.prediction import Prediction
+
+BINS = 36
+TOLD = 0.8
+"""A coordinate that tells less than this share of what a finding adds needs the direction beside it."""
+STAND_IN = {"load_jerk": "torque_rate", "load_rate": "torque_rate"}
+
+
+def curve(
+    look: Look,
+    believed: Prediction,
+    chosen: Hypothesis,
+    place: int,
+    columns: Columns,
+    left: tuple[JointSeries, JointSeries],
+) -> Curve | None:
+    """Bin the residual without and with a finding over its coordinate, on the joint that it acts on most.
+
+    Parameters
+    ----------
+    left
+        Residual without and with the finding, rows x joints.
+    """
+    member = chosen.members[place]
+    torque = {joint: part @ chosen.fit.values[chosen.columns_of(place)] for joint, part in columns.items()}
+    joint = max(torque, key=lambda one: _share(torque[one], left[0][:, one], look.usable[:, one]))
+    name = STAND_IN.get(member.cause.coordinate, member.cause.coordinate)
+    if name == "other_velocity":
+        name = _of_other(joint, member.site)
+    along = coordinate(look, believed, name, joint + 1) or coordinate(look, believed, "time", joint + 1)
+    if along is None:
+        return None
+    rows = np.flatnonzero(look.clear[:, joint])
+    own, forward = torque[joint][rows], look.state.velocity[rows, joint] > 0.0
+    together, apart = _binned(rows, along.values), _apart(rows, forward, along.values)
+    split = _told(own, rows, together) < TOLD and _told(own, rows, apart) > _told(own, rows, together)
+    groups = apart if split else together
+    return Curve(
+        coordinate=along.name,
+        unit=along.unit,
+        joint=joint + 1,
+        centre=_over(groups, along.values, np.median),
+        before=_over(groups, left[0][:, joint], np.mean),
+        after=_over(groups, left[1][:, joint], np.mean),
+        model=_over(groups, torque[joint], np.mean),
+        standard_error=_over(groups, left[1][:, joint], np.std) / np.sqrt([len(group) for group in groups]),
+        direction=_over(groups, np.sign(look.state.velocity[:, joint]), np.median)
+        if split
+        else np.zeros(len(groups)),
+    )
+
+
+def _of_other(joint: int, site: Site) -> str:
+    """Name the velocity of the other joint of a pair."""
+    others = [one for one in site if one != joint + 1]
+    return f"velocity_of_joint_{others[0]}" if others else "velocity"
+
+
+def _binned(rows: Indices, along: Vector, bins: int = BINS) -> list[Indices]:
+    """Sort rows along a coordinate into groups of equal size."""
+    order = rows[np.argsort(along[rows], kind="stable")]
+    return [group for group in np.array_split(order, bins) if len(group) >= 2]
+
+
+def _apart(rows: Indices, forward: np.ndarray, along: Vector) -> list[Indices]:
+    """Do the same for backward and for forward motion, one after the other."""
+    return [
+        group for part in (rows[~forward], rows[forward]) for group in _binned(part, along, max(BINS // 2, 1))
+    ]
+
+
+def _told(torque: Vector, rows: Indices, groups: list[Indices]) -> float:
+    """Give the share of a torque's variation over some rows that the means of groups show."""
+    total = float(np.var(torque)) * len(rows)
+    place = np.empty(int(rows.max(initial=0)) + 1, dtype=int)
+    place[rows] = np.arange(len(rows))
+    within = sum(float(np.var(torque[place[group]])) * len(group) for group in groups)
+    return 1.0 - within / max(total, 1e-300)
+
+
+def _over(groups: list[Indices], values: Vector, measure: Callable[[Weights], np.floating]) -> Weights:
+    return np.array([float(measure(values[group])) for group in groups])
+
+
+def _share(torque: np.ndarray, residual: np.ndarray, usable: np.ndarray) -> float:
+    return float(np.sum(torque[usable] ** 2) / max(float(np.sum(residual[usable] ** 2)), 1e-300))

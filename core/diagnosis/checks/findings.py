@@ -1,0 +1,144 @@
+"""Tell of every cause found: its size, what decided, what it gains and the figure that shows it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.arrays import JointSeries
+from core.diagnosis.causes.sample_check import RawCause, RawFinding
+from core.diagnosis.checks.alternatives import Standing
+from core.diagnosis.checks.confidence import confidence
+from core.diagnosis.checks.figure import curve
+from core.diagnosis.checks.gain import gain
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.result import Evidence, Finding
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.holdout import expected_unseen_rise, unseen_rise
+from core.diagnosis.search.hypothesis import Hypothesis
+from core.diagnosis.search.likelihood_ratio import log_p_of
+
+
+def finding(
+    bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: JointSeries, unnamed: float
+) -> Finding:
+    """Tell of one member of a hypothesis.
+
+    Parameters
+    ----------
+    place
+        Of the member.
+    own
+        How it stands among its rivals.
+    after
+        What the whole hypothesis leaves of the torque, N m or N.
+    unnamed
+        Rise of twice the log-likelihood by a pattern without a name in what is left: where it brings more
+        than the finding does, this may be no more than its trace.
+    """
+    look, left = bench.look, (_without(bench, chosen, place, own), after)
+    member, solved = chosen.members[place], chosen.told(place, bench.look.robot)
+    cause = member.cause
+    columns = bench.columns([member])[0]
+    joints = tuple(sorted(columns))
+    mask = look.usable & look.held_out[:, None]
+    measured = gain(left[0], left[1], mask, look.block_of_all, joints)
+    log_p = log_p_of(bench, chosen, place, own.statistic)
+    margin = min(own.margin, own.over_nameless, own.statistic - unnamed)
+    return Finding(
+        cause=cause.id,
+        title=cause.title,
+        joints=member.site or tuple(joint + 1 for joint in joints),
+        cure=cause.cure,
+        statement=cause.statement(solved),
+        quantities=cause.quantities(solved),
+        confidence=confidence(own.statistic, margin, measured),
+        p_value=float(np.exp(log_p)),
+        explained_fraction=_explained(left, look.usable & ~look.held_out[:, None], joints),
+        evidence=(*_evidence(own, log_p, member.trials), *_unseen(bench, chosen, place, own)),
+        ambiguous_with=own.ambiguous,
+        refuted=own.refuted,
+        gain=measured,
+        curve=curve(look, bench.believed, chosen, place, columns, left),
+        member=member,
+    )
+
+
+def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...]:
+    return (
+        Evidence(
+            "Rise of twice the log-likelihood when it joins the model, the noise learned anew",
+            "likelihood ratio",
+            own.statistic,
+        ),
+        Evidence(
+            f"Logarithm of the chance of so large a rise by luck, corrected for {trials:.3g} scanned values "
+            "and all other candidates",
+            "log10 p",
+            log_p / float(np.log(10.0)),
+        ),
+        Evidence(
+            "Lead of its criterion over the best rival's; below 6 the two cannot be told apart",
+            "criterion difference",
+            own.margin,
+        ),
+        *_over_nameless(own),
+    )
+
+
+def _unseen(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> tuple[Evidence, ...]:
+    """Say what it brings on rows that no fit has seen, each weighed by the noise there; not of an event.
+
+    The error's RMS, which `gain` is of, may be one of slow torque that hides what is weighed here.
+    """
+    if own.member.cause.event:
+        return ()
+    expected = expected_unseen_rise(bench, own.without, chosen, place)
+    return (
+        Evidence(
+            "Rise of twice the log-likelihood on rows that no fit has seen; as far as it acts there "
+            f"{expected:.0f} is to be expected",
+            "unseen likelihood ratio",
+            unseen_rise(bench, own.without, chosen, place),
+        ),
+    )
+
+
+def _over_nameless(own: Standing) -> tuple[Evidence, ...]:
+    """Say how it stands to patterns without a name, where one explains a part of it."""
+    if not np.isfinite(own.over_nameless):
+        return ()
+    statement = "Lead of its criterion over that of the best pattern without a name; below 0 it is doubtful"
+    return (Evidence(statement, "lead over the nameless", own.over_nameless),)
+
+
+def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
+    """Give the share of the residual's mean square that a finding takes from the joint it helps most."""
+    sums = [(one**2 * mask).sum(axis=0)[list(joints)] for one in left]
+    return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
+
+
+def raw_finding(cause: RawCause, found: RawFinding, look: Look) -> Finding:
+    """Tell of a fault of the samples."""
+    sure = 1.0 - found.p_value
+    return Finding(
+        cause=cause.id,
+        title=cause.title,
+        joints=found.site or tuple(range(1, look.joints + 1)),
+        cure=cause.cure,
+        statement=found.statement,
+        quantities=found.quantities,
+        confidence=float(min(sure, 0.99)),
+        p_value=found.p_value,
+        explained_fraction=float(np.clip(np.max(found.residual_share), 0.0, 1.0)),
+        evidence=(Evidence("Statistic of the check on the raw samples", "raw check", found.statistic),),
+        ambiguous_with=(),
+        refuted=(),
+        gain=None,
+        curve=None,
+        member=None,
+    )
+
+
+def _without(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> JointSeries:
+    """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
+    return bench.residual(own.without) if bench.belief is None else bench.residual(chosen, (place,))

@@ -1,0 +1,71 @@
+"""See whether a residual keeps to levels: a torque that switches by itself, at instants nobody can foretell.
+
+Noise has a kurtosis of three or more, and so has any sum of it over time; what stays between two levels has
+as little as one. Its deviation comes from leaving out blocks in turn. Sources: Darlington, The American
+Statistician 24(2), 1970, for kurtosis as bimodality; Kuensch, Ann. Stat. 17, 1989, for leaving out blocks.
+"""
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+from scipy.stats import norm
+
+from core.arrays import Indices, JointSeries, Vector
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.residual.blocks import row_blocks
+from core.diagnosis.result import Stranger
+
+SMOOTHED = 5
+"""Rows that are averaged: noise shrinks, levels stay."""
+NORMAL = 3.0
+CLEAR = 5.0
+"""Deviations below the normal value from which on levels are seen."""
+LEAST_ROWS = 200
+
+
+def level_keeper(look: Look, residual: JointSeries) -> Stranger | None:
+    """Give the joint whose residual (rows x joints) keeps to levels most clearly; None where none does."""
+    blocks = row_blocks(look)
+    found = []
+    for joint, (series, usable) in enumerate(zip(residual.T, look.usable.T, strict=True), start=1):
+        if np.count_nonzero(usable) < LEAST_ROWS:
+            continue
+        smooth = uniform_filter1d(np.where(usable, series, 0.0), SMOOTHED)[usable]
+        size, deviation = kurtosis(smooth, blocks[usable])
+        found.append(((NORMAL - size) / max(deviation, 1e-12), joint, size))
+    clearest, joint, size = max(found, default=(0.0, 0, NORMAL))
+    if clearest < CLEAR:
+        return None
+    chance = float(norm.logsf(clearest) + np.log(len(found))) / float(np.log(10.0))
+    statement = (
+        f"What is left on joint {joint} keeps within bounds, as a torque does that switches between levels "
+        f"by itself (kurtosis {size:.2g}; noise has 3 or more)"
+    )
+    return Stranger(joint, statement, clearest**2, chance)
+
+
+def kurtosis(series: Vector, block: Indices) -> tuple[float, float]:
+    """Give the fourth central moment over the variance's square, and its deviation from leaving out blocks.
+
+    Examples
+    --------
+    >>> levels = np.tile([1.0, 1.0, -1.0, -1.0], 10)
+    >>> kurtosis(levels, np.arange(40) // 4)
+    (1.0, 0.0)
+    """
+    _, place = np.unique(block, return_inverse=True)
+    sums = np.array([np.bincount(place, series**power) for power in range(5)])
+    whole = sums.sum(axis=1)
+    size = float(_kurtosis(whole))
+    without = _kurtosis(whole[:, None] - sums)
+    count = sums.shape[1]
+    mean = float(without.mean())
+    deviation = float(np.sqrt((count - 1.0) / count * np.sum((without - mean) ** 2)))
+    return count * size - (count - 1.0) * mean, deviation
+
+
+def _kurtosis(sums: np.ndarray) -> np.ndarray:
+    """Turn sums of the powers 0 to 4 into the kurtosis."""
+    mean, second, third, fourth = sums[1:] / sums[0]
+    spread = second - mean**2
+    moment = fourth - 4.0 * mean * third + 6.0 * mean**2 * second - 3.0 * mean**4
+    return np.asarray(moment / np.maximum(spread, 1e-300) ** 2)

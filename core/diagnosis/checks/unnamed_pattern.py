@@ -1,0 +1,135 @@
+"""Suspect something that is in no list: a residual that follows a pattern which no listed cause has.
+
+What is found so carries no name; it says that something is left, on which joint and what it follows, and it
+keeps listed causes from being named for want of better. Source: Brynjarsdottir & O'Hagan, Inverse Problems
+30, 2014, for why a free discrepancy may not claim a physical name.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from core.arrays import Vector
+from core.diagnosis.causes.protocol import Quantity, Scalars, Site, Solved
+from core.diagnosis.causes.shared.common import OwnJointCause
+from core.diagnosis.dataset.dataset import Look
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
+
+WAVES = (1.0, 2.0)
+SLOWEST, QUICKEST = 0.15, 1.0
+"""Repetitions in time that are looked for, Hz."""
+STEP = 0.5
+"""Between two rates, in repetitions over the log; they are looked at again `FINER` times as finely."""
+FINER = 8
+SWINGS = tuple(float(one) for one in np.geomspace(0.7, 4.0, 12))
+"""Rates of a swing, Hz."""
+_NAMES = tuple(PATTERNS)
+
+
+@dataclass(frozen=True)
+class Unlisted(OwnJointCause):
+    """Suspect what no listed cause explains."""
+
+    id = "unlisted"
+    title = "Something follows a pattern that no listed cause has"
+    units = ()
+    coordinate = "time"
+    unrefined = ("pattern", "number_0", "number_1", "number_2")
+
+    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+        """List all patterns, numbers after their place."""
+        del believed
+        return [_scalars(name, numbers) for name, numbers in _fixed(look.joints, site[0], _seconds(look))]
+
+    def finer(self, look: Look, scalars: Scalars) -> list[Scalars]:
+        """List numbers around those of a grid point: higher harmonics want a rhythm's rate better than it."""
+        name, numbers = _read(scalars)
+        if name != "clock":
+            return [scalars]
+        step = STEP / _seconds(look) / FINER
+        return [_scalars(name, (numbers[0] + step * place,)) for place in range(-FINER, FINER + 1)]
+
+    def switching(self, instants: Vector) -> Scalars:
+        """Say that the torque switches between two levels at these instants, s: no grid could list them."""
+        return _scalars("levels", tuple(instants.tolist()))
+
+    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+        """Give the columns."""
+        del look, believed
+        return Trace(site[0], *_read(scalars))
+
+    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+        """Report no numbers: they would mean nothing elsewhere."""
+        del solved
+        return ()
+
+    def statement(self, solved: Solved) -> str:
+        """Say what the residual follows."""
+        return f"What is left on joint {solved.site[0]} follows {_words(*_read(solved.scalars))}"
+
+
+@cache
+def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], ...]:
+    others = [one for one in range(1, joints + 1) if one != own]
+    out: list[tuple[str, Numbers]] = [
+        ("speeds", (float(one), float(other)))
+        for one in range(1, joints + 1)
+        for other in range(one, joints + 1)
+    ]
+    out += [
+        ("angle", (float(one), wave, float(factor)))
+        for one in others
+        for wave in WAVES
+        for factor in range(len(FACTORS))
+    ]
+    out += [
+        ("clock", (float(rate),)) for rate in np.arange(max(SLOWEST, 2.0 / seconds), QUICKEST, STEP / seconds)
+    ]
+    out += [("swing", (rate,)) for rate in SWINGS]
+    return tuple(out)
+
+
+def _seconds(look: Look) -> float:
+    """Give the length of the longest log, s, no more than a minute: what lasts longer is drift."""
+    return float(np.clip(max(motion.log.duration for motion in look.motions), 4.0, 60.0))
+
+
+def _scalars(name: str, numbers: Numbers) -> Scalars:
+    return {"pattern": float(_NAMES.index(name))} | {
+        f"number_{place}": value for place, value in enumerate(numbers)
+    }
+
+
+def _read(scalars: Scalars) -> tuple[str, Numbers]:
+    return _NAMES[int(scalars["pattern"])], tuple(
+        scalars[f"number_{place}"] for place in range(len(scalars) - 1)
+    )
+
+
+def _words(pattern: str, numbers: Numbers) -> str:
+    if pattern == "speeds":
+        first, second = (int(one) for one in numbers)
+        return (
+            f"the square of joint {first}'s speed"
+            if first == second
+            else (f"the product of the speeds of joints {first} and {second}")
+        )
+    if pattern == "angle":
+        factor = (
+            "",
+            " times its own speed",
+            " with the sign of its own speed",
+            " times its own speed squared",
+        )
+        return (
+            f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per turn){factor[int(numbers[2])]}"
+        )
+    if pattern == "clock":
+        return f"a rhythm of {1.0 / numbers[0]:.3g} s, whatever the robot does"
+    if pattern == "levels":
+        return "two levels between which it switches by itself"
+    return f"something that swings by itself at about {numbers[0]:.2g} Hz"

@@ -1,0 +1,265 @@
+"""Prepare the equations that a diagnosis looks at: a wider band than the fit's, and rows kept in memory.
+
+An identification filters as low as the motion allows; a diagnosis needs what lies above (gear ripple,
+compliance, delays), so its parallel filter passes forty times the motion's band, a twelfth of the rate at
+most. Rows within the filter's main lobe of a velocity reversal are set apart: there the sign of a measured
+velocity is not the direction of friction. Long logs are looked at in evenly spread stretches.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import block_diag, csr_array
+
+from core.arrays import (
+    BlockKey,
+    Indices,
+    JointMask,
+    JointSeries,
+    JointVector,
+    KeptSeries,
+    Samples,
+    Series,
+    UsableRows,
+)
+from core.diagnosis.dataset.onset_filter import body_rows
+from core.diagnosis.dataset.segments import pieces_of, thinning
+from core.diagnosis.dataset.stretch import Stretch
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import Term
+from core.dynamics.terms.payload import Payload
+from core.errors import ExcitationError
+from core.log.model import JointLog
+from core.regressor.columns import ColumnPlan
+from core.robot.model import RobotModel
+from core.signals.condition import Motion, condition
+from core.signals.recipe import FilterOptions, choose_recipe
+from core.signals.state import MotionState
+
+BAND_OVER_MOTION = 40.0
+RATE_OVER_BAND = 12.0
+POSITION_OVER_BAND = 3.0
+ROWS_OVER_BAND = 2.5
+ORDER = 2
+"""A gentle filter: what happens at a reversal rings on for one period of the cut-off, not for three."""
+LONGEST_SECONDS = 120.0
+BATCH = 64
+"""Series that are filtered at once: as many as stay near the processor."""
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """Hold the rows of a diagnosis.
+
+    Attributes
+    ----------
+    robot
+        The robot as it is believed.
+    time, log, block
+        Per row: instant in s, number of the log and of its block, from 0.
+    torque
+        Filtered torque, rows x joints.
+    usable
+        Rows that may be used per joint, and those of them clear of reversals (`clear`).
+    held_out
+        Rows that no fit may see.
+    state
+        The motion at the rows.
+    sticking
+        Per joint, rows x columns that stand for any friction while the joint is as good as at rest.
+    band_hz
+        Cut-off of the parallel filter; `motion_band_hz` that of the motion.
+    position_share
+        Per joint, the share of the white residual's mean square that noise of the positions has.
+    position_torque
+        What such noise makes of the torque, as one draw of it: rows x joints, N m or N.
+    """
+
+    robot: RobotModel
+    motions: tuple[Motion, ...]
+    stretches: tuple[Stretch, ...]
+    time: Samples
+    log: Indices
+    block: Indices
+    torque: JointSeries
+    usable: JointMask
+    clear: JointMask
+    held_out: np.ndarray
+    state: MotionState
+    sticking: tuple[csr_array, ...]
+    band_hz: float
+    motion_band_hz: float
+    position_share: JointVector
+    position_torque: JointSeries
+
+    @property
+    def joints(self) -> int:
+        """Count the joints."""
+        return int(self.torque.shape[1])
+
+    @cached_property
+    def starts(self) -> np.ndarray:
+        """Mark the rows that do not follow the one before them."""
+        marks = np.zeros(len(self.time), dtype=bool)
+        marks[[stretch.rows.start for stretch in self.stretches]] = True
+        return marks
+
+    def follows(self, rows: Indices) -> UsableRows:
+        """Mark which of some rows follow the one before them without a gap."""
+        return np.asarray((np.diff(rows, prepend=-2) == 1) & ~self.starts[rows])
+
+    @property
+    def block_of_all(self) -> np.ndarray:
+        """Number the blocks of all logs through, one number per row."""
+        return np.asarray(self.log * (1 + self.block.max()) + self.block)
+
+    @property
+    def held_out_blocks(self) -> frozenset[BlockKey]:
+        """Name the blocks that no fit may see."""
+        keys = np.unique(np.column_stack([self.log, self.block])[self.held_out], axis=0)
+        return frozenset((int(log), int(block)) for log, block in keys)
+
+    @cached_property
+    def speed(self) -> np.ndarray:
+        """Give the RMS speed per joint, rad/s or m/s."""
+        return np.asarray(np.sqrt(np.mean(self.state.velocity**2, axis=0)))
+
+    def observed(self, plan: ColumnPlan) -> tuple[np.ndarray, ...]:
+        """Give, per joint, the filtered rows over all columns of a plan (zeros where none)."""
+        out = [np.zeros((len(self.time), len(plan.columns))) for _ in range(self.joints)]
+        for stretch in self.stretches:
+            filtered = stretch.filtered(plan.series(stretch.state))
+            for joint, (rows, columns) in enumerate(zip(plan.rows_of, plan.columns_of, strict=True)):
+                out[joint][stretch.rows, columns] = filtered[rows].T
+        return tuple(out)
+
+    def columns(self, terms: Sequence[Term]) -> list[dict[int, np.ndarray]]:
+        """Give, per term and joint (from 0), the filtered rows per unit parameter."""
+        shapes = [(term.entries(self.robot), len(term.parameters(self.robot))) for term in terms]
+        out = [
+            {joint: np.zeros((len(self.time), width)) for joint in {entry[0] for entry in entries}}
+            for entries, width in shapes
+        ]
+        for stretch in self.stretches:
+            for index, filtered in _filtered(terms, self.robot, stretch):
+                for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
+                    out[index][joint][stretch.rows, parameter] += row
+        return out
+
+
+def look_at(
+    model: DynamicModel,
+    logs: tuple[JointLog, ...],
+    *,
+    held_out: frozenset[BlockKey],
+    blocks: int,
+    width: float = BAND_OVER_MOTION,
+) -> Look:
+    """Condition the logs for a diagnosis.
+
+    Parameters
+    ----------
+    held_out
+        (log, block) pairs that are only predicted, never fitted.
+    blocks
+        Number of blocks each log is divided into.
+    width
+        The look's band over the motion's.
+
+    Raises
+    ------
+    ExcitationError
+        If no row is left to look at.
+    """
+    motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
+    share = min(1.0, LONGEST_SECONDS / sum(log.duration for log in logs))
+    pieces = [pieces_of(number, motion, model.robot, share) for number, motion in enumerate(motions)]
+    parts = [piece for one in pieces for piece in one]
+    if not parts:
+        raise ExcitationError(
+            "no stretch of the logs is long enough to be looked at",
+            evidence={"seconds": [log.duration for log in logs]},
+            remedy="record at least ten seconds of motion",
+        )
+    rows = np.cumsum([0] + [len(part.time) for part in parts])
+    stretches = tuple(
+        replace(part.stretch, rows=slice(int(start), int(stop)))
+        for part, start, stop in zip(parts, rows[:-1], rows[1:], strict=True)
+    )
+    log = np.concatenate([np.full(len(part.time), part.log) for part in parts])
+    block = np.concatenate([part.block for part in parts])
+    keys = {number * blocks + one for number, one in held_out}
+    return Look(
+        robot=model.robot,
+        motions=motions,
+        stretches=stretches,
+        time=np.concatenate([part.time for part in parts]),
+        log=log,
+        block=block,
+        torque=np.vstack([part.torque for part in parts]),
+        usable=np.vstack([part.usable for part in parts]),
+        clear=np.vstack([part.usable & part.clear for part in parts]),
+        held_out=np.isin(log * blocks + block, sorted(keys)),
+        state=_joined([part.state for part in parts]),
+        sticking=tuple(
+            block_diag([part.sticking[joint] for part in parts], format="csr")
+            for joint in range(len(model.robot.joints))
+        ),
+        band_hz=max(motion.recipe.cutoff_hz for motion in motions),
+        motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
+        position_share=np.zeros(len(model.robot.joints)),
+        position_torque=np.zeros((len(log), len(model.robot.joints))),
+    )
+
+
+def _options(log: JointLog, width: float) -> FilterOptions:
+    """Choose the band of a diagnosis from the motion's own, and rows that fall on thinned states.
+
+    A running median cuts the tip off every turning point of a position, which leaves as much torque as a
+    small effect: it is taken only where there are spikes to be rid of.
+    """
+    band = choose_recipe(log, FilterOptions()).motion_band_hz
+    cutoff = min(width * band, log.rate_hz / RATE_OVER_BAND)
+    thin = thinning(log.rate_hz, cutoff)
+    spiky = any((one.kind, one.channel) == ("outliers", "position") for one in log.defects)
+    return FilterOptions(
+        median_order=FilterOptions.median_order if spiky else 1,
+        cutoff_hz=cutoff,
+        position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
+        order=ORDER,
+        decimation=thin * int(log.rate_hz / (ROWS_OVER_BAND * cutoff) / thin),
+    )
+
+
+def _joined(states: list[MotionState]) -> MotionState:
+    temperature = [state.temperature for state in states if state.temperature is not None]
+    return MotionState(
+        np.vstack([state.position for state in states]),
+        np.vstack([state.velocity for state in states]),
+        np.vstack([state.acceleration for state in states]),
+        np.concatenate([state.time for state in states if state.time is not None]),
+        np.vstack(temperature) if len(temperature) == len(states) else None,
+    )
+
+
+def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+    """Filter the series of some terms over a stretch; give each term's with its number."""
+    batch: dict[int, Series] = {}
+    for index, term in enumerate(terms):
+        if isinstance(term, Payload):
+            yield index, body_rows(term, robot, stretch)
+            continue
+        batch[index] = term.series(robot, stretch.state)
+        if sum(len(one) for one in batch.values()) >= BATCH:
+            yield from _filtered_together(batch, stretch)
+            batch.clear()
+    if batch:
+        yield from _filtered_together(batch, stretch)
+
+
+def _filtered_together(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+    ends = np.cumsum([len(one) for one in batch.values()])[:-1]
+    filtered = stretch.filtered(np.vstack(list(batch.values())))
+    yield from zip(batch, np.split(filtered, ends), strict=True)

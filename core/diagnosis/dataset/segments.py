@@ -1,0 +1,130 @@
+"""Cut a conditioned log into the stretches that a diagnosis keeps in memory, with their filtered rows.
+
+States are thinned as far as the parallel filter's band allows. Rows near a velocity reversal are told apart:
+there the sign of a measured velocity is not the direction of friction.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from core.arrays import Indices, JointMask, JointSeries
+from core.diagnosis.dataset.spikes import without_spikes
+from core.diagnosis.dataset.stiction import resting, sticking
+from core.diagnosis.dataset.stretch import Stretch
+from core.log.model import Defect, JointLog
+from core.robot.model import RobotModel
+from core.signals.condition import Motion
+from core.signals.parallel import ParallelFilter
+from core.signals.segment import Segment
+from core.signals.state import MotionState
+
+STATE_OVER_BAND = 8.0
+"""States are thinned to eight times the band: nothing above the position filter is left to alias."""
+REVERSAL_REACH = 1.0
+"""Rows nearer to a reversal than this many periods of the cut-off are set apart."""
+STRETCH_SECONDS = 30.0
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Hold one stretch of a log with what a look keeps of its rows (see `Look`)."""
+
+    log: int
+    stretch: Stretch
+    time: np.ndarray
+    block: np.ndarray
+    torque: np.ndarray
+    usable: np.ndarray
+    clear: np.ndarray
+    state: MotionState
+    sticking: tuple[csr_array, ...]
+
+
+def pieces_of(number: int, motion: Motion, robot: RobotModel, share: float) -> list[Piece]:
+    """Cut a log into stretches of half a minute at most, and keep the share of them that is asked for."""
+    out, done = [], 0
+    for segment in motion.segments:
+        step = segment.rate_hz / motion.recipe.decimation
+        length = max(int(STRETCH_SECONDS * step), 1)
+        wanted = max(1, int(np.ceil(segment.kept * share / length)))
+        size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
+        firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
+        out += [
+            _piece(number, motion, robot, segment, (int(first), int(first) + size), done) for first in firsts
+        ]
+        done += segment.kept
+    return out
+
+
+def _piece(
+    number: int, motion: Motion, robot: RobotModel, segment: Segment, kept: tuple[int, int], done: int
+) -> Piece:
+    recipe = motion.recipe
+    tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
+    thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
+    begin = tile.first % thin
+    state = _thinned(tile.state, slice(begin, None, thin))
+    response = tile.parallel.response
+    middle = len(response) // 2
+    small = response[middle % thin :: thin]
+    parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
+    at = tile.first + recipe.decimation * np.arange(len(tile.time))
+    place = (done + np.arange(*kept)) / motion.kept
+    stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
+    return Piece(
+        log=number,
+        stretch=stretch,
+        sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),
+        time=tile.time,
+        block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
+        torque=tile.filtered(np.ascontiguousarray(_spikeless(motion.log, tile.torque).T)).T,
+        usable=tile.usable,
+        clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),
+        state=_thinned(tile.state, at),
+    )
+
+
+def _spikeless(log: JointLog, torque: JointSeries) -> JointSeries:
+    """Give torque without the spikes of those joints whose channel is known to have some."""
+    own = [one.joint - 1 for one in log.defects if _spiky(one) and one.joint is not None]
+    torque = torque.copy()
+    torque[:, own] = without_spikes(torque[:, own])
+    return torque
+
+
+def _spiky(defect: Defect) -> bool:
+    return (defect.kind, defect.channel) == ("outliers", "torque")
+
+
+def thinning(rate_hz: float, cutoff_hz: float) -> int:
+    """Say which of a log's samples are states: every n-th.
+
+    Examples
+    --------
+    >>> thinning(1000.0, 20.0)
+    6
+    """
+    return max(1, int(rate_hz / (STATE_OVER_BAND * cutoff_hz)))
+
+
+def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
+    """Tell which kept instants are further from every reversal than the filter's main lobe.
+
+    `period` is that of the cut-off, in samples.
+    """
+    reach = int(np.ceil(REVERSAL_REACH * period))
+    counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
+    low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
+    return np.asarray(counts[high] == counts[low])
+
+
+def _thinned(state: MotionState, rows: slice | Indices) -> MotionState:
+    return MotionState(
+        state.position[rows],
+        state.velocity[rows],
+        state.acceleration[rows],
+        None if state.time is None else state.time[rows],
+        None if state.temperature is None else state.temperature[rows],
+    )

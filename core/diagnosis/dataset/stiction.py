@@ -1,0 +1,100 @@
+"""Let friction be anything while a joint is as good as at rest: columns of any size for these instants.
+
+While a joint sticks, friction balances the torque, anywhere between minus and plus its level, and the sign of
+a measured velocity says nothing about it. Polynomials over every such stretch of time, with as many
+coefficients as the filter lets through, take the place of rows that would have to be left out: what happens
+right beside a reversal stays evidence. Source: Frisch & Waugh 1933, for columns that are only to be rid of.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from core.arrays import JointVector, Series
+from core.diagnosis.dataset.stretch import Stretch
+from core.dynamics.terms.coupling import motor_speed
+from core.dynamics.terms.effect import step_of
+from core.robot.model import RobotModel
+from core.signals.state import MotionState
+
+SHAPES = 4.0
+"""Polynomials per period of the look's cut-off, twice what an ideal filter would let through."""
+MOST_SHAPES = 32
+"""A longer stretch is cut: a parked joint's polynomials would be many, and all of them as long as the log."""
+STILL_SHARE = 0.01
+"""A coupled motor rests when it is slower than this share of its RMS speed."""
+
+
+def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.ndarray:
+    """Mark, samples x joints, where a joint or a motor coupled to it rests or turns round."""
+    marks = _rests(state.velocity, still)
+    for coupling in robot.couplings:
+        speed = motor_speed(coupling, state)[:, None]
+        motor = _rests(speed, STILL_SHARE * np.sqrt(np.mean(speed**2, axis=0)))
+        marks[:, [joint - 1 for joint in coupling.joints]] |= motor
+    return marks
+
+
+def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_array, ...]:
+    """Give, per joint, filtered columns for the friction of every stretch of time in which it rests."""
+    band = band_hz * step_of(stretch.state)
+    longest = int(MOST_SHAPES / (SHAPES * band))
+    runs = [_cut(_runs(marks[:, joint]), longest) for joint in range(marks.shape[1])]
+    return tuple(_columns(stretch, one, band) for one in runs)
+
+
+def _columns(stretch: Stretch, runs: list[tuple[int, int]], band: float) -> csr_array:
+    rows, values = [np.zeros(0, dtype=int)], [np.zeros(0)]
+    ends = [0]
+    for begin, end in runs:
+        low, part = stretch.filtered_part(_polynomials(begin, end, band), begin)
+        rows.append(np.tile(np.arange(low, low + part.shape[1]), len(part)))
+        values.append(part.ravel())
+        ends += [ends[-1] + part.shape[1] * (number + 1) for number in range(len(part))]
+    by_column = csr_array((np.concatenate(values), np.concatenate(rows), ends), (len(ends) - 1, stretch.kept))
+    return by_column.T.tocsr()
+
+
+def _rests(velocity: np.ndarray, still: np.ndarray) -> np.ndarray:
+    marks = np.abs(velocity) <= still
+    marks[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
+    return np.asarray(marks)
+
+
+def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
+    """List where marks begin and end, a sample wider on either side; what then overlaps is one.
+
+    Examples
+    --------
+    >>> _runs(np.array([False, True, False, False, False])), _runs(np.zeros(5, dtype=bool))
+    ([(0, 3)], [])
+    """
+    edges = np.diff(np.pad(marks.astype(int), 1))
+    begins, ends = np.flatnonzero(edges == 1) - 1, np.flatnonzero(edges == -1) + 1
+    if not len(begins):
+        return []
+    apart = np.append(True, begins[1:] > ends[:-1])
+    lasts = np.append(np.flatnonzero(apart)[1:] - 1, len(ends) - 1)
+    return [
+        (max(int(begin), 0), min(int(end), len(marks)))
+        for begin, end in zip(begins[apart], ends[lasts], strict=True)
+    ]
+
+
+def _cut(runs: list[tuple[int, int]], longest: int) -> list[tuple[int, int]]:
+    """Cut long runs into equal parts.
+
+    Examples
+    --------
+    >>> _cut([(0, 3), (5, 11)], 3)
+    [(0, 3), (5, 8), (8, 11)]
+    """
+    edges = [np.linspace(begin, end, 1 + -(-(end - begin) // longest)).astype(int) for begin, end in runs]
+    return [(int(begin), int(end)) for one in edges for begin, end in pairwise(one)]
+
+
+def _polynomials(begin: int, end: int, band: float) -> Series:
+    count = min(end - begin, 2 + int(np.ceil(SHAPES * band * (end - begin))))
+    shapes = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1)
+    return np.ascontiguousarray(shapes.T)

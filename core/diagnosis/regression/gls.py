@@ -1,0 +1,231 @@
+"""Fit a model to the rows of a look under coloured noise, and say how likely the rows are under it.
+
+Generalised least squares: per joint the rows are whitened by the joint's own autoregression, which is learned
+again from the residual of every hypothesis; a noise model kept from another hypothesis would have learned the
+effect in question as noise. A fit under coloured noise may leave slow torque to the noise, and noise learned
+from what it left leaves it more: where that goes too far, noise is learned from what an ordinary fit leaves.
+Sources: Aitken 1936; Cochrane & Orcutt 1949; Amemiya, Advanced Econometrics (1985), ch. 6, on one step from
+ordinary residuals; Brunot et al., Control Eng. Pract. 74, 2018.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import cho_factor
+from scipy.linalg.lapack import dpotrs
+
+from core.arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
+from core.diagnosis.regression.ar_noise import JointNoise, learn_noise
+from core.diagnosis.regression.prewhitening import Whitened, whitened
+from core.diagnosis.regression.rows import JointRows
+from core.estimate.gaussian_prior import Belief
+
+RIDGE = 1e-10
+"""Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
+STEPS, EXACT = 5, 1e-6
+"""Steps of a solution at most, until another would add less than this to twice the likelihood."""
+OPEN_SHARE = 1e-6
+"""A column of which the others already span all but this share is no evidence for anything."""
+ROUNDS, TRIAL_ROUNDS = 3, 2
+SETTLED = 0.1
+"""What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
+TOO_MUCH = 1.3
+"""Residual of a fit under coloured noise over that of an ordinary one that is too much."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Hold a generalised least-squares fit.
+
+    Attributes
+    ----------
+    joints
+        The whitened rows per joint.
+    left
+        What the columns leave of their torque, white.
+    values
+        Coefficient of every column.
+    factor
+        Lower Cholesky factor of the columns' Gram matrix, scaled by `scale`.
+    by_joint
+        Log-likelihood of every joint's rows, noise model included.
+    belief
+        What was believed beforehand; None where nothing was.
+    plain
+        The ordinary fit from whose residual noise is learned; None where it is learned from this one's.
+    """
+
+    joints: tuple[Whitened, ...]
+    left: tuple[Weights, ...]
+    values: Vector
+    factor: SquareMatrix
+    scale: Vector
+    by_joint: JointVector
+    belief: Belief | None = None
+    plain: "Fit | None" = None
+
+    @cached_property
+    def log_likelihood(self) -> float:
+        """Give the log-likelihood of all rows, and of what was believed."""
+        departed = 0.0 if self.belief is None else self.belief.departure(self.values)
+        return float(self.by_joint.sum()) - 0.5 * departed
+
+    def solve(self, right: Matrix) -> Matrix:
+        """Give Gram^-1 times right-hand sides."""
+        return _solution(self.factor, self.scale[:, None], right)
+
+    @cached_property
+    def covariance(self) -> SquareMatrix:
+        """Give the coefficients' covariance."""
+        return self.solve(np.eye(len(self.values)))
+
+
+def fit(
+    joints: tuple[JointRows, ...],
+    noise: tuple[JointNoise, ...] | None = None,
+    *,
+    rounds: int = ROUNDS,
+    belief: Belief | None = None,
+    ordinary: bool = False,
+) -> Fit:
+    """Fit all columns to all joints' rows, learning the noise anew in every round.
+
+    Parameters
+    ----------
+    noise
+        What to begin with; None to begin with white noise of the torque's size.
+    belief
+        What is believed of the first columns' coefficients beforehand.
+    ordinary
+        Whether noise is learned from what an ordinary fit leaves.
+    """
+    size = _size(joints)
+    if noise is not None:
+        return _settled(joints, _solved(_whitened(joints, noise), size, belief), None, rounds)
+    if ordinary:
+        plain = _ordinary(joints, belief)
+        return _settled(joints, replace(plain, plain=plain), None, rounds + 1)
+    first = _white_noise(joints, [rows.torque for rows in joints])
+    return _settled(joints, _solved(_whitened(joints, first), size, belief), None, rounds + 1)
+
+
+def leaves_too_much(joints: tuple[JointRows, ...], found: Fit) -> bool:
+    """Tell whether a fit leaves some joint's noise much more than an ordinary fit leaves."""
+    plain = _ordinary(joints, found.belief)
+    pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
+    return any(float(ours @ ours) > TOO_MUCH**2 * float(theirs @ theirs) for ours, theirs in pairs)
+
+
+def _ordinary(joints: tuple[JointRows, ...], belief: Belief | None) -> Fit:
+    """Fit under white noise, of the size of what the fit under white noise of the torque's size leaves."""
+    size = _size(joints)
+    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, belief)
+    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), size, belief)
+
+
+def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[JointNoise, ...]:
+    return tuple(learn_noise(one, rows.place, order=0) for one, rows in zip(sized, joints, strict=True))
+
+
+def _size(joints: tuple[JointRows, ...]) -> int:
+    return int(joints[0].columns.shape[1])
+
+
+def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
+    return [part.missed(rows, found.values) for part, rows in zip(found.joints, joints, strict=True)]
+
+
+def _whitened(joints: tuple[JointRows, ...], noise: tuple[JointNoise, ...]) -> tuple[Whitened, ...]:
+    return tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True))
+
+
+def refit(
+    joints: tuple[JointRows, ...],
+    before: Fit,
+    kept: int,
+    touched: frozenset[int] | None = None,
+    *,
+    rounds: int = ROUNDS,
+) -> Fit:
+    """Fit the same rows to other columns, learning the noise anew from where another fit left it.
+
+    Parameters
+    ----------
+    kept
+        How many of the first columns are those of the fit before.
+    touched
+        Joints (from 0) whose noise is learned anew; None for all.
+    """
+    parts = tuple(
+        old.with_columns(kept, rows.columns[:, kept:])
+        for old, rows in zip(before.joints, joints, strict=True)
+    )
+    plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
+    return _settled(joints, _solved(parts, _size(joints), before.belief, plain), touched, rounds)
+
+
+def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
+    """Learn the noise of some or all joints again and again, until that hardly makes the rows more likely."""
+    for _ in range(rounds):
+        before, found = found, _relearned(joints, found, touched)
+        if found is before:
+            break
+    return found
+
+
+def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
+    """Learn the noise of some or all joints from their residual; fit again where that makes a difference."""
+    parts, seen = list(found.joints), found.plain or found
+    for joint in range(len(joints)) if touched is None else touched:
+        rows, known = joints[joint], found.joints[joint]
+        residual = seen.joints[joint].missed(rows, seen.values)
+        learned = learn_noise(residual, rows.place, taken=degrees_taken(rows, joints))
+        if learned.departure(known.noise, residual, rows.place) > SETTLED:
+            parts[joint] = whitened(rows, learned)
+    if tuple(parts) == found.joints:
+        return found
+    return _solved(tuple(parts), _size(joints), found.belief, found.plain)
+
+
+def degrees_taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
+    """Count the degrees of freedom that a fit took from one joint's rows: its own and a share of the rest."""
+    total = sum(len(one.rows) for one in joints)
+    return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
+
+
+def _solved(joints: tuple[Whitened, ...], size: int, belief: Belief | None, plain: Fit | None = None) -> Fit:
+    """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
+    gram = np.zeros((size, size))
+    for one in joints:
+        gram[np.ix_(one.acting, one.acting)] += one.gram
+    if belief is not None:
+        believed = belief.rows.shape[1]
+        gram[:believed, :believed] += belief.rows.T @ belief.rows
+    scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
+    scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
+    factor, _ = cho_factor(scaled, lower=True)
+    values = np.zeros(len(gram))
+    left = tuple(one.torque for one in joints)
+    for _ in range(STEPS):
+        slope = np.zeros(size)
+        for one, rest in zip(joints, left, strict=True):
+            slope[one.acting] += one.columns.T @ rest
+        if belief is not None:
+            slope += belief.slope(values)
+        step = _solution(factor, scale, slope)
+        if float(slope @ step) < EXACT:
+            break
+        values = values + step
+        left = tuple(one.left(values) for one in joints)
+    by_joint = np.array(
+        [-0.5 * float(rest @ rest) - one.log_deviations for one, rest in zip(joints, left, strict=True)]
+    )
+    return Fit(joints, left, values, factor, scale, by_joint, belief, plain)
+
+
+def _solution(factor: SquareMatrix, scale: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solve the equations of a scaled Gram matrix, of which the lower factor is given."""
+    solved, _ = dpotrs(factor, right / scale, lower=1)
+    return np.asarray(solved / scale)

@@ -1,0 +1,64 @@
+"""Give what a believed model leaves of the filtered torque: a cause's first look at when and how much.
+
+A first look only settles where to search; what counts is judged on the complement of the fitted columns.
+"""
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from core.arrays import Indices, JointSeries, UsableRows, Vector
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.regression.ar_noise import learn_noise, places
+from core.dynamics.prediction import Prediction
+
+MIDDLE = 1.4826
+"""Deviation of normal numbers over their median size."""
+
+
+def misfit(look: Look, believed: Prediction) -> JointSeries:
+    """Give measured minus predicted torque, N m or N, rows x joints."""
+    left = look.torque.copy()
+    for stretch in look.stretches:
+        left[stretch.rows] -= stretch.filtered(believed.torque(stretch.state).T).T
+    return left
+
+
+def fitted_rows(look: Look) -> np.ndarray:
+    """Mark, rows x joints, what a fit may see: clear of reversals and not held out."""
+    return np.asarray(look.clear & ~look.held_out[:, None])
+
+
+def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_array, ...]:
+    """Give, per joint, the inverse covariance of a misfit's noise over the marked rows; zero elsewhere.
+
+    The noise is learned from the quieter half: what happens once in a while is not to be learned as noise.
+    Quiet is what brings little that is new, since a slow noise is large for a while by itself. How much is
+    new in the middle of all rows gives its size: rows that were chosen for being quiet are quieter than it.
+    """
+    out = []
+    for joint in range(look.joints):
+        rows = np.flatnonzero(mask[:, joint])
+        place = places(look.follows(rows))
+        new = learn_noise(left[rows, joint], place).innovations(left[rows, joint], place)
+        quiet = rows[_quiet(look, new, rows)]
+        noise = learn_noise(left[quiet, joint], places(look.follows(quiet)))
+        white = noise.whitening(place)
+        size = MIDDLE * _middle(noise.innovations(left[rows, joint], place))
+        white = csr_array((white.data / size, rows[white.indices], white.indptr), (len(rows), len(left)))
+        out.append((white.T @ white).tocsr())
+    return tuple(out)
+
+
+def _middle(values: Vector) -> float:
+    """Give the median size, one where there is none: a dead channel has no noise."""
+    return float(np.median(np.abs(values))) or 1.0 if len(values) else 1.0
+
+
+def _quiet(look: Look, left: Vector, rows: Indices) -> UsableRows:
+    """Mark the rows of the blocks in which what is left is smaller than in half of them."""
+    if not len(rows):
+        return np.zeros(0, dtype=bool)
+    block = look.block_of_all[rows]
+    counts = np.maximum(np.bincount(block), 1)
+    power = np.bincount(block, left**2) / counts
+    return np.asarray(power[block] <= np.median(power[np.unique(block)]))

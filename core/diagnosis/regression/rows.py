@@ -1,0 +1,69 @@
+"""Take the rows of a look joint by joint: what is fitted to what, and what may be of any size besides."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.arrays import EquationRows, Indices, Matrix, Vector, Weights
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.regression.ar_noise import places
+from core.diagnosis.regression.nuisance import Free, free_of, independent
+
+Columns = Mapping[int, EquationRows]
+"""Per joint (from 0), rows x columns; a joint that is left out has zeros."""
+
+
+@dataclass(frozen=True, eq=False)
+class JointRows:
+    """Hold the rows of one joint that a fit may use.
+
+    Attributes
+    ----------
+    rows, place
+        Which rows of the look, and their places within runs.
+    columns, torque
+        What is fitted to what.
+    free
+        Columns of any size: friction while the joint sticks.
+    """
+
+    rows: Indices
+    place: Indices
+    columns: Matrix
+    torque: Vector
+    free: Free
+
+    def missed(self, values: Weights) -> Vector:
+        """Give what the columns leave over, less what the free ones take."""
+        left = self.torque - self.columns @ values
+        return self.free.cleared(left[:, None])[:, 0]
+
+
+def joint_rows(look: Look, columns: Sequence[Matrix], mask: np.ndarray) -> tuple[JointRows, ...]:
+    """Take, per joint, the rows that a mask (rows x joints) allows."""
+    out = []
+    for joint in range(look.joints):
+        rows = np.flatnonzero(mask[:, joint])
+        out.append(
+            JointRows(
+                rows,
+                places(look.follows(rows)),
+                columns[joint][rows],
+                look.torque[rows, joint],
+                free_of(independent(look.sticking[joint][rows])),
+            )
+        )
+    return tuple(out)
+
+
+def extended(joints: tuple[JointRows, ...], columns: Sequence[Columns]) -> tuple[JointRows, ...]:
+    """Append further columns, given over all rows of the look."""
+    widths = [next(iter(one.values())).shape[1] for one in columns]
+    out = []
+    for joint, rows in enumerate(joints):
+        parts = [rows.columns]
+        for one, width in zip(columns, widths, strict=True):
+            parts.append(one[joint][rows.rows] if joint in one else np.zeros((len(rows.rows), width)))
+        out.append(replace(rows, columns=np.hstack(parts)))
+    return tuple(out)

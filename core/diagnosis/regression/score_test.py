@@ -1,0 +1,188 @@
+"""Score candidates: by how much each would raise the likelihood, given everything that is already explained.
+
+A candidate's columns are whitened like the residual, projected on the complement of the fitted columns, and
+regressed on; all of it on small Gram matrices, so that thousands of candidates cost as much as a few fits.
+Sources: Rao 1948 (score test); Janot, Vandanjon & Gautier, Control Eng. Pract. 48, 2016 (augmented
+regressor).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg.lapack import dtrtrs
+
+from core.arrays import EquationRows, Indices, Matrix, Weights
+from core.diagnosis.regression.gls import OPEN_SHARE, Fit
+from core.diagnosis.regression.rows import Columns, JointRows
+from core.numerics.recursions import sum_begun
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Judge one candidate.
+
+    Attributes
+    ----------
+    statistic
+        Rise of twice the log-likelihood at this noise model.
+    freedom
+        How many directions of its linear parameters the rows tell.
+    values, covariance
+        What its linear parameters would be.
+    clear_share
+        The largest share of a column's square that neither fitted nor free columns span.
+    """
+
+    statistic: float
+    freedom: int
+    values: Weights
+    covariance: EquationRows
+    clear_share: float
+
+
+class Panel:
+    """Score the same candidates on top of one fit after the other, their columns put side by side once.
+
+    Parameters
+    ----------
+    joints
+        The rows that are fitted.
+    candidates
+        The candidates' columns, over all rows of the look.
+    """
+
+    def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
+        widths = [next(iter(one.values())).shape[1] for one in candidates]
+        places = [[index for index, one in enumerate(widths) if one == width] for width in set(widths)]
+        self._groups = [
+            (alike, _Alike(joints, [candidates[index] for index in alike], widths[alike[0]]))
+            for alike in places
+        ]
+
+    def scores(self, found: Fit) -> list[Score]:
+        """Score the candidates on top of a fit."""
+        out = {
+            index: one
+            for places, alike in self._groups
+            for index, one in zip(places, alike.scores(found), strict=True)
+        }
+        return [out[index] for index in range(len(out))]
+
+
+class _Alike:
+    """Score candidates of the same number of columns."""
+
+    def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns], width: int) -> None:
+        self._count, self._width = len(candidates), width
+        self._present = [
+            np.array([index for index, one in enumerate(candidates) if joint in one], dtype=int)
+            for joint in range(len(joints))
+        ]
+        self._columns = [
+            _side_by_side([candidates[index][joint] for index in present], rows.rows)
+            for joint, (rows, present) in enumerate(zip(joints, self._present, strict=True))
+        ]
+
+    def scores(self, found: Fit) -> list[Score]:
+        count, size, width = self._count, len(found.values), self._width
+        cross = np.zeros((count, size, width))
+        right, squares = np.zeros((count, width)), np.zeros((count, width))
+        grams = np.zeros((count, width, width))
+        for joint, present in enumerate(self._present):
+            if not len(present):
+                continue
+            own = found.joints[joint]
+            white = own.whitening @ self._columns[joint]
+            inside = own.free.inside(white)
+            right[present] += (found.left[joint] @ white).reshape(-1, width)
+            both = own.columns.T @ white - own.inside.T @ inside
+            both = both.reshape(len(own.acting), len(present), width)
+            cross[present[:, None], own.acting] += np.moveaxis(both, 0, 1)
+            whole = _grams(white, width)
+            squares[present] += np.diagonal(whole, axis1=1, axis2=2)
+            grams[present] += whole - _grams(inside, width)
+        flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
+        reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
+        return _judged(grams - _grams(reduced, width), right, squares)
+
+
+def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
+    """Put columns beside each other, and take some of their rows."""
+    return np.hstack(columns)[rows] if columns else np.zeros((len(rows), 0))
+
+
+def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
+    """Score candidates given as columns over all rows of the look."""
+    return Panel(joints, candidates).scores(found)
+
+
+def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, starts: Indices) -> list[Score]:
+    """Score columns that act from one row of the look on, for each of many such rows.
+
+    What is white from a row on is what is white all along, but for the first rows, as many as the noise
+    remembers: there nothing comes before. Rows from which on the same fitted ones follow score alike.
+    """
+    begins = [np.searchsorted(joints[joint].rows, starts) for joint in columns]
+    different, alike = np.unique(begins, axis=1, return_inverse=True)
+    scores = _scores_from(found, joints, columns, tuple(different))
+    return [scores[place] for place in alike.ravel()]
+
+
+def _scores_from(
+    found: Fit, joints: tuple[JointRows, ...], columns: Columns, begins: Sequence[Indices]
+) -> list[Score]:
+    """Score columns that act from some fitted row on: per joint (rows) and trial (columns), which one."""
+    count, size = len(begins[0]), len(found.values)
+    width = next(iter(columns.values())).shape[1]
+    cross = np.zeros((count, size, width))
+    right, squares = np.zeros((count, width)), np.zeros((count, width))
+    grams = np.zeros((count, width, width))
+    for (joint, one), first in zip(columns.items(), begins, strict=True):
+        rows, own = joints[joint], found.joints[joint]
+        loose, acting = own.free.columns, len(own.acting)
+        shapes = (width,), (width,), (width, width), (acting, width)
+        sums = tuple(np.empty((count, *shape)) for shape in shapes)
+        equations = (one[rows.rows], rows.place, own.noise.weights, found.left[joint])
+        fitted, inside, factor = (
+            np.ascontiguousarray(table) for table in (own.columns, own.inside, own.free.factor.T)
+        )
+        free = (loose.data, loose.indices.astype(np.int32), loose.indptr.astype(np.int32))
+        sum_begun((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
+        right += sums[0]
+        squares += sums[1]
+        grams += sums[2]
+        cross[:, own.acting] += sums[3]
+    flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
+    reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
+    return _judged(grams - _grams(reduced, width), right, squares)
+
+
+def _grams(columns: Matrix, width: int) -> np.ndarray:
+    """Give the Gram matrix of every so many columns."""
+    parts = np.moveaxis(columns.reshape(len(columns), columns.shape[1] // width, width), 1, 0)
+    return np.asarray(np.swapaxes(parts, 1, 2) @ parts)
+
+
+def _judged(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
+    """Judge candidates by what is left of their Gram matrices, and by their products with the residual."""
+    size = np.sqrt(np.maximum(squares, 1e-300))
+    left = grams / (size[:, :, None] * size[:, None, :])
+    clear = np.clip(np.diagonal(left, axis1=1, axis2=2), 0.0, 1.0).max(axis=1)
+    judged = np.isfinite(left).all(axis=(1, 2)) & (clear >= OPEN_SHARE)
+    out = [_open(right.shape[1])] * len(right)
+    values, vectors = np.linalg.eigh(left[judged])
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > OPEN_SHARE)
+    spread = vectors / size[judged][:, :, None]
+    turned = np.einsum("nij,ni->nj", spread, right[judged])
+    covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)
+    found = np.einsum("nij,nj->ni", spread, turned * inverse)
+    for place, index in enumerate(np.flatnonzero(judged)):
+        statistic = float(turned[place] ** 2 @ inverse[place])
+        freedom = int(np.count_nonzero(inverse[place]))
+        out[index] = Score(statistic, freedom, found[place], covariance[place], float(clear[index]))
+    return out
+
+
+def _open(width: int) -> Score:
+    return Score(0.0, 1, np.zeros(width), np.eye(width), 0.0)

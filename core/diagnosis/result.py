@@ -1,0 +1,177 @@
+"""Hold what a diagnosis found out: causes with evidence and rivals, what cannot be told, what is left."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from core.arrays import JointVector, Vector
+from core.diagnosis.causes.protocol import Cure, Quantity, Site
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.residual.atlas import Atlas
+from core.diagnosis.residual.learner import Predictable
+from core.diagnosis.search.hypothesis import Candidate
+from core.diagnosis.search.stepwise import Selection
+from core.dynamics.prediction import Prediction
+
+Verdict = Literal["causes_found", "nothing_found", "unexplained"]
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """State one number that decided, with the statistic's name."""
+
+    statement: str
+    statistic: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Rival:
+    """Name another cause that was weighed for the same evidence.
+
+    Attributes
+    ----------
+    statistic
+        Rise of twice the log-likelihood that it brings in the finding's place.
+    why
+        Why it cannot be told apart, or why it was refuted.
+    separating_experiment
+        The motion that would separate the two; empty where it was refuted.
+    """
+
+    cause: str
+    joints: Site
+    statistic: float
+    why: str
+    separating_experiment: str
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Show one joint's residual over the coordinate that explains it, in bins.
+
+    Attributes
+    ----------
+    centre, before, after, model, standard_error
+        Per bin: coordinate, mean residual without and with the finding, what the finding says, and the
+        standard error of the means (N m or N).
+    direction
+        Per bin: 1 where only forward motion counts, -1 where only backward motion does, 0 where both do.
+    """
+
+    coordinate: str
+    unit: str
+    joint: int
+    centre: Vector
+    before: Vector
+    after: Vector
+    model: Vector
+    standard_error: Vector
+    direction: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Gain:
+    """Say what a finding gains on rows that no fit has seen.
+
+    Attributes
+    ----------
+    before, after
+        RMS residual per joint without and with it, N m or N.
+    improvement_percent, interval_95
+        Of the residual's RMS on the finding's joints together, from a bootstrap over contiguous blocks.
+    """
+
+    before: JointVector
+    after: JointVector
+    improvement_percent: JointVector
+    total_percent: float
+    interval_95: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """Name one cause with everything that supports it.
+
+    `proven` says that an identification with it has surely predicted unseen motion better.
+    """
+
+    cause: str
+    title: str
+    joints: tuple[int, ...]
+    cure: Cure
+    statement: str
+    quantities: tuple[Quantity, ...]
+    confidence: float
+    p_value: float
+    explained_fraction: float
+    evidence: tuple[Evidence, ...]
+    ambiguous_with: tuple[Rival, ...]
+    refuted: tuple[Rival, ...]
+    gain: Gain | None
+    curve: Curve | None
+    member: Candidate | None
+    proven: bool = False
+
+
+@dataclass(frozen=True)
+class NotIdentifiable:
+    """Name a cause that this motion could not have shown, why, and the motion that would."""
+
+    cause: str
+    joints: Site
+    why: str
+    separating_experiment: str
+
+
+@dataclass(frozen=True)
+class Stranger:
+    """Say what a residual still follows that is in no list.
+
+    Attributes
+    ----------
+    joint
+        Where it acts, from 1.
+    statement
+        What it follows.
+    statistic, log10_p
+        Rise of twice the log-likelihood (for levels the squared number of deviations), and the chance of it
+        by luck, all patterns and joints counted in.
+    """
+
+    joint: int
+    statement: str
+    statistic: float
+    log10_p: float
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Hold a diagnosis.
+
+    Attributes
+    ----------
+    stranger
+        A pattern that what is left still follows; None where none is found.
+    believed
+        The model whose prediction the causes' columns were built on.
+    residual_before, residual_after
+        Per row of the look and joint, without and with the findings, N m or N.
+    at_rest
+        Per joint, the share of the residual's mean square that is friction while the joint rests or turns
+        round, and was taken out of it; not a number where it hardly moves.
+    """
+
+    verdict: Verdict
+    findings: tuple[Finding, ...]
+    not_identifiable: tuple[NotIdentifiable, ...]
+    predictable: tuple[Predictable, ...]
+    stranger: Stranger | None
+    atlas: Atlas
+    look: Look
+    believed: Prediction
+    selection: Selection
+    residual_before: np.ndarray
+    residual_after: np.ndarray
+    at_rest: JointVector

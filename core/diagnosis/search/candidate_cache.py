@@ -1,0 +1,83 @@
+"""Rank what is suspected all along the motion, site by site under the earliest belief that will do.
+
+A scan over everything costs most where columns have to be built, and most beliefs change one joint's torque.
+What is suspected of the others is then as it was on their own joints, and nearly so on all.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from core.diagnosis.causes.protocol import Site
+from core.diagnosis.regression.rows import Columns
+from core.diagnosis.search.candidates import Suspicion
+from core.diagnosis.search.hypothesis import Candidate
+
+NEAR = 0.01
+"""Share of a joint's torque within which two predictions rank candidates of the joint alike."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ranking:
+    """Keep what is suspected all along the motion, to be ranked by columns that may be of an earlier belief.
+
+    Attributes
+    ----------
+    whole
+        The suspicion that candidates of several joints or of none are of.
+    joints
+        Per joint, the suspicion that candidates of that joint alone are of.
+    """
+
+    whole: Suspicion
+    joints: tuple[Suspicion, ...]
+
+    @cached_property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """Give what is suspected."""
+        return tuple(candidate for candidate, _ in self._suspected)
+
+    def of(self, now: Suspicion) -> bool:
+        """Tell whether everything is of one suspicion."""
+        return self._suspicions == (now,)
+
+    def under(self, now: Suspicion) -> "Ranking":
+        """Take what another belief would rank otherwise from the suspicion under that belief.
+
+        Roughly: columns made of derivatives may change by a greater share than what is predicted does, and so
+        may what a candidate of one joint adds on the others.
+        """
+        changed = {one: ~(one.change(now) <= NEAR) for one in self._suspicions}
+        whole = now if changed[self.whole].any() else self.whole
+        joints = tuple(now if changed[one][joint] else one for joint, one in enumerate(self.joints))
+        return self if (whole, joints) == (self.whole, self.joints) else Ranking(whole, joints)
+
+    def columns(self, built: Callable[[Sequence[Candidate], Suspicion], Sequence[Columns]]) -> list[Columns]:
+        """Give the candidates' columns, each as a bench builds it under its suspicion."""
+        out: dict[int, Columns] = {}
+        for suspicion in self._suspicions:
+            places = [place for place, (_, own) in enumerate(self._suspected) if own is suspicion]
+            columns = built([self.candidates[place] for place in places], suspicion)
+            out |= dict(zip(places, columns, strict=True))
+        return [out[place] for place in range(len(out))]
+
+    @property
+    def _suspicions(self) -> tuple[Suspicion, ...]:
+        return tuple(dict.fromkeys((self.whole, *self.joints)))
+
+    @cached_property
+    def _suspected(self) -> tuple[tuple[Candidate, Suspicion], ...]:
+        return tuple(
+            (candidate, own)
+            for cause, site in self.whole.lasting
+            for own in (self._suspicion(site),)
+            for candidate in own.of(cause, site)
+        )
+
+    def _suspicion(self, site: Site) -> Suspicion:
+        return self.joints[site[0] - 1] if len(site) == 1 else self.whole
+
+
+def ranking_under(suspicion: Suspicion) -> Ranking:
+    """Rank everything under one belief."""
+    return Ranking(suspicion, (suspicion,) * suspicion.look.joints)

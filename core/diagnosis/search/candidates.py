@@ -1,0 +1,127 @@
+"""Keep what is suspected while one prediction is believed, and what was computed for it.
+
+All of it is out of date as soon as something else is believed, and of use again when the first is.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from core.arrays import JointVector
+from core.diagnosis.causes.protocol import Cause, Site
+from core.diagnosis.dataset.dataset import Look
+from core.diagnosis.regression.rows import Columns
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis, Place, Scored
+from core.dynamics.model import DynamicModel
+from core.dynamics.prediction import Prediction
+from core.dynamics.term import Term
+from core.simulation.inverse import inverse_dynamics
+
+
+@dataclass(frozen=True, eq=False)
+class Suspicion:
+    """Keep what is suspected while one prediction is believed.
+
+    Attributes
+    ----------
+    look, left
+        The rows; and the same with only what is not explained so far for their torque.
+    columns
+        The filtered columns of candidates that are built on the prediction.
+    scans
+        Per hypothesis, what a scan of all candidates on top of it gave.
+    less
+        The last hypotheses that were taken apart, and what each is without either of its members.
+    trials
+        What each of these is with the candidates that were fitted in a member's place.
+    """
+
+    causes: tuple[Cause, ...]
+    look: Look
+    left: Look
+    believed: Prediction
+    columns: dict[Place, Columns] = field(default_factory=dict)
+    scans: WeakKeyDictionary[Hypothesis, list[Scored]] = field(default_factory=WeakKeyDictionary)
+    less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
+    trials: WeakKeyDictionary[Hypothesis, dict[Place, Hypothesis]] = field(default_factory=WeakKeyDictionary)
+    _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
+
+    @property
+    def lasting(self) -> tuple[tuple[Cause, Site], ...]:
+        """List what is suspected all along the motion: the causes with their sites."""
+        return tuple(self._sites(cause for cause in self.causes if not cause.event))
+
+    @cached_property
+    def events(self) -> tuple[Candidate, ...]:
+        """Give what may have happened, as what is left tells of it."""
+        pairs = self._sites(cause for cause in self.causes if cause.event)
+        return tuple(candidate for cause, site in pairs for candidate in self.of(cause, site))
+
+    def _sites(self, causes: Iterable[Cause]) -> Iterator[tuple[Cause, Site]]:
+        for cause in causes:
+            for site in cause.sites(self.look, self.believed):
+                yield cause, site
+
+    def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
+        """Give one cause at one site with all scalars that are scanned."""
+        if (cause, site) not in self._known:
+            grid = tuple(cause.grid(self.left, self.believed, site))
+            self._known[cause, site] = tuple(
+                Candidate(cause, site, scalars, cause.trials(grid, scalars)) for scalars in grid
+            )
+        return self._known[cause, site]
+
+    def of_kind(self, key: tuple[str, Site]) -> tuple[Candidate, ...]:
+        """Give all causes of one name at one site: against a reference some come in two forms."""
+        name, site = key
+        causes = (
+            one for one in self.causes if one.id == name and site in one.sites(self.look, self.believed)
+        )
+        return tuple(candidate for one in causes for candidate in self.of(one, site))
+
+    def change(self, other: "Suspicion") -> JointVector:
+        """Give by how much another prediction differs from this one, as a share of each joint's torque."""
+        square, change = np.zeros(self.look.joints), np.zeros(self.look.joints)
+        if other is self:
+            return change
+        for stretch in self.look.stretches:
+            own, theirs = (one.believed.scaled(stretch.state) for one in (self, other))
+            square += np.sum(own**2, axis=0)
+            change += np.sum((theirs - own) ** 2, axis=0)
+        return np.asarray(np.sqrt(change / np.maximum(square, 1e-300)))
+
+
+def nothing_suspected(look: Look, model: DynamicModel) -> Suspicion:
+    """Believe that nothing moves any link, and suspect nothing."""
+    nothing = Prediction(model, np.zeros(len(model.parameters)), inverse_dynamics)
+    return Suspicion((), look, look, nothing)
+
+
+def joined_by(look: Look, found: Hypothesis, believed: Prediction) -> Prediction:
+    """Give a prediction that knows what joined the model: loads first, then all else, then its scales.
+
+    What is late is late after that, and is not part of it.
+    """
+    for joins in (_loads, _acts_inside, _scales):
+        terms = []
+        for index, one in enumerate(found.members):
+            term = one.cause.term(look, believed, one.site, one.scalars)
+            if joins(term) and not one.cause.yielded:
+                terms.append((term, found.fit.values[found.columns_of(index)]))
+        believed = replace(believed, joined=(*believed.joined, *terms))
+    return believed
+
+
+def _loads(term: Term) -> bool:
+    return term.loads
+
+
+def _acts_inside(term: Term) -> bool:
+    return not term.loads and not term.channel
+
+
+def _scales(term: Term) -> bool:
+    return term.channel

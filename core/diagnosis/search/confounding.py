@@ -1,0 +1,77 @@
+"""Tell a cause from what another one leaves: by what it keeps beside that one, and by where it acts."""
+
+import numpy as np
+
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from core.diagnosis.search.likelihood_ratio import bounded_rise, log_p, rise, rise_by_joint
+
+BESIDE_SHARE = 0.5
+"""What keeps this share of its rise beside a finding is no rival to it."""
+LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
+"""A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
+EVENT_OVER_OTHER, FAR_BEYOND_LUCK = 0.05, 1e-30
+"""An event fits a little of anything: it brings this share at least of what any other cause does, or is no
+more likely by luck than that. Pushes that nobody gave reached 0.04 and 1e-25 beside strong effects."""
+WITHIN = 0.9
+"""Share of an event's rows in which another cause acts, from which on it is what that one leaves."""
+
+
+def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> bool:
+    """Tell whether a member looks like what another one leaves, and brings too little for a cause.
+
+    It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
+    on a joint of its own it has to be half as clear as the other. An event does where it happens only while
+    the other acts, and brings less, and beside whatever brings many times as much unless it is far beyond
+    luck.
+
+    Parameters
+    ----------
+    less
+        The hypothesis without the member.
+    """
+    own, own_rise = whole.members[index].cause, rise_by_joint(less, whole)
+    for place, other in enumerate(whole.members):
+        leaves = own.id in other.cause.leaves
+        if place == index or not (leaves or own.event):
+            continue
+        without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
+        if own.event:
+            within = leaves and _acts_within(whole, index, place)
+            least = rise(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
+            if own_rise.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
+                return True
+            continue
+        left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
+        if np.maximum(own_rise - left, 0.0).sum() < CLEAR_SHARE * own_rise.sum():
+            return True
+    return False
+
+
+def keeps_beside(bench: Bench, own: Hypothesis, rival: Candidate, alone: float) -> bool:
+    """Tell whether a candidate keeps its rise beside a hypothesis: then it is no rival."""
+    return bench.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
+
+
+def left_by_last(bench: Bench, own: Hypothesis, rival: Candidate) -> bool:
+    """Tell whether a candidate is an event that the last member leaves, as by its own torque at its limit."""
+    if not rival.cause.event or rival.cause.id not in own.members[-1].cause.leaves:
+        return False
+    both = bench.added(own, rival)
+    return _acts_within(both, len(own.members), len(own.members) - 1)
+
+
+def _far_beyond_luck(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
+    chance = log_p(less, whole, bounded_rise(less, whole, index), index)
+    return bool(chance < np.log(FAR_BEYOND_LUCK))
+
+
+def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
+    """Tell whether one member acts hardly ever but while another does, on the joints of the other."""
+    together = alone = 0
+    for part in whole.fit.joints:
+        acts, other = (part.of(whole.columns_of(one)).any(axis=1) for one in (index, place))
+        if other.any():
+            together += int((acts & other).sum())
+            alone += int((acts & ~other).sum())
+    return together > WITHIN * (together + alone)

@@ -1,0 +1,208 @@
+"""Judge what may join a hypothesis: beyond luck, large enough to matter, and of use on unseen rows.
+
+A scan says which candidates come into question; each of them is fitted with the noise learned anew where it
+acts before it is judged, because noise that was learned without it has learned it.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from core.diagnosis.causes.protocol import Site
+from core.diagnosis.search.confounding import left_over
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.holdout import unseen_rise, unseen_share
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis, Scored
+from core.diagnosis.search.likelihood_ratio import bounded_rise, log_p, merit, rise, weight
+from core.diagnosis.search.lr_bound import foreseen
+from core.diagnosis.search.profile_likelihood import refined
+
+Key = tuple[str, Site]
+GivenUp = Mapping[Key, float]
+"""Kinds that were chosen once, and the rise that brings each back: none (inf) what did not stand out."""
+NOTHING: GivenUp = {}
+Ranked = Sequence[tuple[Scored, float]]
+"""Candidates, and the most that each may bring."""
+
+LEVEL = 1e-4
+"""Chance of naming anything in a log that hides nothing."""
+FURTHER_LEVEL = 1e-7
+"""The same beside another cause: no columns are exact, and what they leave is not luck,"""
+UNCHANGED = 0.9
+"""unless, on a joint of its own, it was as clear, within this share, before any other cause was known."""
+TRIED = 16
+"""Candidates of a scan that are fitted, with the noise learned anew where they act."""
+RAISED, BESIDES = 4.0, 500.0
+"""A candidate may bring so many times what is foreseen of it once it is fitted, and so much besides: more was
+never seen. What cannot be better than one that is clear is fitted only where that one does not hold."""
+FITTED_WHOLE = 4
+"""The best of them, fitted with the noise of all joints learned anew."""
+UNSEEN_SHARE = 0.25
+"""Share of the rise to be expected on held-out rows that has to be seen there,"""
+UNLUCKY = 2.5
+"""unless it is so small that luck, within so many of its deviations, can take it away."""
+EVENT_LEVEL = 1e-6
+"""The same for an event, which is looked for where noise is largest,"""
+RARE = 0.1
+"""and for what acts in less than this share of a joint's rows, as one burst of noise does."""
+LEAST_SHARE = 0.004
+"""Least share of a joint's whitened residual square that a cause has to explain."""
+
+
+def best_addition(
+    bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING, most: int = TRIED, least: float = 0.0
+) -> Hypothesis | None:
+    """Give the hypothesis with the cause that deserves it most, of so many tried; None where none does.
+
+    Parameters
+    ----------
+    least
+        What its criterion has to gain (see `merit`).
+    """
+    excluded = {name for one in now.members for name in one.cause.excludes}
+    taken = {*now.by_key, *(key for key, brings in given_up.items() if brings == np.inf)}
+    scans = [
+        one
+        for one in bench.scanned(now)
+        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
+    ]
+    tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
+    reach = zip(tried, foreseen(bench, now, tried), strict=True)
+    ranked = sorted(((one, RAISED * brings + BESIDES) for one, brings in reach), key=lambda pair: -pair[1])
+    found: Hypothesis | None = None
+    left: Ranked = [(one, most) for one, most in ranked if most > least]
+    while left and found is None:
+        likely, left = _likely(bench, now, left, least, len(scans))
+        found = _first_to_hold(bench, now, likely, given_up, least)
+    return found
+
+
+def _likely(
+    bench: Bench, now: Hypothesis, ranked: Ranked, least: float, kinds: int
+) -> tuple[list[Hypothesis], Ranked]:
+    """Fit candidates, and give those that are clear enough, the best ones first.
+
+    Those that cannot be better than others that were are not fitted, and given besides.
+    """
+    likely: list[Hypothesis] = []
+    left: list[tuple[Scored, float]] = []
+    best = least
+    for one, most in ranked:
+        if most <= best:
+            left.append((one, most))
+            continue
+        trial = with_candidate(bench, now, one)
+        gains = merit(now, trial)
+        if trial.possible and gains > least and _deserves(bench, now, trial, kinds):
+            likely.append(trial)
+            best = best if one.candidate.cause.event else max(best, gains)
+    return sorted(likely, key=lambda trial: -merit(now, trial)), left
+
+
+def _first_to_hold(
+    bench: Bench, now: Hypothesis, likely: Sequence[Hypothesis], given_up: GivenUp, least: float
+) -> Hypothesis | None:
+    """Give the best of some trials that holds on unseen rows and is not what others leave."""
+    # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
+    whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
+    # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
+    ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -merit(now, trial)))
+    deserves = (
+        trial
+        for trial in ranked
+        if trial.possible
+        and merit(now, trial) > least
+        and rise(now, trial) > given_up.get(trial.members[-1].key, 0.0)
+        and holds_unseen(bench, now, trial)
+        and not left_over(bench, trial, len(now.members), now)
+    )
+    return next(deserves, None)
+
+
+def _deserves(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int = -1) -> bool:
+    """Tell whether a member is clear enough to join (the last one unless said otherwise; so below)."""
+    return clear_enough(bench, now, trial, kinds, index=index) or _apart(bench, now, trial, kinds, index)
+
+
+def stays(bench: Bench, without: Hypothesis, now: Hypothesis, index: int) -> bool:
+    """Tell whether nature allows a member, and whether it is clear enough to join the others again."""
+    if not now.allows(index):
+        return False
+    if not without.members:
+        return bool(weight(now, index) > -2.0 * np.log(LEVEL))
+    return _deserves(bench, without, now, bench.kinds, index)
+
+
+def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
+    """Tell whether a member is as clear as a first one has to be, and owes nothing to the others."""
+    member, others = trial.members[index], [set(one.site) for one in now.members]
+    if not others or _at_picked_instants(trial, index):
+        return False
+    if not all(one and one.isdisjoint(member.site) for one in others):
+        return False
+    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL, index):
+        return False
+    none = bench.tried(())
+    alone, beside = rise(none, bench.added(none, member)), rise(now, trial)
+    return min(alone, beside) > UNCHANGED * max(alone, beside)
+
+
+def clear_enough(
+    bench: Bench,
+    now: Hypothesis,
+    trial: Hypothesis,
+    kinds: int,
+    level: float | None = None,
+    index: int = -1,
+) -> bool:
+    """Tell whether a member is beyond luck among so many kinds, and large enough to matter."""
+    if level is None:
+        rare = _at_picked_instants(trial, index)
+        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if rare else LEVEL
+    hurdle = np.log(level) - np.log(max(kinds, 1))
+    chance = log_p(now, trial, bounded_rise(now, trial, index), index)
+    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial.members[index]))
+
+
+def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
+    """Tell whether a member acts now and then only, so that one burst of noise may look like it."""
+    if trial.members[index].cause.event:
+        return True
+    own = trial.columns_of(index)
+    acting = [part.of(own).any(axis=1) for part in trial.fit.joints]
+    return all(float(rows.mean()) < RARE for rows in acting if rows.any())
+
+
+def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
+    """Tell whether a new member helps on held-out rows as far as it acts there.
+
+    An event is judged where it happens: what a fit knows of it from half its span says little of the rest.
+    """
+    if trial.members[-1].cause.event:
+        return True
+    expected = unseen_share(bench, trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
+    luck = 2.0 * float(np.sqrt(max(expected, 1.0)))
+    return unseen_rise(bench, now, trial) >= min(UNSEEN_SHARE * expected, expected - UNLUCKY * luck)
+
+
+def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
+    """Add a candidate with refined scalars, and fit everything anew; how well they are known is left open.
+
+    What was fitted in a member's place to challenge it is not fitted again to weigh it.
+    """
+    kept, place = bench.suspicion.trials.get(now, {}), scored.candidate.place
+    if place not in kept:
+        kept[place] = bench.added(now, refined(bench, now, scored.candidate, on_trial=True))
+    return kept[place]
+
+
+def _share(now: Hypothesis, trial: Hypothesis) -> float:
+    rows = min((len(one.torque) for one in trial.fit.joints if len(one.torque)), default=1)
+    return rise(now, trial) / rows
+
+
+def _least_share(bench: Bench, member: Candidate) -> float:
+    if not member.cause.like_position_noise:
+        return LEAST_SHARE
+    joints = member.site or range(1, bench.look.joints + 1)
+    return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in joints))

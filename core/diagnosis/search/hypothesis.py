@@ -1,0 +1,153 @@
+"""Carry what a diagnosis weighs: candidates, and hypotheses made of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import SquareMatrix, Vector
+from core.diagnosis.causes.protocol import Cause, Scalars, Site, Solved
+from core.diagnosis.regression.gls import OPEN_SHARE, Fit
+from core.diagnosis.regression.score_test import Score
+from core.numerics.chi2_tail import log_chance
+from core.robot.joint_units import slides
+from core.robot.model import RobotModel
+
+Place = tuple[str, Site, tuple[tuple[str, float], ...]]
+"""A cause, its site and its scalars: what columns are kept under."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """Name one cause at one site with settled scalars.
+
+    Attributes
+    ----------
+    trials
+        How many grid points its kind was given: what its p-value is corrected for.
+    deviations, slopes
+        Standard deviations of the scalars, as far as they were refined, and by how much the linear parameters
+        change with them.
+    """
+
+    cause: Cause
+    site: Site
+    scalars: Scalars
+    trials: float
+    deviations: Scalars = field(default_factory=dict)
+    slopes: Mapping[str, Vector] = field(default_factory=dict)
+
+    @property
+    def key(self) -> tuple[str, Site]:
+        """Name the kind: cause and site, whatever the scalars."""
+        return self.cause.id, self.site
+
+    @property
+    def searched(self) -> int:
+        """Count the scalars that were free."""
+        return len(set(self.scalars) - set(self.cause.yielded))
+
+    @cached_property
+    def place(self) -> Place:
+        """Name it with its scalars."""
+        return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
+
+
+@dataclass(frozen=True, eq=False)
+class Scored:
+    """Carry a candidate with the rise of twice the log-likelihood that it brings.
+
+    Attributes
+    ----------
+    log_p
+        Logarithm of its p-value, corrected for its grid.
+    """
+
+    candidate: Candidate
+    statistic: float
+    freedom: int
+    values: Vector
+    clear_share: float
+
+    @cached_property
+    def log_p(self) -> float:
+        """Give log of (trials times the chance of so large a rise by luck)."""
+        return log_chance(self.statistic, self.freedom) + float(np.log(self.candidate.trials))
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """Hold some candidates with the fit of all of them together."""
+
+    members: tuple[Candidate, ...]
+    fit: Fit
+    widths: tuple[int, ...]
+    base: int
+
+    def columns_of(self, index: int) -> slice:
+        """Say where a member's linear parameters stand among the fit's values."""
+        start = self.base + sum(self.widths[:index])
+        return slice(start, start + self.widths[index])
+
+    def freedom(self, index: int) -> int:
+        """Count the directions of a member's linear parameters that the rows tell."""
+        place = self.columns_of(index)
+        scale = self.fit.scale[place]
+        spread = np.linalg.eigvalsh(self.fit.covariance[place, place] * np.outer(scale, scale))
+        return max(int(np.count_nonzero(spread < 1.0 / OPEN_SHARE)), 1)
+
+    def covariance(self, index: int) -> SquareMatrix:
+        """Give the covariance of a member's linear parameters where its scalars are what they are."""
+        place = self.columns_of(index)
+        return np.asarray(self.fit.covariance[place, place])
+
+    def solved(self, index: int) -> Solved:
+        """Give what was found for a member; deviations count what scalars and columns are not exact by."""
+        member, values = self.members[index], self.fit.values[self.columns_of(index)]
+        covariance = self.covariance(index) + np.diag((member.cause.inexact * values) ** 2)
+        for name, slope in member.slopes.items():
+            if np.isfinite(member.deviations[name]):
+                covariance += np.outer(slope, slope) * member.deviations[name] ** 2
+        return Solved(member.site, values, covariance, member.scalars, dict(member.deviations))
+
+    def told(self, index: int, robot: RobotModel) -> Solved:
+        """Give what was found for a member as a reader is told it: in the units of its joint."""
+        found = self.solved(index)
+        return replace(found, slides=bool(found.site) and slides(robot, found.site[0]))
+
+    @property
+    def possible(self) -> bool:
+        """Tell whether nature allows all members."""
+        return all(self.allows(index) for index in range(len(self.members)))
+
+    def allows(self, index: int) -> bool:
+        """Tell whether nature allows one member."""
+        return self.members[index].cause.possible(self.solved(index))
+
+    @property
+    def by_key(self) -> Mapping[tuple[str, Site], int]:
+        """Find members by kind."""
+        return {one.key: index for index, one in enumerate(self.members)}
+
+
+def allowed(candidate: Candidate, judged: Score) -> bool:
+    """Tell whether nature allows what a score says of a candidate."""
+    solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
+    return candidate.cause.possible(solved)
+
+
+def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Scored]:
+    """Give the best scalars of each kind, the least likely by luck first."""
+    kinds: dict[object, list[int]] = {}
+    for place, one in enumerate(asked):
+        kinds.setdefault(one.key, []).append(place)
+    best = []
+    for places in kinds.values():
+        ranked = sorted(places, key=lambda place: -found[place].statistic)
+        likeliest = next((place for place in ranked if allowed(asked[place], found[place])), ranked[0])
+        judged = found[likeliest]
+        best.append(
+            Scored(asked[likeliest], judged.statistic, judged.freedom, judged.values, judged.clear_share)
+        )
+    return sorted(best, key=lambda one: one.log_p)

@@ -1,0 +1,205 @@
+"""Settle a candidate's scalars between its grid points, and tell how well they are known.
+
+One scalar after the other is searched on top of a hypothesis, at its noise, all linear parameters following:
+variable projection. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from scipy.optimize import root_scalar
+
+from core.arrays import Vector
+from core.diagnosis.regression.score_test import Score
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.grid import between, neighbours
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis, allowed
+from core.numerics.chi2_tail import log_chance
+
+YIELDINGS = 4
+"""Steps by the secant towards columns that yield the size which they are built for,"""
+SAME_SIZE = 0.01
+"""within this share of it."""
+LIKELY, APART = 12, 0.2
+"""Instants at which a cause may begin to act that are looked at closely, so many seconds apart at least."""
+AROUND = np.linspace(-1.0, 1.0, 21)
+"""From a settled instant to others that are asked how likely they are, s."""
+NEARLY = 1.96
+"""Deviations of a scalar within which 95 % of its values lie."""
+
+
+def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False) -> Candidate:
+    """Settle a candidate's scalars between its grid points, on top of a hypothesis.
+
+    Parameters
+    ----------
+    on_trial
+        Whether it is enough to know what they are, and not how well they are known.
+    """
+    for name in candidate.scalars:
+        if name in candidate.cause.yielded:
+            candidate = _yielding(bench, under, candidate, name)
+        elif name not in candidate.cause.unrefined:
+            candidate, seen = _refined(bench, under, candidate, name)
+            if not on_trial:
+                candidate = _told(bench, under, candidate, name, seen)
+    return candidate
+
+
+def told(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
+    """Tell how well a candidate's scalars are known where they are, on top of a hypothesis."""
+    for name, here in candidate.scalars.items():
+        if name not in (*candidate.cause.yielded, *candidate.cause.unrefined):
+            points, _ = _grid(bench, candidate, name)
+            trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
+            found = bench.scored(under, trials)
+            seen = {trial.scalars[name]: one.statistic for trial, one in zip(trials, found, strict=True)}
+            candidate = _told(bench, under, candidate, name, seen)
+    return candidate
+
+
+def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+    """Build the columns where they yield the size that they are built for."""
+
+    @cache
+    def off(size: float) -> float:
+        (found,) = bench.scored(under, [_at(candidate, name, size)])
+        return float(found.values[0]) - size
+
+    here = candidate.scalars[name]
+    there = here + off(here)
+    if there == here:
+        return candidate
+    found = root_scalar(off, x0=here, x1=there, method="secant", rtol=SAME_SIZE, maxiter=YIELDINGS)
+    return _at(candidate, name, float(found.root))
+
+
+def _refined(
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str
+) -> tuple[Candidate, Mapping[float, float]]:
+    """Settle one scalar, and give the statistics of all values that were tried."""
+    points, ends = _grid(bench, candidate, name)
+    if name in candidate.cause.onset:
+        candidate = _begun(bench, under, candidate, name)
+    here = candidate.scalars[name]
+    low, high = np.clip(neighbours(points, here), *ends)
+    if name in candidate.cause.onset and here not in points:
+        low, high = here - _row(bench), here + _row(bench)
+    seen: dict[float, float] = {}
+    for _ in range(2):
+        values = between(low, high)
+        trials = [_at(candidate, name, value) for value in (*values, here)]
+        found = bench.scored(under, trials)
+        ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
+        best = ranks.index(max(ranks))
+        here = trials[best].scalars[name]
+        seen |= {trial.scalars[name]: rank[1] for trial, rank in zip(trials, ranks, strict=True)}
+        low, high = neighbours(sorted({*values, here}), here)
+    return _at(candidate, name, here), seen
+
+
+def _begun(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+    """Let a candidate that is not there by luck begin to act at the likeliest row of all.
+
+    The likelihood of an instant has narrow peaks: under noise that remembers for long a step shows where it
+    is, and hardly later. No grid that is scanned with all else is as fine.
+    """
+    (alone,) = bench.scored(under, [candidate])
+    if log_chance(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
+        return candidate
+    time, rows = bench.look.time, np.arange(1, len(bench.look.time))
+    throughout, some = _at(candidate, name, -np.inf), candidate.cause.onset[name]
+    worth = np.array([one.statistic for one in bench.scored_from(under, throughout, some, rows)])
+    peaks: list[int] = []
+    for place in np.argsort(-worth, kind="stable"):
+        if len(peaks) < LIKELY and all(abs(time[rows[place]] - time[rows[one]]) > APART for one in peaks):
+            peaks.append(int(place))
+    trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
+    found = bench.scored(under, trials)
+    ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
+    return trials[ranks.index(max(ranks))]
+
+
+def _row(bench: Bench) -> float:
+    """Give the time from row to row, s."""
+    return float(np.median(np.diff(bench.look.time)))
+
+
+def _told(
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, seen: Mapping[float, float]
+) -> Candidate:
+    """Tell how well a settled scalar is known, from what other values are worth."""
+    here = candidate.scalars[name]
+    deviation, slope = _spread(bench, under, candidate, name, neighbours(sorted(seen), here))
+    if name in candidate.cause.onset:
+        seen = {**seen, **_farther(bench, under, candidate, name)}
+    return replace(
+        candidate,
+        deviations={**candidate.deviations, name: max(deviation, _reach(seen, here))},
+        slopes={**candidate.slopes, name: slope},
+    )
+
+
+def _farther(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> dict[float, float]:
+    """Give what a settled instant and others before and after it are worth."""
+    values = (candidate.scalars[name] + AROUND).tolist()
+    found = bench.scored(under, [_at(candidate, name, value) for value in values])
+    return {value: one.statistic for value, one in zip(values, found, strict=True)}
+
+
+def _grid(bench: Bench, candidate: Candidate, name: str) -> tuple[list[float], tuple[float, float]]:
+    """Give the points that a scalar was scanned at, and its ends, one step beyond them.
+
+    What is settled again and again may not wander off.
+    """
+    here = candidate.scalars[name]
+    # What is believed may have changed since it was chosen, and the grid with it.
+    scanned = [one.scalars.get(name, here) for one in bench.suspicion.of(candidate.cause, candidate.site)]
+    points = sorted({*scanned} or {here})
+    return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
+
+
+def _spread(
+    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, around: tuple[float, float]
+) -> tuple[float, Vector]:
+    """Read a scalar's deviation off the curvature of the profile likelihood, and the values' slope."""
+    here = candidate.scalars[name]
+    step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
+    low, middle, high = _beside(bench, under, candidate, name, step)
+    for _ in range(7):
+        if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
+            break
+        wider = _beside(bench, under, candidate, name, 2.0 * step)
+        if min(one.clear_share for one in wider) <= 0.0:
+            break
+        step, (low, middle, high) = 2.0 * step, wider
+    slope = (high.values - low.values) / (2.0 * step)
+    drop = _drop(low, middle, high)
+    if drop <= 0.0:
+        return float("inf"), np.zeros_like(slope)
+    return float(step / np.sqrt(drop)), slope
+
+
+def _beside(bench: Bench, under: Hypothesis, candidate: Candidate, name: str, step: float) -> list[Score]:
+    here = candidate.scalars[name]
+    return bench.scored(under, [_at(candidate, name, here + shift) for shift in (-step, 0.0, step)])
+
+
+def _at(candidate: Candidate, name: str, value: float) -> Candidate:
+    return replace(candidate, scalars={**candidate.scalars, name: value})
+
+
+def _reach(seen: Mapping[float, float], here: float) -> float:
+    """Give the deviation that the farthest of the values which are nearly as likely stands for.
+
+    The likelihood of an instant has edges, and no curvature that tells how well it is known.
+    """
+    best = max(seen.values())
+    likely = [abs(value - here) for value, statistic in seen.items() if best - statistic < NEARLY**2]
+    return max(likely) / NEARLY
+
+
+def _drop(low: Score, middle: Score, high: Score) -> float:
+    return middle.statistic - 0.5 * (low.statistic + high.statistic)

@@ -1,0 +1,181 @@
+"""Choose the causes: forward, with backward elimination and swaps, each step judged under its own noise.
+
+Greedy order is the weak point of forward selection, because the first cause chosen may stand in for two
+others; so after every step each chosen cause has to defend its place against being dropped and against every
+rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
+"""
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.diagnosis.search.confounding import BESIDE_SHARE, left_over
+from core.diagnosis.search.entry_test import Key, best_addition, clear_enough, stays, with_candidate
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from core.diagnosis.search.joint_refinement import settled
+from core.diagnosis.search.likelihood_ratio import merit, rise
+
+Keys = frozenset[Key]
+"""The kinds of a hypothesis's members."""
+RIVALS, BETTER = 6, 6.0
+"""Candidates fitted where one is to take a member's place, and by how much its criterion has to be better."""
+MOST = 5
+"""Causes looked for at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Record one decision of the search, for the report."""
+
+    action: str
+    candidate: Candidate
+    statistic: float
+
+
+@dataclass(frozen=True, eq=False)
+class Selection:
+    """Hold the hypothesis that was settled on, the empty one, and the way there.
+
+    Attributes
+    ----------
+    steps, through
+        What was decided on the way, and the sets of causes that it came through.
+    """
+
+    none: Hypothesis
+    chosen: Hypothesis
+    steps: tuple[Step, ...]
+    through: frozenset[Keys] = frozenset()
+
+
+def select(
+    bench: Bench, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
+) -> Selection:
+    """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
+    return continued(bench, _begun(bench, start), {}, progress)
+
+
+def confirmed(
+    bench: Bench, found: Selection, progress: Callable[[float], None] | None = None
+) -> Selection | None:
+    """Search on from what was found under another noise; None where not all of that holds its place."""
+    if not found.chosen.members:
+        return None
+    begun, kept = _begun(bench, found.chosen.members), frozenset(found.chosen.by_key)
+    if _challenged(bench, begun.chosen, [], {}) is not None:
+        return None
+    begun = replace(begun, steps=(*found.steps, *begun.steps), through=frozenset({kept}))
+    more = continued(bench, begun, {}, progress)
+    return more if kept <= more.chosen.by_key.keys() else None
+
+
+def continued(
+    bench: Bench,
+    so_far: Selection,
+    given_up: dict[Key, float],
+    progress: Callable[[float], None] | None = None,
+    *,
+    known: Collection[Keys] = (),
+) -> Selection:
+    """Search for more causes than those found so far, until no more are found.
+
+    Parameters
+    ----------
+    known
+        Sets of causes from which another search went on: one that comes to them would go the same way.
+    """
+    now, steps, through = so_far.chosen, list(so_far.steps), set(so_far.through)
+    for number in range(len(now.members), MOST):
+        if progress is not None:
+            progress(number / MOST)
+        better = best_addition(bench, now, given_up)
+        if better is None:
+            break
+        steps.append(Step("added", better.members[-1], rise(now, better)))
+        larger = settled(bench, better)
+        if now.members and now.possible and not larger.possible:
+            # Beside it nature would not allow what was found before.
+            steps.append(Step("dropped", better.members[-1], rise(now, better)))
+            given_up[better.members[-1].key] = np.inf
+            bench.believe(now)
+            continue
+        for now in _defended(bench, larger, steps, given_up):
+            through.add(frozenset(now.by_key))
+            if frozenset(now.by_key) in known:
+                return Selection(so_far.none, now, tuple(steps), frozenset(through))
+    return Selection(so_far.none, now, tuple(steps), frozenset(through))
+
+
+def _begun(bench: Bench, start: Sequence[Candidate]) -> Selection:
+    """Begin a search with causes that are known; with none, from the standard model."""
+    none = bench.tried(())
+    bench.believe(none)
+    now = settled(bench, bench.tried(tuple(start))) if start else none
+    return Selection(none, now, tuple(Step("kept", one, 0.0) for one in start))
+
+
+def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
+    """Give a hypothesis with one cause of the whole robot besides; None where it is not clear enough."""
+    scans = bench.scanned(now, bench.suspicion.of_kind((cause, ())))
+    trials = [with_candidate(bench, now, one) for one in scans]
+    clear = (one for one in trials if one.possible and clear_enough(bench, now, one, bench.kinds))
+    first = next(clear, None)
+    return None if first is None else settled(bench, first)
+
+
+def _defended(
+    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
+) -> Iterator[Hypothesis]:
+    """Let every member defend its place against being dropped and against its rivals; give what that leaves.
+
+    Two causes can each look better than the other where the other is believed: a swap that leads back to
+    what was settled before ends the matter.
+    """
+    yield now
+    settled_before = [now.by_key.keys()]
+    for _ in range(2 * MOST):
+        changed = _challenged(bench, now, steps, given_up)
+        if changed is None:
+            return
+        if len(changed.members) == len(now.members):
+            # What was swapped out is not believed any more, even where the new one is left alone.
+            bench.believe(bench.tried(changed.members[:-1], changed))
+            now = settled(bench, changed)
+        else:
+            bench.believe(changed)
+            now = bench.tried(changed.members, changed)
+        yield now
+        if now.by_key.keys() in settled_before:
+            return
+        settled_before.append(now.by_key.keys())
+
+
+def _challenged(
+    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
+) -> Hypothesis | None:
+    less = bench.less(now)
+    brings = [rise(without, now) for without in less]
+    weak = [
+        index
+        for index, without in enumerate(less)
+        if not stays(bench, without, now, index) or left_over(bench, now, index, without)
+    ]
+    if weak:
+        least = min(weak, key=lambda index: brings[index])
+        steps.append(Step("dropped", now.members[least], brings[least]))
+        given_up[now.members[least].key] = np.inf
+        return less[least]
+    for index, member in enumerate(now.members):
+        closed = {**given_up, member.key: np.inf}
+        if not member.cause.event:
+            # What acts at picked instants only does not take the place of what acts all the time.
+            closed |= {one.key: np.inf for one in bench.candidates if one.cause.event}
+        hurdle = merit(less[index], now, index) + BETTER
+        rival = best_addition(bench, less[index], closed, RIVALS, hurdle)
+        if rival is not None:
+            steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
+            given_up[member.key] = BESIDE_SHARE * brings[index]
+            return rival
+    return None

@@ -1,0 +1,162 @@
+"""Compose the result document of a diagnosis: the identification's, what it gets wrong, why, and the cure.
+
+Names are those that clients are written against; fields may be added, never renamed. What a figure needs is
+in the document, so that a report can be drawn from it alone, at any time.
+"""
+
+from typing import cast
+
+from core.diagnosis.diagnose import UNEXPLAINED_SHARE
+from core.document.finding import finding_row, not_identifiable_row
+from core.document.identification import base_parameter_rows, held_out_spans, identification_document
+from core.document.identified import BaseValue, IdentifiedRobot
+from core.document.model_file import model_document
+from core.document.numbers import plain
+from core.document.remainder import dependence_rows, spectrum_rows, unexplained
+from core.document.repairs import repaired_description
+from core.extension.gain import JointGain
+from core.extension.motion_gain import motion_intervals
+from core.extension.repair import repairs
+from core.extension.result import Diagnosed
+from core.identification.against_reference import Compared
+from core.identification.result import Identification
+from core.simulation.multistep import Comparison, MultiStep
+
+
+def diagnosis_document(found: Diagnosed, *, version: str, options: object) -> dict[str, object]:
+    """Compose the document; what is said of the robot in it is of the model as it was before the cure."""
+    document = identification_document(found.before, version=version, options=options)
+    doubted = {"doubts": [*cast("list[str]", document["doubts"]), *_doubts(found.compared)]}
+    return document | doubted | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}
+
+
+def _diagnosis(found: Diagnosed) -> dict[str, object]:
+    diagnosis = found.diagnosis
+    listed = repairs(diagnosis)
+    return {
+        "verdict": diagnosis.verdict,
+        "findings": [finding_row(one) for one in diagnosis.findings],
+        "not_identifiable": [not_identifiable_row(one) for one in diagnosis.not_identifiable],
+        "unexplained": unexplained(diagnosis, least=UNEXPLAINED_SHARE),
+        "reference": None if found.compared is None else _reference(found.compared, found.before),
+        "gain": [_gain(one) for one in found.gains],
+        "before": _side(found.before if found.compared is None else found.compared),
+        "after": {"validation": [], "base_parameters": []}
+        if found.after is None
+        else _side(found.after) | _extended(found.before, found.after),
+        "repairs": listed,
+        "repaired_robot": repaired_description(diagnosis.look.robot, listed),
+        "simulation": _simulation(found.motion, found.motion_note),
+        "atlas": dependence_rows(diagnosis.atlas),
+        "spectra": spectrum_rows(diagnosis.atlas),
+        "search": [
+            {
+                "action": step.action,
+                "cause": step.candidate.cause.id,
+                "joints": step.candidate.site,
+                "statistic": step.statistic,
+            }
+            for step in diagnosis.selection.steps
+        ],
+        "band_hz": diagnosis.look.band_hz,
+        "held_out": held_out_spans(found.before, diagnosis.look.held_out_blocks),
+    }
+
+
+def _gain(gain: JointGain) -> dict[str, object]:
+    return {
+        "joint": gain.joint,
+        "rms_residual_before": gain.rms_before,
+        "rms_residual_after": gain.rms_after,
+        "improvement_percent": gain.improvement_percent,
+        "interval_95": gain.interval_95,
+        "held_out": True,
+    }
+
+
+def _reference(compared: Compared, found: Identification) -> dict[str, object]:
+    """Say what the logs were compared with, and where it and what was identified anew disagree."""
+    return {
+        "name": compared.reference.name,
+        "left_open": compared.reference.left_open,
+        "worse_than_nothing": compared.worse_than_nothing,
+        "base_parameters": [
+            {"name": name, "reference": old, "identified": new}
+            for name, old, new in zip(found.base.names, compared.base, found.estimate.base, strict=True)
+        ],
+    }
+
+
+def _doubts(compared: Compared | None) -> list[str]:
+    if compared is None or not compared.worse_than_nothing:
+        return []
+    joints = ", ".join(map(str, compared.worse_than_nothing))
+    sentence = (
+        f"The reference misses the torque of joint {joints} by more than there is of it: it may be another "
+        "robot's, or in other units or signs"
+    )
+    return [sentence]
+
+
+def _side(found: Identification | Compared) -> dict[str, object]:
+    return {
+        "fit": found.fit,
+        "fit_total_percent": found.fit_total_percent,
+        "validation": found.validation,
+        "validation_total_percent": found.validation_total_percent if found.validation else None,
+    }
+
+
+def _extended(before: Identification, after: Identification) -> dict[str, object]:
+    old = set(before.base.names)
+    solution = after.estimate.solution
+    return {
+        "base_parameters": [row | {"new": row["name"] not in old} for row in base_parameter_rows(after)],
+        "feasible": after.feasible,
+        "solver": {
+            "status": "optimal" if solution is None else solution.status,
+            "objective": after.estimate.objective,
+            "objective_ols": after.estimate.objective_unconstrained,
+        },
+        "model": model_document(_identified(after)),
+    }
+
+
+def _identified(found: Identification) -> IdentifiedRobot:
+    """Give what was identified as files want it."""
+    base = found.base
+    rows = range(len(base.kept))
+    return IdentifiedRobot(
+        model=base.model,
+        standard=found.estimate.standard,
+        identifiable=tuple(base.identifiability(column) for column in range(len(base.model.parameters))),
+        base=tuple(
+            BaseValue(base.names[row], base.parameter(row).unit, float(value), base.in_words(row))
+            for row, value in zip(rows, found.estimate.base, strict=True)
+        ),
+    )
+
+
+def _simulation(motion: Comparison | None, note: str) -> dict[str, object]:
+    if motion is None:
+        return {"before": {}, "after": {}, "note": note}
+    return {
+        "held_out": True,
+        "note": note,
+        "before": _moved(motion.before),
+        "after": _moved(motion.after),
+        "improvement_percent": motion.gain_percent,
+        "improvement_total_percent": motion.total_gain_percent,
+        "interval_95": motion_intervals(motion),
+    }
+
+
+def _moved(found: MultiStep) -> dict[str, object]:
+    """Tabulate errors by horizon (rows) and joint (columns); `steady_rms` is that of keeping the velocity."""
+    return {
+        "horizons_s": found.horizons,
+        "windows": len(found.keys),
+        "position_rms": found.position_rms,
+        "velocity_rms": found.velocity_rms,
+        "steady_rms": found.still_rms,
+    }

@@ -1,0 +1,111 @@
+"""Write a finding as rows of the result document: every number with its unit and how well it is known."""
+
+from core.diagnosis.causes.protocol import Quantity, Site
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.result import Curve, Finding, Gain, NotIdentifiable, Rival
+
+
+def finding_row(finding: Finding) -> dict[str, object]:
+    """Write one finding."""
+    return {
+        "cause": finding.cause,
+        "title": finding.title,
+        "joints": finding.joints,
+        "statement": finding.statement,
+        "confidence": finding.confidence,
+        "p_value": finding.p_value,
+        "cure": finding.cure,
+        "parameters": [_quantity(one) for one in finding.quantities],
+        "explained_residual_fraction": finding.explained_fraction,
+        "evidence": finding.evidence,
+        "ambiguous_with": [_rival(one) for one in finding.ambiguous_with],
+        "refuted": [_rival(one) for one in finding.refuted if _meets(one, finding)],
+        "gain": None if finding.gain is None else _gain(finding.gain),
+        "curve": None if finding.curve is None else _curve(finding.curve),
+    }
+
+
+def not_identifiable_row(one: NotIdentifiable) -> dict[str, object]:
+    """Write a cause that the motion could not have shown."""
+    return {
+        "cause": one.cause,
+        "title": title_of(one.cause),
+        "joints": one.joints,
+        "why": one.why,
+        "separating_experiment": one.separating_experiment,
+    }
+
+
+def title_of(cause: str) -> str:
+    """Say in words what a cause is.
+
+    Examples
+    --------
+    >>> title_of("torque_ripple")
+    'The torque ripples along the angle'
+    """
+    return BY_ID[cause].title if cause in BY_ID else cause
+
+
+def percent_of(deviation: float, value: float) -> float | None:
+    """Give a standard deviation in percent of a value; None where the value is zero.
+
+    Examples
+    --------
+    >>> percent_of(0.5, -10.0), percent_of(0.5, 0.0)
+    (5.0, None)
+    """
+    return 100.0 * deviation / abs(value) if value else None
+
+
+def _meets(rival: Rival, finding: Finding) -> bool:
+    """Tell whether a rival could explain the same trace: what acts on other joints only is no rival."""
+    return not rival.joints or bool(set(rival.joints) & set(finding.joints))
+
+
+def _quantity(one: Quantity) -> dict[str, object]:
+    return {
+        "name": one.name,
+        "joint": one.joint,
+        "unit": one.unit,
+        "value": one.value,
+        "standard_deviation": one.standard_deviation,
+        "relative_deviation_percent": percent_of(one.standard_deviation, one.value),
+    }
+
+
+def _rival(one: Rival) -> dict[str, object]:
+    joints: Site = one.joints
+    return {
+        "cause": one.cause,
+        "title": title_of(one.cause),
+        "joints": joints,
+        "statistic": one.statistic,
+        "why": one.why,
+        "separating_experiment": one.separating_experiment,
+    }
+
+
+def _gain(gain: Gain) -> dict[str, object]:
+    return {
+        "rms_residual_before": gain.before,
+        "rms_residual_after": gain.after,
+        "held_out": True,
+        "improvement_percent": gain.improvement_percent,
+        "improvement_total_percent": gain.total_percent,
+        "interval_95": gain.interval_95,
+    }
+
+
+def _curve(curve: Curve) -> dict[str, object]:
+    return {
+        "coordinate": curve.coordinate,
+        "unit": curve.unit,
+        "joint": curve.joint,
+        "centre": curve.centre,
+        "before": curve.before,
+        "after": curve.after,
+        "model": curve.model,
+        "standard_error": curve.standard_error,
+        "direction": curve.direction,
+    }

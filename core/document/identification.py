@@ -1,0 +1,201 @@
+"""Compose the result document of an identification, with the names that clients are written against.
+
+Fields may be added, never renamed. Every estimated number stands beside its unit and its uncertainty.
+"""
+
+from collections.abc import Collection
+
+import numpy as np
+
+from core.arrays import BlockKey
+from core.document.bodies import body_rows
+from core.document.numbers import plain
+from core.document.reference import written_factor
+from core.identification.doubts import doubts
+from core.identification.result import Identification
+from core.log.model import JointLog
+from core.precision.bootstrap import intervals
+from core.precision.covariance import INTERVAL_95, relative_deviation_percent
+from core.reduction.base import BaseModel
+from core.regressor.observe import Observation
+from core.robot.writing import to_description
+from core.signals.condition import Motion
+
+SCHEMA_VERSION = "1.0"
+
+
+def identification_document(found: Identification, *, version: str, options: object) -> dict[str, object]:
+    """Compose the document."""
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "kind": "identify",
+        "robot": to_description(found.base.model.robot),
+        "logs": [_log(log, motion) for log, motion in zip(found.logs, found.motions, strict=True)],
+        "provenance": {
+            "version": version,
+            "log_sha256": [log.sha256 for log in found.logs],
+            "options": options,
+        },
+        "counts": {
+            "standard": len(found.base.model.parameters),
+            "base": len(found.base.kept),
+            "essential": len(found.essential.kept),
+        },
+        "base_parameters": base_parameter_rows(found),
+        "standard_parameters": _standard_parameters(found),
+        "bodies": body_rows(found.base.model, found.estimate.standard),
+        "feasibility": _feasibility(found),
+        "solver": _solver(found),
+        "fit": found.fit,
+        "fit_total_percent": found.fit_total_percent,
+        "validation": found.validation,
+        "validation_total_percent": found.validation_total_percent if found.validation else None,
+        "held_out": held_out_spans(found, found.held_out),
+        "condition_number": found.excitation.condition_number,
+        "condition_number_scaled": found.excitation.condition_number_scaled,
+        "precision": _precision(found),
+        "essential_path": _path(found),
+        "coulomb_smoothing_widths": found.widths,
+        "defects": [
+            {"log": number, **vars(defect)}
+            for number, log in enumerate(found.logs, start=1)
+            for defect in log.defects
+        ],
+        "doubts": doubts(found),
+        "diagnosis": None,
+    }
+    return {key: plain(value) for key, value in document.items()}
+
+
+def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
+    """Tabulate the base parameters in the order of Khalil's tables."""
+    estimate = found.estimate
+    deviation = found.precision.standard_deviation
+    percent = relative_deviation_percent(estimate.base, deviation)
+    essential = set(found.essential.kept.tolist())
+    drawn = intervals(found.draws) if len(found.draws) else None
+    return [
+        {
+            **_named(found.base, row),
+            "value": estimate.base[row],
+            "value_ols": estimate.unconstrained[row],
+            "standard_deviation": deviation[row],
+            "relative_deviation_percent": percent[row],
+            "interval_95": estimate.base[row] + INTERVAL_95 * np.array([-1.0, 1.0]) * deviation[row],
+            "bootstrap_interval_95": None if drawn is None else drawn[row],
+            "own_share": found.excitation.own_share[row],
+            "essential": row in essential,
+            **_grouped(found.base, row),
+        }
+        for row in range(len(found.base.kept))
+    ]
+
+
+def grouping_row(base: BaseModel, row: int) -> dict[str, object]:
+    """Name a base parameter, and say in words and as data what is grouped in it."""
+    return {**_named(base, row), **_grouped(base, row)}
+
+
+def _named(base: BaseModel, row: int) -> dict[str, object]:
+    parameter = base.parameter(row)
+    return {"name": base.names[row], "unit": parameter.unit, "joint": parameter.joint}
+
+
+def _grouped(base: BaseModel, row: int) -> dict[str, object]:
+    return {"grouping": base.in_words(row), "relation": base.relation(row)}
+
+
+def _standard_parameters(found: Identification) -> list[dict[str, object]]:
+    return [
+        {
+            "name": parameter.name,
+            "joint": parameter.joint,
+            "unit": parameter.unit,
+            "value": found.estimate.standard[column],
+            "identifiable": found.base.identifiability(column),
+        }
+        for column, parameter in enumerate(found.base.model.parameters)
+    ]
+
+
+def _feasibility(found: Identification) -> dict[str, object]:
+    return {
+        "feasible": found.feasible,
+        "margin": found.estimate_feasibility.margin,
+        "ols_feasible": found.unconstrained_feasibility.feasible,
+        "ols_margin": found.unconstrained_feasibility.margin,
+        "pseudo_inertia_min_eigenvalue": found.pseudo_inertia_eigenvalues,
+        "active_constraints": found.active_constraints,
+        "mass_matrix_min_eigenvalue": {
+            "trajectory": found.trajectory.min_eigenvalue,
+            "trajectory_configurations": found.trajectory.configurations,
+            "workspace": found.workspace.min_eigenvalue,
+            "configurations": found.workspace.configurations,
+        },
+        "prior": found.estimate.prior.source,
+    }
+
+
+def _solver(found: Identification) -> dict[str, object]:
+    solution = found.estimate.solution
+    return {
+        "status": "optimal" if solution is None else solution.status,
+        "iterations": 0 if solution is None else solution.iterations,
+        "solver": "qr" if solution is None else solution.solver,
+        "objective": found.estimate.objective,
+        "objective_ols": found.estimate.objective_unconstrained,
+    }
+
+
+def held_out_spans(found: Identification, keys: Collection[BlockKey]) -> list[dict[str, object]]:
+    """List the spans of the logs that no fit has seen."""
+    return [
+        {"log": block.log + 1, "begin_s": block.start, "end_s": block.end}
+        for block in found.observation.blocks
+        if (block.log, block.number) in keys
+    ]
+
+
+def _precision(found: Identification) -> dict[str, object]:
+    system = found.estimate.system
+    return {
+        "equations": system.rows,
+        "noise": system.noise,
+        "memory_factor": found.precision.memory_factor,
+        "information_factor": written_factor(found.precision.root),
+        "left_out_percent": 100.0 * (1.0 - _used(found.observation)),
+        "bootstrap_draws": len(found.draws),
+        "bootstrap_seed": found.seed,
+    }
+
+
+def _used(observation: Observation) -> float:
+    rows = sum(factor.rows for factor in observation.joint_factors())
+    return rows / max(observation.kept * len(observation.columns_of), 1)
+
+
+def _path(found: Identification) -> list[dict[str, object]]:
+    return [
+        {"name": found.base.names[step.parameter], "ratio": step.ratio, "objective": step.cost}
+        for step in found.essential.path
+    ]
+
+
+def _log(log: JointLog, motion: Motion) -> dict[str, object]:
+    recipe = motion.recipe
+    return {
+        "name": log.name,
+        "samples": log.samples,
+        "duration_s": log.duration,
+        "rate_hz": log.rate_hz,
+        "ignored_columns": log.ignored_columns,
+        "filter": {
+            "median_order": recipe.median_order,
+            "position_cutoff_hz": recipe.position_cutoff_hz,
+            "cutoff_hz": recipe.cutoff_hz,
+            "order": recipe.order,
+            "decimation": recipe.decimation,
+            "motion_band_hz": recipe.motion_band_hz,
+            "reason": recipe.reason,
+        },
+    }

@@ -1,0 +1,176 @@
+"""Read a result document as the robot that was identified: the whole model, or what every format can hold."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from core.document.identified import BaseValue, IdentifiedRobot
+from core.document.model_file import model_from_document
+from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
+from core.dynamics.terms.coulomb import Coulomb
+from core.dynamics.terms.coupling import GearCoupling
+from core.dynamics.terms.missing_coupling import MissingCoupling
+from core.dynamics.terms.missing_rotor import MissingRotor
+from core.extension.fold import folded
+from core.robot.description import robot_from_description
+from core.robot.frames import nearest_rotation
+from core.robot.model import Coupling, RobotModel
+
+Document = Mapping[str, Any]
+
+ESSENTIAL = (
+    "The identification let essential base parameters alone explain torque: where the representative gives "
+    "another base parameter a value, that value is the prior's."
+)
+
+
+def identified_model(document: Document) -> IdentifiedRobot:
+    """Give the whole model of a result: after a diagnosis the extended one, with all its terms.
+
+    Raises
+    ------
+    RobotError
+        If the document's robot or model cannot be used.
+    """
+    extended = _extended(document)
+    return _standing(document) if extended is None else extended
+
+
+def identified_robot(document: Document) -> IdentifiedRobot:
+    """Give what every format can hold: bodies, rotors, friction, offsets and couplings.
+
+    After a diagnosis these are the extended model's, on the robot with its repairs; what only the extended
+    model has is named in the remarks.
+
+    Raises
+    ------
+    RobotError
+        If the document's robot or model cannot be used.
+    """
+    extended = _extended(document)
+    if extended is None:
+        return _standing(document)
+    diagnosis = document["diagnosis"]
+    repaired = diagnosis.get("repaired_robot") or document["robot"]
+    mended = [one for one in diagnosis.get("repairs", ()) if one["mends"] == "robot"]
+    remarks = [f"The description was repaired, {one['cause']}: {one['what']}." for one in mended]
+    return _standard_part(extended, _robot(repaired), {one["cause"] for one in mended}, remarks)
+
+
+def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
+    """Build the model that a result was identified with, before any cure: the terms that have numbers."""
+    listed = {row["name"] for row in document["standard_parameters"]}
+    every = standard_model(robot)
+    names = [
+        term.name
+        for term in every.terms
+        if term.parameters(robot) and all(one.name in listed for one in term.parameters(robot))
+    ]
+    return _smoothed(standard_model(robot, tuple(names)), document["coulomb_smoothing_widths"])
+
+
+def _standing(document: Document) -> IdentifiedRobot:
+    """Give the model as it was identified, before any cure."""
+    model = model_of_result(document, _robot(document["robot"]))
+    rows = {row["name"]: row for row in document["standard_parameters"]}
+    own = [rows[parameter.name] for parameter in model.parameters]
+    essential = document["provenance"]["options"].get("essential")
+    return IdentifiedRobot(
+        model=model,
+        standard=np.array([float(row["value"]) for row in own]),
+        identifiable=tuple(row["identifiable"] for row in own),
+        base=tuple(
+            BaseValue(row["name"], row["unit"], row["value"], row["grouping"])
+            for row in document["base_parameters"]
+        ),
+        remarks=(ESSENTIAL,) if essential else (),
+    )
+
+
+def _extended(document: Document) -> IdentifiedRobot | None:
+    """Read the model that a diagnosis extended; None where nothing joined it."""
+    diagnosis = document.get("diagnosis") or {}
+    written = diagnosis.get("after", {}).get("model")
+    if written is None:
+        return None
+    extended = model_from_document(written)
+    model = replace(extended.model, robot=_squared(extended.robot))
+    return replace(extended, model=model)
+
+
+def _robot(description: object) -> RobotModel:
+    return _squared(robot_from_description(description))
+
+
+def _squared(robot: RobotModel) -> RobotModel:
+    """Make rotations of matrices that a document holds with ten digits: files hold exact angles."""
+    links = tuple(
+        link if link.row is not None else replace(link, rotation=nearest_rotation(link.rotation))
+        for link in robot.links
+    )
+    return replace(robot, links=links)
+
+
+def _standard_part(
+    extended: IdentifiedRobot, robot: RobotModel, repaired: set[str], remarks: list[str]
+) -> IdentifiedRobot:
+    """Take the standard terms out of an extended model, with what belongs into their parameters."""
+    model, standard = folded(extended.model, extended.standard)
+    known = dict(zip((one.name for one in extended.model.parameters), extended.identifiable, strict=True))
+    values: dict[str, float] = {}
+    widths: tuple[float, ...] = ()
+    couplings = list(robot.couplings)
+    beyond: list[str] = []
+    for term, own in model.split(standard):
+        if isinstance(term, (*STANDARD_TERMS.values(), MissingRotor, MissingCoupling)):
+            names = (parameter.name for parameter in term.parameters(model.robot))
+            values |= dict(zip(names, map(float, own), strict=True))
+            widths = getattr(term, "widths", ()) if isinstance(term, Coulomb) else widths
+            couplings += _undeclared(term, couplings)
+        elif getattr(term, "kind", "") not in repaired:
+            beyond.append(term.name)
+    whole = _declaring(robot, values, tuple(couplings))
+    names_of_terms = tuple(
+        term.name
+        for term in standard_model(whole).terms
+        if any(parameter.name in values for parameter in term.parameters(whole))
+    )
+    held = _smoothed(standard_model(whole, names_of_terms), widths)
+    if beyond:
+        remarks = [*remarks, f"The extended model also has {', '.join(beyond)}; model.json holds these too."]
+    return IdentifiedRobot(
+        model=held,
+        standard=np.array([values.get(parameter.name, 0.0) for parameter in held.parameters]),
+        identifiable=tuple(known.get(parameter.name, "no") for parameter in held.parameters),
+        base=extended.base,
+        remarks=(*extended.remarks, *remarks),
+    )
+
+
+def _undeclared(term: object, couplings: list[Coupling]) -> list[Coupling]:
+    if not isinstance(term, MissingCoupling):
+        return []
+    return [] if term.coupling.number in {one.number for one in couplings} else [term.coupling]
+
+
+def _declaring(robot: RobotModel, values: Mapping[str, float], couplings: tuple[Coupling, ...]) -> RobotModel:
+    """Let a robot declare the rotors and couplings that have numbers."""
+    joints = tuple(
+        replace(joint, rotor_inertia=f"IA{number}" in values)
+        for number, joint in enumerate(robot.joints, start=1)
+    )
+    return replace(robot, joints=joints, couplings=couplings)
+
+
+def _smoothed(model: DynamicModel, widths: tuple[float, ...] | list[float]) -> DynamicModel:
+    """Give a model's signs of velocity their widths, rad/s or m/s."""
+    widths = tuple(widths)
+    names = {term.name for term in model.terms}
+    if widths and "coulomb" in names:
+        model = model.with_term(Coulomb(widths))
+    if widths and model.robot.couplings and "coupling" in names:
+        coupled = tuple(max(widths[joint - 1] for joint in one.joints) for one in model.robot.couplings)
+        model = model.with_term(GearCoupling(coupled))
+    return model

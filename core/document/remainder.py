@@ -1,0 +1,79 @@
+"""Write what a diagnosis leaves over: what it follows, how much is predictable at all, how low noise goes."""
+
+import numpy as np
+
+from core.diagnosis.residual.atlas import Atlas
+from core.diagnosis.result import Diagnosis, Stranger
+
+SHOWN_DIGITS = 5
+"""Bins of an atlas are for looking at; more digits would only make the document long."""
+
+
+def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
+    """Say per joint what a generic learner still predicts of the residual, beside the noise floor.
+
+    Parameters
+    ----------
+    least
+        Lower end of the predictable share's interval above which a joint is listed under `joints`.
+    """
+    predictable, floor, stranger = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.stranger
+    foretold = {one.joint for one in predictable if one.interval[0] > least}
+    return {
+        "joints": sorted(foretold | ({stranger.joint} if stranger else set())),
+        "pattern": stranger and _pattern(stranger),
+        "predictable_residual_fraction": [one.share for one in predictable],
+        "interval_95": [one.interval for one in predictable],
+        "at_rest_fraction": [None if np.isnan(one) else float(one) for one in diagnosis.at_rest],
+        "rms_residual": [one.rms for one in predictable],
+        "places": [one.places for one in predictable],
+        "noise_floor": floor.rms,
+        "noise_floor_source": floor.source,
+        "noise_tilt": floor.tilt,
+        "motion_period_s": floor.period,
+    }
+
+
+def _pattern(stranger: Stranger) -> dict[str, object]:
+    return {
+        "joint": stranger.joint,
+        "statement": stranger.statement,
+        "likelihood_ratio": stranger.statistic,
+        "log10_p": stranger.log10_p,
+    }
+
+
+def dependence_rows(atlas: Atlas) -> list[dict[str, object]]:
+    """Tabulate the residual that is left over every coordinate of every joint."""
+    return [
+        {
+            "coordinate": one.coordinate,
+            "joint": one.joint,
+            "unit": one.unit,
+            "centre": _short(one.centre),
+            "mean": _short(one.mean),
+            "standard_error": _short(one.standard_error),
+            "count": one.count,
+            "statistic": one.statistic,
+            "degrees_of_freedom": one.degrees_of_freedom,
+            "p_value": one.p_value,
+        }
+        for one in atlas.dependences
+    ]
+
+
+def spectrum_rows(atlas: Atlas) -> list[dict[str, object]]:
+    """Tabulate the power density of what is left, and the noise floor's, (N m)^2/Hz, over frequency."""
+    return [
+        {
+            "joint": one.joint,
+            "frequency_hz": _short(one.frequency_hz),
+            "density": _short(one.density),
+            "floor": _short(one.floor),
+        }
+        for one in atlas.spectra
+    ]
+
+
+def _short(values: np.ndarray) -> list[float]:
+    return [float(f"{value:.{SHOWN_DIGITS}g}") for value in values]

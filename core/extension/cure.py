@@ -1,0 +1,90 @@
+"""Let the causes that were found join the model: their terms become columns like all others.
+
+The base parameters of the standard model keep their names and groupings; every parameter of a finding stands
+for itself, because its evidence is what the standard columns do not span.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from core.arrays import Indices
+from core.diagnosis.result import Diagnosis, Finding
+from core.dynamics.model import DynamicModel
+from core.dynamics.term import Term
+from core.reduction.base import BaseModel
+
+
+def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
+    """Give the terms of the findings that have one and whose gain on unseen rows is beyond doubt."""
+    return tuple(term for _, term in _joining(diagnosis))
+
+
+def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
+    for one in diagnosis.findings:
+        if one.member is not None and gains_surely(one):
+            member = one.member
+            yield one, member.cause.term(diagnosis.look, diagnosis.believed, member.site, member.scalars)
+
+
+def gains_surely(finding: Finding) -> bool:
+    """Tell whether what a finding gains on unseen rows is beyond doubt."""
+    return finding.proven or finding.gain is None or finding.gain.interval_95[0] > 0.0
+
+
+def sizes(diagnosis: Diagnosis) -> dict[str, float]:
+    """Give, by name, what counts as one unit of deviation of the parameters that join the model."""
+    return {
+        f"{one.name}{one.joint}": 10.0 * abs(one.value)
+        for finding in diagnosis.findings
+        for one in finding.quantities
+    }
+
+
+def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
+    """Append terms to a model and their parameters to its base parameters."""
+    model: DynamicModel = base.model
+    for term in terms:
+        model = model.with_term(term)
+    old, new = len(base.model.parameters), len(model.parameters)
+    grouping = np.zeros((len(base.kept) + new - old, new))
+    grouping[: len(base.kept), :old] = base.grouping
+    grouping[len(base.kept) :, old:] = np.eye(new - old)
+    return replace(base, model=model, kept=(*base.kept, *range(old, new)), grouping=grouping)
+
+
+def all_proven(diagnosis: Diagnosis) -> Diagnosis:
+    """Give the diagnosis with every finding's gain beyond doubt, so that all of them join."""
+    return replace(diagnosis, findings=tuple(replace(one, proven=True) for one in diagnosis.findings))
+
+
+def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
+    """Give the places of an extended model's base parameters in the model that all findings join."""
+    places = list(range(len(base.kept)))
+    members = (one for one in diagnosis.findings if one.member is not None)
+    stop = len(places)
+    for one, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
+        start, stop = stop, stop + len(term.parameters(base.model.robot))
+        if gains_surely(one):
+            places += range(start, stop)
+    return np.array(places)
+
+
+def taken_along(diagnosis: Diagnosis) -> str:
+    """Say which findings are inputs to a simulation of the extended model, and how; nothing where none is."""
+    joined = list(_joining(diagnosis))
+    past = [_called(one) for one, term in joined if term.remembers and not term.channel]
+    channel = [_called(one) for one, term in joined if term.channel]
+    parts = [f"the torque of {' and '.join(past)} is the one along the measured motion"] if past else []
+    if channel:
+        parts.append(
+            f"{' and '.join(channel)} is taken out of the measured torque before it drives the robot"
+        )
+    return "; ".join(parts)
+
+
+def _called(finding: Finding) -> str:
+    if len(finding.joints) != 1:
+        return finding.cause
+    return f"{finding.cause} at joint {finding.joints[0]}"

@@ -1,0 +1,39 @@
+"""Hold everything that a diagnosis job found out: the model before, the causes, the model after."""
+
+from dataclasses import dataclass
+
+from core.diagnosis.result import Diagnosis
+from core.extension.gain import JointGain
+from core.identification.against_reference import Compared
+from core.identification.result import Identification
+from core.simulation.multistep import Comparison
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosed:
+    """Hold everything that a diagnosis job found out.
+
+    Attributes
+    ----------
+    before
+        The model as it was believed, identified from the logs.
+    after
+        The extended model identified again under the same constraints; None where nothing was found. Against
+        a reference its base parameters stay as near to the reference's as those are known.
+    gains
+        Per joint, in torque, on held-out blocks; empty where nothing was found.
+    motion
+        Simulated motion of both models on held-out blocks; None where the models cannot be simulated.
+    motion_note
+        Which findings are inputs to the simulation; or why there is none.
+    compared
+        The reference on these logs; None where everything was identified anew.
+    """
+
+    before: Identification
+    diagnosis: Diagnosis
+    after: Identification | None
+    gains: tuple[JointGain, ...]
+    motion: Comparison | None
+    motion_note: str
+    compared: Compared | None = None

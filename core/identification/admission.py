@@ -1,0 +1,85 @@
+"""Refuse at once what a robot and its logs do not allow, from what is known of them before any row is read.
+
+What only the samples can show (no motion, a cut-off below the motion's band) is found while computing.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.dynamics.model import DynamicModel
+from core.errors import OptionError, VeritorqueError
+from core.estimate.constraints import check_links
+from core.identification.options import IdentifyOptions
+from core.log.model import JointLog
+from core.signals.condition import check_currents
+from core.signals.several import check_different
+
+
+@dataclass(frozen=True)
+class KnownLog:
+    """Say what is known of a log that was read once.
+
+    Attributes
+    ----------
+    rate_hz, duration
+        Sampling rate, and last stamp minus first in s.
+    samples, stretches
+        Number of rows, and of parts between gaps, at most.
+    sha256
+        Hash of the file's bytes.
+    """
+
+    name: str
+    channels: tuple[str, ...]
+    rate_hz: float
+    duration: float
+    samples: int
+    stretches: int = 1
+    sha256: str = ""
+
+
+def known_log(log: JointLog) -> KnownLog:
+    """Give what is known of a log that is open."""
+    stretches = len(log.segments)
+    return KnownLog(log.name, log.channels, log.rate_hz, log.duration, log.samples, stretches, log.sha256)
+
+
+def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog]) -> None:
+    """Hold options against the model of the robot and the logs that they are meant for.
+
+    Raises
+    ------
+    OptionError
+        If a cut-off, a held-out log or a bound does not fit them.
+    LogError
+        If a log is given twice, or holds currents and the robot does not say what torque a current gives.
+    """
+    check_different([log.name for log in logs], [log.sha256 for log in logs])
+    if options.reference is None:  # otherwise the reference decides which links the model has
+        check_links(options.estimate.bounds, model)
+    options.validation.chosen(len(logs))
+    for log in logs:
+        try:
+            options.filter.check_log(log.rate_hz, log.duration)
+            _check_instants(options, log)
+            check_currents(model.robot, log.channels, log.name)
+        except VeritorqueError as error:
+            error.evidence.setdefault("log", log.name)
+            raise
+
+
+def _check_instants(options: IdentifyOptions, log: KnownLog) -> None:
+    """Refuse a decimation that leaves fewer instants than there are blocks to put them in.
+
+    Every stretch between gaps keeps its first instant, whatever the decimation.
+    """
+    decimation, blocks = options.filter.decimation, options.validation.blocks
+    if decimation is None:
+        return
+    instants = (log.samples - log.stretches) // decimation + log.stretches
+    if instants < blocks:
+        raise OptionError(
+            "decimation leaves fewer instants of the log than there are blocks",
+            evidence={"decimation": decimation, "instants": instants, "blocks": blocks},
+            remedy="leave decimation out, keep one sample in fewer, or ask for fewer blocks in validation",
+        )

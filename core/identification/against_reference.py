@@ -1,0 +1,48 @@
+"""Let a reference predict logs as it is, so that a reader sees what the given simulation gets wrong."""
+
+from dataclasses import dataclass, replace
+
+from core.arrays import BaseParameters, Parameters
+from core.estimate.estimate import nearest
+from core.identification.reference import Reference
+from core.identification.result import Identification
+from core.validation.scores import JointScore, scores, total_percent
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """Hold how well a reference predicts the logs as it is.
+
+    Attributes
+    ----------
+    base, standard
+        Its base parameters, with what it leaves open filled in from the logs, and a robot that has them.
+    """
+
+    reference: Reference
+    base: BaseParameters
+    standard: Parameters
+    fit: tuple[JointScore, ...]
+    fit_total_percent: float
+    validation: tuple[JointScore, ...]
+    validation_total_percent: float
+
+    @property
+    def worse_than_nothing(self) -> tuple[int, ...]:
+        """List the joints whose torque the reference misses by more than there is."""
+        return tuple(one.joint for one in self.validation if one.rms_residual > one.rms_torque)
+
+
+def compared(reference: Reference, found: Identification, parts: tuple[tuple[int, ...], ...]) -> Compared:
+    """Score a reference on the fitted and the held-out blocks of logs that were identified anew.
+
+    Parameters
+    ----------
+    parts
+        Places of the fitted and of the held-out blocks.
+    """
+    observation = found.observation
+    base = reference.completed(found.estimate.system)
+    standard = nearest(found.base, base, replace(found.estimate.prior, centre=reference.standard))
+    fit, held = ((scores(observation, part, base), total_percent(observation, part, base)) for part in parts)
+    return Compared(reference, base, standard, *fit, *held)

@@ -1,0 +1,1 @@
+"""Hold numerical methods that several chapters share: series and probabilities come in, the same go out."""

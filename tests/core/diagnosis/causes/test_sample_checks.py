@@ -1,0 +1,139 @@
+"""Raw checks find what was done to the samples, with its size, and are silent on logs that are in order."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.diagnosis.causes.dropped_samples import DroppedSamples
+from core.diagnosis.causes.encoder_quantization import EncoderQuantization
+from core.diagnosis.causes.sample_check import RawCause, RawFinding
+from core.diagnosis.causes.timestamp_jitter import TimestampJitter
+from core.diagnosis.dataset.dataset import Look, look_at
+from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit
+from core.dynamics.model import standard_model
+from core.dynamics.prediction import Prediction
+from core.log.model import JointLog
+from core.log.reader import log_from_arrays
+from core.robot.model import Joint, Link, RobotModel
+
+CHECKS: dict[str, RawCause] = {
+    one.id: one for one in (TimestampJitter(), DroppedSamples(), EncoderQuantization())
+}
+RATE_HZ, SECONDS = 250.0, 20.0
+INERTIA, NOISE = np.array([2.0, 1.0]), 0.05
+FINE = 1e-6
+
+
+def two_wheels() -> RobotModel:
+    """Describe two wheels on parallel level axes: each joint is its own inertia, and nothing couples them."""
+    links = tuple(Link(f"wheel_{n}", "revolute", 0, n, np.eye(3), np.zeros(3)) for n in (1, 2))
+    joints = tuple(Joint(f"wheel_{n}", rotor_inertia=False, friction=()) for n in (1, 2))
+    return RobotModel("wheels", links, joints, np.array([0.0, 0.0, -9.81]))
+
+
+def believed() -> Prediction:
+    robot = two_wheels()
+    bodies = np.zeros((2, 10))
+    bodies[:, [0, 3, 5]] = INERTIA[:, None]
+    return Prediction(standard_model(robot, ("rigid_body",)), bodies.ravel())
+
+
+def motion(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Give position and torque of two wheels that swing at a few tenths of a hertz."""
+    rates, phases = np.array([[2.1, 3.3, 5.2], [2.6, 3.9, 4.7]]), np.array([[0.1, 1.0, 2.0], [0.5, 1.7, 3.0]])
+    waves = 0.5 * np.sin(rates * time[:, None, None] + phases)
+    return waves.sum(axis=2), -INERTIA * (rates**2 * waves).sum(axis=2)
+
+
+@cache
+def recorded(
+    jitter: float = 0.0, lost: float = 0.0, step: float = FINE, *, honest: bool = False, seed: int = 7
+) -> JointLog:
+    """Record the wheels; `honest` stamps say when samples were really taken."""
+    rng = np.random.default_rng(seed)
+    stamps = np.arange(int(SECONDS * RATE_HZ)) / RATE_HZ
+    real = stamps + jitter * rng.normal(size=len(stamps))
+    position, torque = motion(real)
+    steps = np.array([step, FINE])
+    position = steps * np.round(position / steps)
+    torque = torque + NOISE * rng.normal(size=torque.shape)
+    gone = rng.random(len(stamps)) < lost
+    kept = np.maximum.accumulate(np.where(gone, 0, np.arange(len(stamps))))
+    return log_from_arrays("wheels", real if honest else stamps, position[kept], torque[kept])
+
+
+def findings(cause: str, log: JointLog) -> tuple[RawFinding, ...]:
+    held = believed()
+    return CHECKS[cause].examine(looked_at(log), held)
+
+
+@cache
+def looked_at(log: JointLog) -> Look:
+    return look_at(believed().model, (log,), held_out=frozenset(), blocks=5)
+
+
+@pytest.mark.parametrize("cause", sorted(CHECKS))
+def test_nothing_is_found_in_a_log_that_is_in_order(cause):
+    assert findings(cause, recorded()) == ()
+
+
+def test_scattered_instants_with_honest_stamps_are_no_fault():
+    assert findings("timestamp_jitter", recorded(jitter=2e-4, honest=True)) == ()
+
+
+def test_rounding_is_not_taken_for_scattered_instants():
+    assert findings("timestamp_jitter", recorded(step=2e-3)) == ()
+
+
+def test_lost_rows_are_counted_and_not_taken_for_scattered_instants():
+    log = recorded(lost=0.05)
+    (found,) = findings("dropped_samples", log)
+    (fraction,) = found.quantities
+    assert fraction.value == pytest.approx(0.05, abs=4.0 * fraction.standard_deviation)
+    assert found.residual_share.max() < 0.01  # they are bridged
+    assert findings("timestamp_jitter", log) == ()
+
+
+@pytest.mark.parametrize("rows", [3, 15])
+def test_every_row_is_counted_that_stands_for_a_lost_one_however_many_follow_each_other(rows):
+    whole = recorded().source.data
+    kept = np.arange(len(whole.time))
+    for first in (1000, 2000, 3000):
+        kept[first : first + rows] = first - 1
+    (found,) = findings(
+        "dropped_samples", log_from_arrays("wheels", whole.time, whole.position[kept], whole.torque[kept])
+    )
+    assert found.statistic == 3 * rows
+
+
+def test_a_coarse_encoder_is_found_on_its_own_joint_with_its_step():
+    (found,) = findings("encoder_quantization", recorded(step=5e-3))
+    assert found.site == (1,)
+    assert found.quantities[0].value == pytest.approx(5e-3, rel=1e-6)
+    assert found.residual_share[0] > 0.8
+    assert found.residual_share[1] < 1e-6  # the wheels know nothing of each other
+
+
+@pytest.mark.parametrize(
+    ("cause", "fault"), [("timestamp_jitter", {"jitter": 4e-4}), ("encoder_quantization", {"step": 5e-3})]
+)
+def test_the_share_of_a_fault_is_what_it_really_adds(cause, fault):
+    held = believed()
+    spoilt, clean = recorded(**fault), recorded()
+    (found,) = findings(cause, spoilt)
+    really = 1.0 - _mean_square(looked_at(clean), held) / _mean_square(looked_at(spoilt), held)
+    np.testing.assert_allclose(found.residual_share, really, atol=0.15)
+    assert really.max() > 0.2
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_deviation_of_the_scatter_is_honest(seed):
+    (found,) = findings("timestamp_jitter", recorded(jitter=2e-4, seed=seed))
+    (std,) = found.quantities
+    assert abs(std.value - 2e-4) < 3.5 * std.standard_deviation < 5e-5
+
+
+def _mean_square(look: Look, held: Prediction) -> np.ndarray:
+    left, mask = misfit(look, held), fitted_rows(look)
+    return (left**2 * mask).sum(axis=0) / mask.sum(axis=0)

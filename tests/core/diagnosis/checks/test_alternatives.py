@@ -1,0 +1,106 @@
+"""Put causes where a search might have left them: what others explain better in their place is given up."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.diagnosis.checks.alternatives import Standing, weighed
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from core.diagnosis.search.stepwise import Selection
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
+from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
+"""Waves per radian: none of them is gravity."""
+HELD_OUT_FROM = 16.0
+"""When the last fifth of the log begins, s."""
+STRONG, WEAK = wave_cause("strong", {QUICK: 1.0}), wave_cause("weak", {QUICKER: 1.0})
+STOPGAP = wave_cause("stopgap", {QUICKER: 1.0, SLOW: 0.8})
+ENDING = wave_cause("ending", {QUICKER: 1.0, SLOW: 2.0})
+
+
+@cache
+def two_waves() -> tuple[Bench, Hypothesis]:
+    """Hide a strong and a weak wave; suspect them, and something that resembles the weak one."""
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
+    return bench, nothing_found(bench)
+
+
+def weighed_from(
+    start: tuple[Bench, Hypothesis], *members: Candidate
+) -> tuple[list[str], Selection, list[Standing]]:
+    """Weigh what is put there; give the names that remain, with everything else."""
+    bench, none = start
+    selection, standings = weighed(bench, Selection(none, bench.tried(members), ()))
+    return [one.cause.id for one in selection.chosen.members], selection, standings
+
+
+def test_what_was_hidden_stands_against_all_rivals():
+    names, selection, standings = weighed_from(two_waves(), candidate(STRONG), candidate(WEAK))
+    assert names == ["strong", "weak"]
+    assert selection.steps == ()
+    assert all(one.margin > 6.0 for one in standings)
+
+
+def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record():
+    names, selection, standings = weighed_from(two_waves(), candidate(STRONG), candidate(STOPGAP))
+    assert names == ["strong"]
+    assert [(one.action, one.candidate.cause.id) for one in selection.steps] == [("dropped", "stopgap")]
+    assert len(standings) == 1
+
+
+@cache
+def a_wave_beside_one_that_ends() -> tuple[Bench, Hypothesis]:
+    """Add to the weak wave what its rival has besides, but only on the rows that are fitted."""
+
+    def effect(state):
+        seen = (state.time < HELD_OUT_FROM)[:, None]
+        return wave_effect({QUICK: 0.6, QUICKER: 0.2})(state) + seen * wave_effect({SLOW: 0.4})(state)
+
+    bench = bench_of(measured_arm(effect), (STRONG, WEAK, ENDING))
+    return bench, nothing_found(bench)
+
+
+def test_a_rival_that_does_not_hold_on_unseen_rows_refutes_nothing():
+    names, _, standings = weighed_from(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
+    assert names == ["strong", "weak"]
+    (told,) = (one for one in standings[1].refuted if one.cause == "ending")
+    assert told.statistic > standings[1].statistic + 6.0
+    assert "no fit has seen" in told.why
+
+
+def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
+    """Alone it is a finding with a rival that explains more, and the report says so."""
+    names, _, (standing,) = weighed_from(two_waves(), candidate(STOPGAP))
+    assert names == ["stopgap"]
+    assert standing.margin < -6.0
+
+
+@pytest.mark.parametrize(
+    ("leaves", "rival"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
+)
+def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, rival):
+    now_and_then = lambda state, _: [np.abs(np.sin(state.position[:, 1])) > 0.9]  # noqa: E731  (a formula)
+    clip, push = made_up("clip", now_and_then), made_up("push", now_and_then)
+    type(clip).leaves, type(push).event = leaves, True
+    scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))
+    bench = bench_of(scene, (clip, push))
+    *_, (found,) = weighed_from((bench, nothing_found(bench)), candidate(clip))
+    assert ["push" for _ in range(rival)] == [one.cause for one in found.ambiguous]
+
+
+def product(state):
+    return 0.3 * state.velocity[:, 0] * state.velocity[:, 2]
+
+
+@pytest.mark.parametrize(("spoilt", "kept"), [(0.0, ["alike"]), (0.3, [])], ids=["the same", "half of it"])
+def test_a_name_that_a_pattern_without_one_beats_by_far_is_given_up(spoilt, kept):
+    def columns(state, scalars):
+        return [product(state) + spoilt * np.sin(QUICK * state.position[:, 1])]
+
+    cause = made_up("alike", columns)
+    bench = bench_of(measured_arm(on_joint(product)), (cause,))
+    assert weighed_from((bench, nothing_found(bench)), candidate(cause))[0] == kept

@@ -1,0 +1,56 @@
+"""What happens once is noticed whatever its shape; noise, spikes and motion that comes and goes are not."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.checks.bursts import burst
+from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
+from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, drawn
+from tests.core.diagnosis.scenes import bench_of, measured_arm
+
+BEGIN, END = 6.0, 6.8
+
+
+def seen(effect=None, seed=6):
+    bench = bench_of(measured_arm(effect, seed=seed), ())
+    return burst(bench.look, bench.residual(nothing_found(bench)))
+
+
+@pytest.mark.parametrize("height", [1.0, -3.0])
+def test_a_push_without_a_shape_is_seen_on_its_joint_and_when_it_was(height):
+    found = seen(on_joint(lambda state: height * ((state.time > BEGIN) & (state.time < END))))
+    assert found.joint == JOINT
+    when = float(found.statement.split("about ")[1].split(" s")[0])
+    assert BEGIN - 0.2 < when < END + 0.2
+    assert found.log10_p < -6.0
+
+
+def test_single_spikes_are_no_burst():
+    spikes = lambda state: 20.0 * (np.arange(len(state.time)) % 400 == 0)  # noqa: E731  (a formula)
+    assert seen(on_joint(spikes)) is None
+
+
+@pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY, (0.98,)])
+def test_noise_has_no_bursts_whatever_it_remembers(weights):
+    look = measured_arm().look
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        assert burst(look, drawn(weights, rng, len(look.time), look.joints)) is None
+
+
+def test_heavy_tails_have_no_bursts():
+    look = measured_arm().look
+    for seed in range(20):
+        assert burst(look, np.random.default_rng(seed).standard_t(3, (len(look.time), look.joints))) is None
+
+
+def test_what_is_larger_in_half_of_the_log_is_no_burst():
+    look = measured_arm().look
+    noise = np.random.default_rng(0).normal(size=(len(look.time), look.joints))
+    noise[look.time > 10.0] *= 30.0
+    assert burst(look, noise) is None
+
+
+def test_a_channel_that_is_dead_has_no_bursts():
+    look = measured_arm().look
+    assert burst(look, np.zeros((len(look.time), look.joints))) is None

@@ -1,0 +1,78 @@
+"""Hide what is in no list: the search says what the residual follows, and is silent where nothing is left."""
+
+import numpy as np
+import pytest
+from scipy.signal import lsim
+
+from core.diagnosis.checks.lack_of_fit import best_stranger, strangers
+from core.diagnosis.search.hypothesis import Hypothesis
+from tests.core.diagnosis.made_up import JOINT, candidate, made_up, nothing_found, on_joint
+from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+
+RHYTHM = 0.4
+"""Repetitions of something beside the robot, Hz."""
+SWING, DAMPING = 1.9, 0.05
+"""Rate of something loose on the link, Hz, and its damping ratio."""
+
+
+def product(state):
+    return 0.3 * state.velocity[:, 0] * state.velocity[:, 2]
+
+
+def wave_of_another_joint(state):
+    return 0.1 * np.cos(2.0 * state.position[:, 0]) * np.sign(state.velocity[:, 1])
+
+
+def beat(state):
+    return 0.1 * np.sin(2.0 * np.pi * RHYTHM * state.time) ** 3
+
+
+def swing(state):
+    """Let something that hangs loose swing as the joint shakes it."""
+    rate = 2.0 * np.pi * SWING
+    _, deflection, _ = lsim(
+        ([-1.0], [1.0, 2.0 * DAMPING * rate, rate**2]), state.acceleration[:, 1], state.time
+    )
+    return 5.0 * deflection
+
+
+WORDS = {
+    product: "the product of the speeds of joints 1 and 3",
+    wave_of_another_joint: "a wave over joint 1's angle (2 per turn) with the sign of its own speed",
+    beat: "a rhythm of 2.5 s, whatever the robot does",
+    swing: "something that swings by itself at about 1.8 Hz",
+}
+
+
+def found_beside_nothing(effect: Effect | None, seed: int) -> Hypothesis | None:
+    bench = bench_of(measured_arm(effect, seed=seed), ())
+    return best_stranger(bench, nothing_found(bench), strangers(bench))
+
+
+@pytest.mark.parametrize("seed", [6, 7])
+@pytest.mark.parametrize("torque", WORDS, ids=lambda one: one.__name__)
+def test_a_pattern_without_a_name_is_told_with_its_joint_and_what_it_follows(torque, seed):
+    found = found_beside_nothing(on_joint(torque), seed)
+    last = found.members[-1]
+    statement = last.cause.statement(found.solved(0))
+    assert last.site == (JOINT,)
+    assert statement.startswith(f"What is left on joint {JOINT} follows ")
+    assert WORDS[torque] in statement
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_nothing_is_told_of_a_residual_that_is_noise(seed):
+    assert found_beside_nothing(None, seed) is None
+
+
+def test_nothing_is_left_to_tell_once_a_cause_with_the_very_column_is_there():
+    cause = made_up("product", lambda state, scalars: [product(state)])
+    bench = bench_of(measured_arm(on_joint(product)), (cause,))
+    nothing_found(bench)
+    explained = bench.tried((candidate(cause),))
+    assert best_stranger(bench, explained, strangers(bench)) is None
+
+
+def test_a_pattern_reports_no_numbers_since_they_would_mean_nothing_elsewhere():
+    found = found_beside_nothing(on_joint(product), 6)
+    assert found.members[-1].cause.quantities(found.solved(0)) == ()

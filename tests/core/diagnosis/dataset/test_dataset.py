@@ -1,0 +1,50 @@
+"""Hold the rows of a diagnosis to a torque that the model explains: what they leave of it must be nothing."""
+
+import numpy as np
+
+from core.diagnosis.dataset.dataset import Look
+from core.log.model import whole_rows
+from core.signals.recipe import FilterOptions
+from tests.core.diagnosis.scenes import Scene, bench_of, look_at_arm, measured_arm
+
+NEGLIGIBLE = 5e-4
+"""RMS of what filters may leave of a torque without noise, N m: a hundredth of the noise of most scenes."""
+
+
+SPIKES = (4.0, 8.0, 12.0)
+"""When each joint's position has a spike, s."""
+
+
+def left_over(scene: Scene) -> np.ndarray:
+    """Give the RMS per joint of what a plain fit leaves, but for the rows next to the log's ends."""
+    bench = bench_of(scene, ())
+    left, look = bench.residual(bench.tried(())), scene.look
+    inner = look.usable & ((look.time > 0.2) & (look.time < look.time[-1] - 0.2))[:, None]
+    return np.sqrt(np.sum(left**2 * inner, axis=0) / inner.sum(axis=0))
+
+
+def with_spikes(scene: Scene) -> Scene:
+    """Put a spike of half a radian on one sample of every joint's position."""
+    rows = whole_rows(scene.look.motions[0].log)
+    position = rows.position.copy()
+    position[np.searchsorted(rows.time, SPIKES), [0, 1, 2]] += 0.5
+    return look_at_arm(position, rows.torque)
+
+
+def median_order(look: Look) -> int:
+    return look.motions[0].recipe.median_order
+
+
+def test_a_torque_that_the_model_explains_leaves_nothing_at_turning_points_neither():
+    scene = measured_arm(noise=1e-6)
+    assert median_order(scene.look) == 1
+    assert (left_over(scene) < NEGLIGIBLE).all()
+
+
+def test_spikes_of_positions_are_cut_and_the_tips_of_turning_points_with_them_where_there_are_some(
+    monkeypatch,
+):
+    scene = with_spikes(measured_arm(noise=1e-6))
+    assert median_order(scene.look) == 5
+    monkeypatch.setattr(FilterOptions, "median_order", 1)
+    assert (left_over(scene) < 0.5 * left_over(with_spikes(measured_arm(noise=1e-6)))).all()

@@ -1,0 +1,43 @@
+"""A short push beside a cause that brings far more is what that one leaves, unless it is far beyond luck."""
+
+import numpy as np
+import pytest
+
+from core.diagnosis.search.confounding import left_over
+from core.diagnosis.search.likelihood_ratio import rise
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
+from tests.core.diagnosis.scenes import bench_of, measured_arm
+
+
+def waves(state):
+    return np.sin(7.0 * state.position[:, 1])
+
+
+def push(state):
+    return 1.0 * (np.abs(state.time - 5.0) < 0.3)
+
+
+ALWAYS = made_up("always", lambda state, scalars: [waves(state)])
+ONCE = made_up("once", lambda state, scalars: [push(state)], event=True)
+WEAK, STRONG = 0.03, 50.0
+"""N m, of what acts always; the noise is 0.05 N m."""
+LIKE_LUCK, CLEAR = 0.06, 0.08
+"""N m, of the push: chances of 1e-24 and 1e-33."""
+
+
+@pytest.mark.parametrize(
+    ("always", "once", "far_less", "expected"),
+    [
+        (WEAK, LIKE_LUCK, False, False),
+        (STRONG, LIKE_LUCK, True, True),
+        (STRONG, CLEAR, True, False),
+    ],
+)
+def test_a_push_is_told_from_what_a_strong_cause_leaves(always, once, far_less, expected):
+    effect = on_joint(lambda state: always * waves(state) + once * push(state))
+    bench = bench_of(measured_arm(effect), ())
+    none = nothing_found(bench)
+    less, other = (bench.added(none, candidate(one)) for one in (ALWAYS, ONCE))
+    both = bench.added(less, candidate(ONCE))
+    assert (rise(less, both) < 0.05 * rise(other, both)) is far_less
+    assert left_over(bench, both, 1, less) is expected

@@ -1,0 +1,224 @@
+"""Hold a scan to giving what nature allows, and a hypothesis to counting only what its rows tell."""
+
+from dataclasses import replace
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from core.diagnosis.causes.payload_change import PayloadChange
+from core.diagnosis.causes.registry import BY_ID
+from core.diagnosis.checks.holdout_outliers import turned
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.hypothesis import Hypothesis, Scored
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
+from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
+
+TRUE, NEAR = 7.0, 6.5
+"""Waves per radian: what is there, and what resembles it."""
+WAVE = on_joint(lambda state: np.sin(TRUE * state.position[:, 1]))
+RATES = tuple({"rate": rate} for rate in (NEAR, TRUE))
+
+
+def wave(state, scalars):
+    return [np.sin(scalars["rate"] * state.position[:, 1])]
+
+
+def scanned(allowed) -> Scored:
+    """Scan both waves, of which nature allows those that are given."""
+    cause = made_up("wave", wave, RATES, allowed=lambda one: one["rate"] in allowed)
+    bench = bench_of(measured_arm(WAVE), (cause,))
+    (found,) = bench.scanned(nothing_found(bench))
+    return found
+
+
+def test_of_all_scalars_that_nature_allows_a_scan_gives_the_likeliest():
+    assert scanned({NEAR, TRUE}).candidate.scalars == {"rate": TRUE}
+
+
+def test_scalars_that_nature_allows_go_before_likelier_ones_that_it_does_not():
+    found = scanned({NEAR})
+    assert found.candidate.scalars == {"rate": NEAR}
+    assert found.statistic < scanned({TRUE}).statistic
+
+
+def test_where_nature_allows_none_the_likeliest_scalars_are_given_all_the_same():
+    """So that a report can say what would fit if it could be."""
+    assert scanned(set()).candidate.scalars == {"rate": TRUE}
+
+
+@pytest.fixture(scope="module")
+def arm() -> Scene:
+    return measured_arm()
+
+
+def freedom(arm: Scene, *columns) -> int:
+    """Count the directions of a cause with so many columns of the second joint's motion."""
+    cause = made_up("columns", lambda state, scalars: [one(state) for one in columns])
+    return bench_of(arm, ()).tried((candidate(cause),)).freedom(0)
+
+
+SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
+COSINE = lambda state: np.cos(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
+VISCOUS = lambda state: state.velocity[:, 1]  # noqa: E731  (a formula)
+
+
+def test_columns_of_their_own_are_directions_of_their_own(arm):
+    assert [freedom(arm, SINE), freedom(arm, SINE, COSINE)] == [1, 2]
+
+
+def test_the_size_of_a_column_does_not_matter_to_what_the_rows_tell(arm):
+    assert freedom(arm, SINE, lambda state: 1e6 * COSINE(state)) == 2
+    assert freedom(arm, SINE, lambda state: 1e-6 * COSINE(state)) == 2
+
+
+def test_a_column_that_is_there_twice_is_one_direction(arm):
+    assert freedom(arm, SINE, lambda state: -3.0 * SINE(state)) == 1
+
+
+def test_a_column_that_the_model_has_already_is_no_direction(arm):
+    assert freedom(arm, SINE, VISCOUS) == 1
+
+
+def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
+    """A chance needs a direction; that it explains nothing is seen from its rise."""
+    assert freedom(arm, VISCOUS) == 1
+
+
+def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
+    """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
+    bench = bench_of(measured_arm(WAVE), ())
+    bench.believe(nothing_found(bench))
+    member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
+    whole = bench.tried((member,))
+    (found,) = bench.scanned(bench.beneath(whole, len(whole.members) - 1), [member])
+    np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
+
+
+def at_rest(torque) -> float:
+    """Give the second joint's share of error at rest where a torque is there that the model lacks."""
+    bench = bench_of(measured_arm(on_joint(torque)), ())
+    return float(bench.at_rest(nothing_found(bench))[1])
+
+
+def test_what_is_missed_only_while_a_joint_turns_round_is_friction_at_rest():
+    slow = lambda state: np.abs(state.velocity[:, 1]) < 0.02  # noqa: E731  (a formula)
+    assert at_rest(lambda state: 3.0 * slow(state) * np.sign(np.sin(state.time))) > 0.8
+
+
+def test_what_is_missed_all_along_the_motion_is_not():
+    assert at_rest(lambda state: 3.0 * np.sin(TRUE * state.position[:, 1])) < 0.2
+
+
+def test_what_was_believed_comes_back_with_everything_that_was_built_on_it():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    suspected, found = bench.candidates, bench.scanned(none)
+    believe_before = bench.remembered()
+    bench.believe(replace(none, fit=replace(none.fit, values=2.0 * none.fit.values)))
+    assert not np.allclose(bench.scanned(none)[0].values, found[0].values)
+    believe_before()
+    assert bench.candidates == suspected
+    assert np.array_equal(bench.scanned(none)[0].values, found[0].values)
+
+
+def believed_times(bench: Bench, none: Hypothesis, factor: float) -> None:
+    """Believe in bodies so many times as heavy as those that were found."""
+    bench.believe(replace(none, fit=replace(none.fit, values=factor * none.fit.values)))
+
+
+class Counted(type(BY_ID["torque_gain_nonlinear"])):
+    """Suspect cubes of torque on many joints' worth of grid points, and count whose columns are built."""
+
+    id = "counted"
+    built: ClassVar[list[float]] = []
+
+    def grid(self, look, believed, site):
+        return [{"point": float(point)} for point in range(40)]
+
+    def term(self, look, believed, site, scalars):
+        self.built.append(scalars["point"])
+        return super().term(look, believed, site, scalars)
+
+
+def built_anew(bench: Bench, none: Hypothesis) -> int:
+    """Count the columns that a scan has to build under what is believed now."""
+    Counted.built.clear()
+    bench.scanned(none)
+    return len(Counted.built)
+
+
+def test_a_belief_that_hardly_differs_ranks_with_the_columns_of_the_one_before():
+    bench = bench_of(measured_arm(WAVE), (Counted(),))
+    none = nothing_found(bench)
+    built = []
+    for factor in (1.0, 1.005, 1.1):
+        believed_times(bench, none, factor)
+        built.append(built_anew(bench, none))
+    # Three joints have forty points each; the best of each joint is built anew.
+    assert built == [120, 3, 120]
+
+
+def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_without_building_columns_again():
+    scene = measured_arm(WAVE)
+    bench = bench_of(scene, (Counted(),))
+    bench.scanned(nothing_found(bench))
+    look = turned(scene.look)
+    other, own = bench.with_look(look), bench_of(replace(scene, look=look), (Counted(),))
+    none, alone = nothing_found(other), nothing_found(own)
+    np.testing.assert_array_equal(none.fit.values, alone.fit.values)
+    assert not np.array_equal(none.fit.values, bench.tried(()).fit.values)
+    # The best of each of three joints, under what is believed now.
+    assert built_anew(other, none) == 3
+    pairs = zip(other.scanned(none), own.scanned(alone), strict=True)
+    assert all(one.candidate.key == theirs.candidate.key for one, theirs in pairs)
+
+
+def test_a_belief_that_differs_on_one_joint_ranks_anew_what_is_suspected_of_that_joint_alone():
+    bench = bench_of(measured_arm(WAVE), (Counted(),))
+    none = nothing_found(bench)
+    bench.scanned(none)
+    parameters = [bench.plan.model.parameters[one] for one in bench.plan.columns]
+    (rubs,) = (place for place, one in enumerate(parameters) if (one.symbol, one.joint) == ("FC", 2))
+    values = none.fit.values.copy()
+    values[rubs] += 5.0
+    bench.believe(replace(none, fit=replace(none.fit, values=values)))
+    # The best of the other two joints are built anew.
+    assert built_anew(bench, none) == 40 + 2
+
+
+def test_the_best_of_a_scan_are_scored_with_the_columns_of_what_is_believed():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    before = {one.candidate.key: one.values for one in bench.scanned(none)}
+    believed_times(bench, none, 1.005)
+    for one in bench.scanned(none):
+        np.testing.assert_allclose(one.values, before[one.candidate.key] / 1.005**3, rtol=1e-6)
+
+
+def test_what_is_fitted_has_the_columns_of_what_is_believed_however_little_that_differs():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    (first, *_) = (one.candidate for one in bench.scanned(none))
+    before = bench.added(none, first).fit.values[-1]
+    believed_times(bench, none, 1.01)
+    after = bench.added(none, first).fit.values[-1]
+    # A cube's coefficient falls by the cube of what its argument grows by.
+    np.testing.assert_allclose(after, before / 1.01**3, rtol=0.02)
+    assert after != before
+
+
+def test_a_scan_is_made_once_for_a_hypothesis():
+    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(bench)
+    assert bench.scanned(none) is bench.scanned(none)
+
+
+def test_two_causes_of_one_name_are_both_suspected_at_the_same_joint():
+    """As a load that came within the log, and one that is there since the reference."""
+    bench = bench_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
+    nothing_found(bench)
+    last = [one for one in bench.candidates if one.site == (3,)]
+    assert {one.cause.throughout for one in last} == {True, False}
+    assert {one.cause.throughout for one in bench.suspicion.of_kind(last[0].key)} == {True, False}
+    assert {one.cause.throughout for one in bench.suspicion.of(last[0].cause, (3,))} == {True}

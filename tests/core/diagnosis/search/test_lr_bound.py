@@ -1,0 +1,105 @@
+"""Hold what is foreseen of candidates to what fitting them brings, where a scan says next to nothing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
+from core.diagnosis.search.entry_test import RAISED, with_candidate
+from core.diagnosis.search.fitter import Bench
+from core.diagnosis.search.likelihood_ratio import rise
+from core.diagnosis.search.lr_bound import foreseen
+from core.estimate.gaussian_prior import Belief
+from core.reduction.base import base_model
+from tests.core.diagnosis.made_up import nothing_found
+from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+RATE = 7.0
+DRIFT: Effect = lambda state: 5.0 * np.exp(-state.time / 8.0)[:, None] * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+STIFF: Effect = lambda state: np.sign(state.velocity) * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+
+
+def free_bench(effect: Effect) -> Bench:
+    """Suspect every cause where the rows alone tell the parameters."""
+    return bench_of(measured_arm(effect), CAUSES)
+
+
+def believing_bench(effect: Effect) -> Bench:
+    """Suspect what may have changed since a reference whose parameters are known within a twentieth."""
+    scene = measured_arm(effect)
+    values = base_model(scene.believed.model).base_of(scene.believed.standard)
+    rows = np.diag(20.0 / np.maximum(np.abs(values), 1e-3))
+    return bench_of(scene, AGAINST_REFERENCE, Belief(rows, rows @ values))
+
+
+BENCHES = {
+    "rows alone": free_bench,
+    "ordinary noise": lambda effect: free_bench(effect).with_ordinary_noise(),
+    "a belief": believing_bench,
+}
+
+
+@pytest.mark.parametrize(
+    ("effect", "cause"),
+    [
+        (wave_effect({RATE: 0.3}), wave_cause("wave", {RATE: 1.0})),
+        (wave_effect({RATE: 3.0}), wave_cause("wave", {RATE: 1.0})),
+        (DRIFT, BY_ID["torque_offset_drift"]),
+    ],
+    ids=["wave", "large_wave", "drift"],
+)
+def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its_fit_finds_it(effect, cause):
+    bench = bench_of(measured_arm(effect), (cause,))
+    none = nothing_found(bench)
+    hidden = bench.scanned(none)[0]
+    brings = rise(none, with_candidate(bench, none, hidden))
+    assert hidden.statistic < 0.2 * brings
+    assert foreseen(bench, none, [hidden])[0] == pytest.approx(brings, rel=0.15)
+
+
+def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
+    bench = bench_of(measured_arm(SPRUNG), CAUSES)
+    none = nothing_found(bench)
+    scans = bench.scanned(none)[:16]
+    brings = np.array([rise(none, with_candidate(bench, none, one)) for one in scans])
+    assert brings.max() > 100.0
+    assert np.all(brings < RAISED * np.maximum(foreseen(bench, none, scans), 5.0))
+
+
+def test_beside_what_is_found_already_only_the_rest_is_foreseen():
+    bench = bench_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
+    none = nothing_found(bench)
+    spring, ripple = bench.scanned(none)[:2]
+    assert (spring.candidate.cause.id, ripple.candidate.cause.id) == ("spring_compensator", "torque_ripple")
+    beside = with_candidate(bench, none, spring)
+    again = next(one for one in bench.scanned(beside) if one.candidate.key == ripple.candidate.key)
+    assert foreseen(bench, none, [ripple])[0] > 100.0
+    assert foreseen(bench, beside, [again])[0] < 20.0
+
+
+@pytest.mark.parametrize("make", BENCHES.values(), ids=BENCHES)
+@pytest.mark.parametrize("effect", [DRIFT, SPRUNG], ids=["drift", "sprung"])
+def test_of_no_effect_nothing_is_foreseen(make, effect):
+    bench = make(effect)
+    none = nothing_found(bench)
+    nothing = [replace(one, values=0.0 * one.values) for one in bench.scanned(none)[:8]]
+    np.testing.assert_allclose(foreseen(bench, none, nothing), 0.0, atol=5.0)
+
+
+@pytest.mark.parametrize(
+    ("make", "effect"),
+    [(BENCHES["ordinary noise"], DRIFT), (BENCHES["ordinary noise"], SPRUNG), (BENCHES["a belief"], STIFF)],
+    ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
+)
+def test_what_will_bring_most_is_foreseen_to(make, effect):
+    bench = make(effect)
+    none = nothing_found(bench)
+    scans = bench.scanned(none)[:16]
+    brings = np.array([rise(none, with_candidate(bench, none, one)) for one in scans])
+    reach = np.array(foreseen(bench, none, scans))
+    assert brings.max() > 100.0
+    assert reach[brings.argmax()] > 0.5 * brings.max()
+    assert np.all(brings < RAISED * np.maximum(reach, 5.0))

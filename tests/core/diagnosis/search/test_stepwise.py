@@ -1,0 +1,355 @@
+"""Hold the search to what it is for: what is there is named, what is not is not, a wrong start is mended."""
+
+from dataclasses import replace
+from functools import cache
+from itertools import cycle
+
+import numpy as np
+import pytest
+
+from core.diagnosis.causes.protocol import Confusion
+from core.diagnosis.causes.registry import BY_ID, CAUSES
+from core.diagnosis.checks.alternatives import standing, weighed
+from core.diagnosis.search import stepwise as search
+from core.diagnosis.search.entry_test import BESIDES, FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
+from core.diagnosis.search.likelihood_ratio import log_p, merit, rise
+from core.diagnosis.search.lr_bound import foreseen
+from core.diagnosis.search.stepwise import Selection, confirmed, select
+from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
+from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.waves import wave_cause, wave_effect
+
+QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
+"""Waves per radian: none of them is gravity."""
+
+CLEAN = None
+UNEVEN: Effect = lambda state: 0.15 * np.abs(state.velocity) * [0.0, 1.0, 0.0]  # noqa: E731  (a formula)
+SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+BOTH: Effect = lambda state: UNEVEN(state) + SPRUNG(state)  # noqa: E731  (a formula)
+
+
+def names(selection: Selection) -> list[tuple[str, tuple[int, ...]]]:
+    return sorted(one.key for one in selection.chosen.members)
+
+
+def searched(effect: Effect | None, seed: int) -> Selection:
+    return select(bench_of(measured_arm(effect, seed=seed), CAUSES))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_nothing_is_named_where_nothing_is_hidden(seed):
+    assert names(searched(CLEAN, seed)) == []
+
+
+@pytest.mark.parametrize(
+    ("effect", "hidden"),
+    [
+        (UNEVEN, [("friction_asymmetric", (2,))]),
+        (SPRUNG, [("spring_compensator", (1,))]),
+        (BOTH, [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]),
+    ],
+    ids=["uneven", "sprung", "both"],
+)
+def test_what_is_hidden_is_named_with_its_joint_and_nothing_else(effect, hidden):
+    assert names(searched(effect, 5)) == hidden
+
+
+def test_the_size_that_is_found_is_the_size_that_was_hidden():
+    found = searched(UNEVEN, 6).chosen.solved(0)
+    assert abs(found.values[0] - 0.15) < 3.0 * np.sqrt(found.covariance[0, 0])
+
+
+def shoved(state):
+    """Push all joints for most of a second."""
+    during = (state.time > 6.0) & (state.time < 6.8)
+    return during[:, None] * np.array([1.0, -0.8, 0.5])
+
+
+def spiky(state):
+    """Spoil four samples of one joint's torque, close to each other."""
+    out = np.zeros_like(state.position)
+    out[np.searchsorted(state.time, [6.0, 6.1, 6.22, 6.3]), 1] = [8.0, 9.0, 7.0, 8.0]
+    return out
+
+
+@pytest.mark.parametrize(
+    ("effect", "named"), [(shoved, ["external_contact"]), (spiky, [])], ids=["shoved", "spiky"]
+)
+def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
+    found = select(bench_of(measured_arm(effect), (BY_ID["external_contact"],)))
+    assert [name for name, _ in names(found)] == named
+
+
+def only_before_the_unseen_rows(state):
+    """Put a large wave where rows are fitted and its opposite where they are not; a small one all along."""
+    large = wave_effect({QUICK: 2.0})(state) * np.where(state.time < 16.0, 1.0, -1.0)[:, None]
+    return large + wave_effect({QUICKER: 0.06})(state)
+
+
+def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_the_same():
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    bench = bench_of(measured_arm(only_before_the_unseen_rows), causes)
+    none = nothing_found(bench)
+    first, second = bench.scanned(none)
+    assert first.candidate.cause.id == "quick"
+    (small,) = foreseen(bench, none, [second])
+    assert RAISED * small + BESIDES < merit(none, bench.added(none, first.candidate))
+    assert names(select(bench)) == [("quicker", (2,))]
+
+
+def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_time():
+    lasting = wave_cause("lasting", {QUICK: 1.0})
+    event = wave_cause("event", {QUICK: 1.0, QUICKER: 0.5})
+    type(event).event = True
+    effect = wave_effect({QUICK: 0.6, QUICKER: 0.3})
+    alone = select(bench_of(measured_arm(effect), (event,)))
+    assert names(alone) == [("event", (2,))]
+    both = select(bench_of(measured_arm(effect), (lasting, event)))
+    assert [(step.action, step.candidate.cause.id) for step in both.steps] == [
+        ("added", "lasting"),
+        ("added", "event"),
+        ("dropped", "lasting"),
+    ]
+
+
+def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most(monkeypatch):
+    bench = bench_of(
+        measured_arm(wave_effect({QUICK: 0.6})),
+        (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly_quick", {NEARLY_QUICK: 1.0})),
+    )
+    in_turn = cycle(one.candidate for one in bench.scanned(nothing_found(bench)))
+
+    def other_than_the_last(bench, now, *_given_up_and_limits):
+        return None if now.members else bench.added(now, next(in_turn))
+
+    monkeypatch.setattr(search, "best_addition", other_than_the_last)
+    assert [step.action for step in select(bench).steps] == ["added", "swapped", "swapped"]
+
+
+@cache
+def misled() -> Selection:
+    """Offer two true waves, and a false one that alone explains more than either."""
+    causes = (
+        wave_cause("quick", {QUICK: 1.0}),
+        wave_cause("quicker", {QUICKER: 1.0}),
+        wave_cause("stand_in", {QUICK: 1.0, QUICKER: 1.0, SLOW: 0.5}),
+    )
+    return select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes))
+
+
+def test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found():
+    assert misled().steps[0].candidate.cause.id == "stand_in"
+    assert names(misled()) == [("quick", (2,)), ("quicker", (2,))]
+    assert {"dropped", "swapped"} & {step.action for step in misled().steps}
+
+
+def test_every_step_of_the_search_is_on_record():
+    added = [step.candidate.key for step in misled().steps if step.action in ("added", "swapped")]
+    assert {one.key for one in misled().chosen.members} <= set(added)
+
+
+@pytest.mark.parametrize(
+    ("leaves", "size", "named"),
+    [((), 0.03, True), (("quicker",), 0.03, False), (("quicker",), 0.6, True)],
+    ids=["is another cause", "is what the first one leaves", "is as clear as the first one"],
+)
+def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly_as_clear(
+    leaves, size, named
+):
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    type(causes[0]).leaves = leaves
+    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
+    assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
+
+
+def weakly(bench, first, second):
+    """Tell whether a second cause is clear enough to be the first one, but not to be just another one."""
+    now = bench.tried((first,))
+    chance = log_p(now, bench.added(now, second)) + np.log(bench.kinds)
+    return np.log(FURTHER_LEVEL) < chance < np.log(LEVEL)
+
+
+def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_that():
+    effect = lambda state: 0.3 * SPRUNG(state) + 0.045 * UNEVEN(state)  # noqa: E731  (a formula)
+    bench = bench_of(measured_arm(effect), CAUSES)
+    found = select(bench)
+    assert names(found) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
+    assert weakly(bench, *sorted(found.chosen.members, key=lambda one: one.site))
+
+
+def test_one_that_shares_what_it_explains_with_the_first_has_to_be_clearer():
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly", {NEARLY_QUICK: 1.0}))
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, NEARLY_QUICK: 0.034})), causes)
+    assert names(select(bench)) == [("quick", (2,))]
+    assert weakly(bench, *bench.candidates)
+
+
+def test_one_that_would_not_join_any_more_is_dropped_when_another_one_joins():
+    waves = {QUICK: 0.6, NEARLY_QUICK: 0.034, QUICKER: 0.3}
+    causes = [
+        wave_cause(name, {rate: 1.0}) for name, rate in zip(("quick", "nearly", "new"), waves, strict=True)
+    ]
+    bench = bench_of(measured_arm(wave_effect(waves)), causes)
+    nothing_found(bench)
+    first, second, _ = bench.candidates
+    found = select(bench, start=(first, second))
+    assert names(found) == [("new", (2,)), ("quick", (2,))]
+    assert ("dropped", "nearly") in {(step.action, step.candidate.cause.id) for step in found.steps}
+
+
+def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
+    causes = (
+        made_up("one", lambda state, _: [np.sin(QUICK * state.position[:, 1])]),
+        made_up("two", lambda state, _: [wave(QUICKER * state.position[:, 1]) for wave in (np.sin, np.cos)]),
+    )
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), causes)
+    nothing_found(bench)
+    one, two = map(candidate, causes)
+    both, turned = bench.tried((two, one)), bench.tried((one, two))
+    assert merit(bench.tried((one,)), both, 0) == pytest.approx(merit(bench.tried((one,)), turned), abs=0.5)
+    assert merit(bench.tried((two,)), turned, 0) == pytest.approx(merit(bench.tried((two,)), both), abs=0.5)
+
+
+def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rivals():
+    """As a size that was possible beside another cause, and is not once that one was given up."""
+    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
+    cause = made_up("forbidden", columns, allowed=lambda scalars: False)
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
+    none = nothing_found(bench)
+    forbidden = bench.tried((candidate(cause),))
+    assert not forbidden.possible
+    kept, standings = weighed(bench, Selection(none, forbidden, ()))
+    assert (names(kept), standings) == ([], [])
+    assert not stays(bench, none, forbidden, 0)
+
+
+@pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
+def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
+    causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
+    type(causes[0]).excludes = keeps_out
+    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
+    assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
+
+
+@pytest.mark.parametrize(
+    ("like_noise", "share", "named"),
+    [(False, 0.5, True), (True, 0.1, True), (True, 0.5, False)],
+    ids=["unlike", "more than noise has", "less than noise has"],
+)
+def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_than_it_has(
+    like_noise, share, named
+):
+    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
+    cause = made_up("noisy", columns, like_position_noise=like_noise)
+    scene = measured_arm(wave_effect({QUICK: 0.04}))
+    look = replace(scene.look, position_share=np.array([0.9, share, 0.9]))
+    bench = bench_of(replace(scene, look=look), (cause,))
+    none = nothing_found(bench)
+    trial = bench.tried((candidate(cause),))
+    assert 0.1 < rise(none, trial) / len(trial.fit.joints[1].torque) < 0.5
+    assert clear_enough(bench, none, trial, kinds=1) == named
+
+
+@cache
+def twins():
+    """Offer one wave under two names, and another one; the wave of the twins is there."""
+    experiment = "move the joint while its twin rests"
+    causes = (
+        wave_cause("one", {QUICK: 1.0}, Confusion("other", "they are the same", experiment)),
+        wave_cause("other", {QUICK: 1.0}, Confusion("one", "they are the same", experiment)),
+        wave_cause("far", {QUICKER: 1.0}),
+    )
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
+    return select(bench), bench
+
+
+def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_equally_good():
+    selection, bench = twins()
+    ((name, site),) = names(selection)
+    (rival,) = standing(bench, selection.chosen, 0).ambiguous
+    assert {name, rival.cause} == {"one", "other"}
+    assert rival.joints == site
+    assert rival.separating_experiment == "move the joint while its twin rests"
+    # Noise is learned from different starts, until it gains less than 0.03 per joint; six would be much.
+    assert standing(bench, selection.chosen, 0).margin == pytest.approx(0.0, abs=0.3)
+
+
+def test_a_rival_that_explains_little_is_not_equally_good():
+    selection, bench = twins()
+    assert "far" not in {rival.cause for rival in standing(bench, selection.chosen, 0).ambiguous}
+
+
+@pytest.mark.parametrize(
+    ("like_noise", "size", "named"),
+    [(False, 1.0, False), (True, 0.3, False), (True, 1.0, True)],
+    ids=["unlike", "more than noise makes", "less than noise makes"],
+)
+def test_of_causes_that_noise_of_positions_passes_for_one_refutes_the_other_only_by_more_than_it_makes(
+    like_noise, size, named
+):
+    """The rival has a part of the effect, and lags behind by half of what all noise is worth."""
+    causes = tuple(
+        made_up(name, wave_of(*rates), like_position_noise=like_noise)
+        for name, rates in {"whole": (QUICK, QUICKER), "part": (QUICK,)}.items()
+    )
+    scene, harmless = (measured_arm(one) for one in (wave_effect({QUICK: 0.05, QUICKER: 0.05}), None))
+    noise = residual_of(harmless)
+    bench = bench_of(replace(scene, look=replace(scene.look, position_torque=size * noise)), causes)
+    whole, part = (bench.tried((candidate(one),)) for one in causes)
+    none, rows = nothing_found(bench), len(whole.fit.joints[1].torque)
+    assert 0.3**2 < (merit(none, whole) - merit(none, part)) / rows < 0.9
+    found = standing(bench, whole, 0)
+    assert [one.cause for one in found.ambiguous] == ["part"] * named
+    assert [one.cause for one in found.refuted] == ["part"] * (not named)
+
+
+def residual_of(scene):
+    bench = bench_of(scene, ())
+    return bench.residual(bench.tried(()))
+
+
+def wave_of(*rates):
+    return lambda state, scalars: [sum(np.sin(rate * state.position[:, 1]) for rate in rates)]
+
+
+def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
+    bench = bench_of(measured_arm(BOTH, seed=5), CAUSES)
+    monkeypatch.setattr("core.diagnosis.search.fitter.leaves_too_much", lambda *_rows_and_fit: True)
+    assert bench.needs_ordinary_noise(nothing_found(bench))
+    other = bench.with_ordinary_noise()
+    assert names(select(other)) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
+    assert bench.needs_ordinary_noise(nothing_found(bench))
+
+
+def found_with(bench, *members) -> Selection:
+    """Pretend that a search found some causes."""
+    none = nothing_found(bench)
+    return Selection(none, bench.tried(members), ())
+
+
+def waves_searched_for(*others):
+    quick, quicker = wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0})
+    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), (quick, quicker, *others))
+    return bench, quick
+
+
+def test_under_another_noise_a_search_goes_on_from_what_holds_its_place_to_where_a_new_one_ends():
+    bench, quick = waves_searched_for()
+    again = confirmed(bench.with_ordinary_noise(), found_with(bench, candidate(quick)))
+    assert again is not None
+    assert [step.action for step in again.steps] == ["kept", "added"]
+    assert {frozenset(name for name, _ in came) for came in again.through} == {
+        frozenset({"quick"}),
+        frozenset({"quick", "quicker"}),
+    }
+    anew = select(bench.with_ordinary_noise())
+    assert names(again) == names(anew) == [("quick", (2,)), ("quicker", (2,))]
+    assert abs(rise(anew.chosen, again.chosen)) < 1.0
+
+
+def test_nothing_is_confirmed_where_one_of_what_was_found_has_to_give_way():
+    slow = wave_cause("slow", {SLOW: 1.0})
+    bench, quick = waves_searched_for(slow)
+    false = found_with(bench, candidate(quick), candidate(slow))
+    assert confirmed(bench.with_ordinary_noise(), false) is None
+    assert confirmed(bench.with_ordinary_noise(), found_with(bench)) is None

@@ -1,0 +1,147 @@
+"""Hold whole diagnoses to what their words promise: a name with its evidence, or silence."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.diagnosis.diagnose import Question, diagnose
+from core.diagnosis.result import Diagnosis
+from core.extension.cure import cures, extended_base, taken_along
+from core.log.reader import read_log
+from core.reduction.base import base_model
+from core.regressor.columns import ColumnPlan
+from tests.core.diagnosis.residual.worlds import EXAMPLE, world
+from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
+
+UNEVEN = 0.15
+"""Half the difference of viscous friction between the directions of joint 2, N m s/rad."""
+
+
+def hidden(state):
+    return UNEVEN * np.abs(state.velocity) * [0.0, 1.0, 0.0]
+
+
+def foreign(state):
+    """Drag the second joint by the product of its neighbours' speeds, as no listed cause does."""
+    return 0.3 * (state.velocity[:, 0] * state.velocity[:, 2])[:, None] * [0.0, 1.0, 0.0]
+
+
+def asked(scene: Scene) -> Question:
+    model = scene.believed.model
+    plan = ColumnPlan(model, base_model(model).kept)
+    return Question(plan, (scene.look.motions[0].log,), frozenset({(0, 4), (0, 9), (0, 14), (0, 19)}), 20)
+
+
+@cache
+def diagnosed(effect: Effect | None) -> Diagnosis:
+    return diagnose(asked(measured_arm(effect)))
+
+
+def test_nothing_is_found_in_the_shipped_log_of_an_arm_that_is_as_described():
+    held = frozenset((0, block) for block in (4, 9, 14, 19))
+    found = diagnose(Question(world().plan, (read_log(EXAMPLE),), held, 20))
+    assert (found.verdict, found.findings) == ("nothing_found", ())
+    np.testing.assert_array_equal(found.residual_before, found.residual_after)
+
+
+def test_nothing_is_cured_where_nothing_is_found():
+    found = diagnosed(None)
+    assert (found.verdict, found.findings, cures(found)) == ("nothing_found", (), ())
+
+
+def test_a_finding_brings_everything_that_decided():
+    found = diagnosed(hidden)
+    assert found.verdict == "causes_found"
+    (one,) = found.findings
+    assert (one.cause, one.joints, one.cure) == ("friction_asymmetric", (2,), "term")
+    assert 0.5 < one.confidence <= 1.0
+    assert one.p_value < 1e-3
+    assert 0.0 < one.explained_fraction < 1.0
+    assert one.gain.interval_95[0] > 0.0
+    assert all(np.isfinite(part.value) for part in one.evidence if part.statistic != "criterion difference")
+    assert {rival.cause for rival in (*one.ambiguous_with, *one.refuted)}.isdisjoint({one.cause})
+    assert all(rival.why for rival in (*one.ambiguous_with, *one.refuted))
+    assert all(rival.separating_experiment for rival in one.ambiguous_with)
+    (size,) = one.quantities
+    assert abs(size.value - UNEVEN) < 3.0 * size.standard_deviation
+
+
+def jerked(state):
+    """Pull at the second joint for less than a second, all at once, as no contact swells and fades."""
+    return 4.0 * ((state.time > 6.0) & (state.time < 6.8))[:, None] * [0.0, 1.0, 0.0]
+
+
+def sprung_and_jerked_where_held_out(state):
+    jerk = 0.5 * ((state.time > 4.1) & (state.time < 4.9))
+    return 3.0 * state.position * [1.0, 0.0, 0.0] + jerk[:, None] * [0.0, 1.0, 0.0]
+
+
+def test_other_blocks_are_held_out_from_the_search_where_one_of_them_hides_what_no_other_shows():
+    found, asked_for = diagnosed(sprung_and_jerked_where_held_out), asked(measured_arm()).held_out
+    assert found.look.held_out_blocks.isdisjoint(asked_for)
+    assert len(found.look.held_out_blocks) == len(asked_for)
+    assert {step.action for step in found.selection.steps} == {"added"}
+
+
+def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():
+    found = diagnosed(jerked)
+    assert found.verdict == "unexplained"
+    assert "something happened then" in found.stranger.statement
+
+
+def test_a_finding_says_what_it_brings_on_rows_that_no_fit_has_seen_beside_what_was_to_be_expected():
+    (one,) = diagnosed(hidden).findings
+    (unseen,) = (part for part in one.evidence if part.statistic == "unseen likelihood ratio")
+    expected = float(unseen.statement.split("there ")[1].split()[0])
+    assert 0.6 < unseen.value / expected < 1.6
+
+
+def test_the_curve_of_a_finding_shows_what_it_takes_away():
+    curve = diagnosed(hidden).findings[0].curve
+    assert (curve.coordinate, curve.joint) == ("velocity", 2)
+    assert np.linalg.norm(curve.after) < 0.3 * np.linalg.norm(curve.before)
+
+
+def test_only_the_joint_of_the_finding_changes_much():
+    found = diagnosed(hidden)
+    before, after = (np.std(one, axis=0) for one in (found.residual_before, found.residual_after))
+    assert after[1] < 0.9 * before[1]
+    np.testing.assert_allclose(after[[0, 2]], before[[0, 2]], rtol=0.02)
+
+
+def test_the_cure_joins_the_model_under_its_own_name():
+    found = diagnosed(hidden)
+    (term,) = cures(found)
+    assert taken_along(found) == ""
+    base = base_model(measured_arm().believed.model)
+    whole = extended_base(base, (term,))
+    assert len(whole.kept) == len(base.kept) + 1
+    assert whole.model.terms[-1].name == term.name
+
+
+def test_the_same_logs_give_the_same_diagnosis():
+    first, second = diagnosed(hidden), diagnose(asked(measured_arm(hidden)))
+    assert [one.statement for one in second.findings] == [one.statement for one in first.findings]
+    assert [one.confidence for one in second.findings] == [one.confidence for one in first.findings]
+    assert [one.share for one in second.predictable] == [one.share for one in first.predictable]
+    np.testing.assert_array_equal(second.residual_after, first.residual_after)
+
+
+def test_a_pattern_that_no_listed_cause_has_is_told_without_a_name_and_makes_the_verdict():
+    found = diagnosed(foreign)
+    assert (found.verdict, found.findings, cures(found)) == ("unexplained", (), ())
+    assert found.stranger.joint == 2
+    assert "the product of the speeds of joints 1 and 3" in found.stranger.statement
+    assert found.stranger.log10_p < -10.0
+
+
+def test_nothing_strange_is_told_where_nothing_is_left():
+    assert diagnosed(None).stranger is None
+    assert diagnosed(hidden).stranger is None
+
+
+@pytest.mark.parametrize("joint", [1, 2, 3])
+def test_what_a_learner_could_still_gain_is_told_for_every_joint(joint):
+    (one,) = [part for part in diagnosed(None).predictable if part.joint == joint]
+    assert one.interval[0] <= one.share <= one.interval[1]

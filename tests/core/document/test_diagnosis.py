@@ -1,0 +1,129 @@
+"""The document of a real diagnosis: an arm whose torque ripples, from its log to the page."""
+
+import json
+
+import numpy as np
+import pytest
+from pydantic import BaseModel
+
+from app.schemas.results import ResultDocument
+from core.document.model_file import read_model
+from core.document.reading import identified_model, identified_robot
+from core.export.formats import FORMATS
+from core.log.reader import log_from_arrays
+from core.report.page.page import compose_page
+from core.robot.description import robot_from_description
+from core.study import IdentifyRequest, diagnose
+from tests.app.planar_arm import columns, description
+from tests.core.report.page.test_page import Page
+
+AMPLITUDE, HARMONIC = 0.3, 7.0
+
+
+@pytest.fixture(scope="module")
+def document():
+    time, position, torque = columns(seconds=30.0, noise=0.1)
+    torque[:, 1] += AMPLITUDE * np.cos(HARMONIC * position[:, 1] + 0.4)
+    log = log_from_arrays("rippled", time, np.round(position, 5), torque)  # an encoder has steps
+    robot = robot_from_description(description())
+    return diagnose(IdentifyRequest(robot, (log,), {"bootstrap": {"draws": 0}}))
+
+
+def test_the_document_is_json_and_follows_the_contract(document):
+    ResultDocument.model_validate_json(json.dumps(document, allow_nan=False))
+    assert document["kind"] == "diagnose"
+
+
+def unnamed(model, place=""):
+    """List the fields of an answer that its contract does not name."""
+    inside = {name: getattr(model, name) for name in type(model).model_fields}
+    found = [f"{place}/{name}" for name in model.model_extra or {}]
+    for name, value in inside.items():
+        for one in value if isinstance(value, list) else [value]:
+            if isinstance(one, BaseModel):
+                found += unnamed(one, f"{place}/{name}")
+    return found
+
+
+def test_the_contract_names_every_field_of_a_diagnosis(document):
+    diagnosis = ResultDocument.model_validate_json(json.dumps(document)).diagnosis
+    assert unnamed(diagnosis) == []
+    assert unnamed(
+        diagnosis.model_copy(
+            update={"gain": [diagnosis.gain[0].model_validate(diagnosis.gain[0].model_dump() | {"luck": 1})]}
+        )
+    ) == ["/gain/luck"]
+
+
+def test_the_cause_is_named_with_its_size(document):
+    (finding,) = document["diagnosis"]["findings"]
+    assert (finding["cause"], finding["joints"]) == ("torque_ripple", [2])
+    sizes = {one["name"]: one for one in finding["parameters"]}
+    for name, true in (("amplitude", AMPLITUDE), ("harmonic", HARMONIC)):
+        # Four deviations: one in ten thousand logs lies further off.
+        assert abs(sizes[name]["value"] - true) < 4.0 * sizes[name]["standard_deviation"], sizes[name]
+
+
+def test_the_gain_is_told_per_joint_on_held_out_data_in_torque_and_in_motion(document):
+    diagnosis = document["diagnosis"]
+    first, second = diagnosis["gain"]
+    assert second["improvement_percent"] > 30.0
+    assert second["interval_95"][0] > 0.0
+    assert abs(first["improvement_percent"]) < 5.0
+    before, after = (diagnosis[side]["validation"][1]["rms_residual"] for side in ("before", "after"))
+    assert (before, after) == (second["rms_residual_before"], second["rms_residual_after"])
+    simulation = diagnosis["simulation"]
+    assert simulation["improvement_total_percent"][1] > 0.0
+    assert np.shape(simulation["before"]["position_rms"]) == (len(simulation["before"]["horizons_s"]), 2)
+
+
+def test_the_search_holds_out_what_the_fit_does_where_nothing_happened_there_alone(document):
+    assert document["diagnosis"]["held_out"] == document["held_out"] != []
+
+
+def test_the_extended_model_has_the_old_parameters_and_the_new_ones(document):
+    old = [row["name"] for row in document["base_parameters"]]
+    rows = document["diagnosis"]["after"]["base_parameters"]
+    assert [row["name"] for row in rows if not row["new"]] == old
+    new = [row for row in rows if row["new"]]
+    assert np.hypot(*(row["value"] for row in new)) == pytest.approx(AMPLITUDE, rel=0.1)
+    assert all(row["standard_deviation"] > 0.0 for row in new)
+
+
+def test_every_finding_has_its_repair_and_a_description_that_is_right_is_not_repaired(document):
+    (one,) = document["diagnosis"]["repairs"]
+    assert (one["cause"], one["joints"], one["mends"]) == ("torque_ripple", [2], "model")
+    assert document["diagnosis"]["repaired_robot"] is None
+    assert f"Repair: {one['what']}." in Page(compose_page(json.loads(json.dumps(document)))).text
+
+
+def test_nothing_is_left_above_the_noise_floor(document):
+    left = document["diagnosis"]["unexplained"]
+    assert left["joints"] == []
+    # The floor counts what Coulomb friction's steps leave in the high band: it may lie above, not below.
+    assert (np.divide(left["rms_residual"], left["noise_floor"]) < 1.1).all()
+
+
+def test_the_atlas_shows_every_joint_over_every_coordinate_that_it_has(document):
+    listed = {(one["coordinate"], one["joint"]) for one in document["diagnosis"]["atlas"]}
+    assert {(name, joint) for name in ("time", "position", "velocity", "load") for joint in (1, 2)} <= listed
+
+
+def test_the_page_of_a_real_diagnosis_names_the_cause_in_its_first_sentence(document):
+    page = compose_page(json.loads(json.dumps(document)))
+    assert (
+        "The simulation of planar arm gets one thing wrong: the torque ripples along the angle (joint 2)."
+        in (page)
+    )
+
+
+def test_the_extended_model_is_in_the_document_with_numbers_that_give_its_base_parameters(document):
+    document = json.loads(json.dumps(document))
+    found = identified_model(document)
+    assert [term.name for term in found.model.terms][-1] == "torque_ripple_2"
+    values = found.values
+    for row in document["diagnosis"]["after"]["base_parameters"]:
+        summed = sum(share * values[name] for name, share in row["relation"].items())
+        assert summed == pytest.approx(row["value"], abs=1e-7), row["name"]
+    assert read_model(FORMATS["model.json"].write(document)).values == values
+    assert "torque_ripple_2" in identified_robot(document).remarks[-1]

@@ -1,0 +1,97 @@
+"""What looks wrong about a usable description is said, and what is merely unusual is not."""
+
+import json
+
+import pytest
+
+from core.robot.description import robot_from_description
+from core.robot.plausibility import suspicions
+from core.robot.urdf import robot_from_urdf
+from tests.tools import shared
+
+# KUKA-like proportions in Khalil's convention.
+ROWS = [(0.0, 0.0, 0.34, 0.0), (-1.5708, 0.0, 0.0, 0.0), (1.5708, 0.05, 0.4, 3.1416)]
+
+
+def _suspicions(rows: list[tuple[float, ...]] = ROWS, **others: object) -> tuple[str, ...]:
+    joints = [
+        {"type": "revolute", **dict(zip(("alpha", "d", "r", "theta_offset"), row, strict=True))}
+        for row in rows
+    ]
+    return suspicions(robot_from_description({"name": "arm", "joints": joints} | others))
+
+
+def test_a_plain_table_raises_no_suspicion():
+    assert _suspicions() == ()
+
+
+@pytest.mark.parametrize("name", ["franka_panda", "rokae_xmate3", "staubli_tx40"])
+def test_the_tables_of_real_robots_raise_no_suspicion(name):
+    table = json.loads(shared(f"data/{name}/model_mdh.json").read_text())
+    rows = [(row["alpha"], row["d"], row["r"], row["theta"]) for row in table["mdh"]]
+    assert _suspicions(rows, gravity=table["gravity"]) == ()
+
+
+def test_a_table_written_in_degrees_and_millimetres_are_suspected():
+    rows = [(90.0 if row[0] else 0.0, 1000 * row[1], 1000 * row[2], 180.0 if row[3] else 0.0) for row in ROWS]
+    said = _suspicions(rows)
+    assert sum("were degrees meant" in line for line in said) == 3
+    assert sum("millimetres or centimetres meant" in line for line in said) == 2
+
+
+def test_letters_of_craig_are_suspected():
+    rows = [(alpha, r, d, theta) for alpha, d, r, theta in ROWS]
+    assert any("Khalil's d is Craig's a" in line for line in _suspicions(rows))
+
+
+def test_a_standard_table_is_suspected():
+    # The same arm with alpha of the next joint in every row, as in distal Denavit-Hartenberg.
+    rows = [(-1.5708, 0.0, 0.34, 0.0), (1.5708, 0.05, 0.0, 0.0), (0.0, 0.0, 0.4, 3.1416)]
+    assert any("standard Denavit-Hartenberg" in line for line in _suspicions(rows))
+
+
+@pytest.mark.parametrize(
+    ("gravity", "words"),
+    [
+        ((0.0, 0.0, 9.81), "gravity points along"),
+        ((0.0, 0.0, -981.0), "on Earth"),
+        ((0.0, 0.0, 0.0), "on Earth"),
+    ],
+)
+def test_gravity_that_points_up_or_is_not_that_of_the_earth_is_suspected(gravity, words):
+    said = _suspicions(gravity=list(gravity))
+    assert len(said) == 1
+    assert words in said[0]
+
+
+def test_a_tilted_base_is_not_suspected():
+    assert _suspicions(gravity=[-5.307, -6.843, -4.609]) == ()
+
+
+def test_position_limits_in_degrees_are_suspected():
+    row = {
+        "type": "revolute",
+        "alpha": 0,
+        "d": 0,
+        "r": 0.3,
+        "theta_offset": 0,
+        "limits": {"position": [-170, 170]},
+    }
+    said = suspicions(robot_from_description({"name": "arm", "joints": [row]}))
+    assert len(said) == 1
+    assert "were degrees or mm meant" in said[0]
+
+
+@pytest.mark.parametrize("name", ["ur10e_open", "staubli_tx40"])
+def test_the_urdfs_of_real_robots_raise_no_suspicion(name):
+    assert suspicions(robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())) == ()
+
+
+def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected():
+    def arm(alpha: float) -> dict[str, object]:
+        row = {"type": "revolute", "d": 0.0, "r": 0.2, "theta_offset": 0.0}
+        return {"name": "arm", "joints": [row | {"alpha": 0.0}, row | {"alpha": alpha}]}
+
+    assert any("right angle" in one for one in suspicions(robot_from_description(arm(1.571))))
+    assert not any("right angle" in one for one in suspicions(robot_from_description(arm(1.5708))))
+    assert not any("right angle" in one for one in suspicions(robot_from_description(arm(0.98))))
