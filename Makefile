@@ -41,7 +41,7 @@ demo: $(READY) ## identify a YuMi arm through the service, then diagnose a log i
 	$(RUN) -m examples.yumi.demo
 
 serve: $(READY) ## start the service on loopback and print its URL
-	$(RUN) -m app serve
+	$(RUN) -m veritorque serve
 
 test: $(READY) ## run every test
 	$(RUN) -m pytest -n 2 $(ARGS)
@@ -53,13 +53,13 @@ style: $(READY)
 	$(RUN) -m ruff format --check .
 
 types: $(READY)
-	$(RUN) -m mypy core app
+	$(RUN) -m mypy --package veritorque
 
 imports: $(READY)
 	.venv/bin/lint-imports --no-logo
 
 drift: $(READY)
-	$(RUN) -m app openapi | diff openapi.json - || { echo "openapi.json is not what the service gives: make openapi" >&2; exit 1; }
+	$(RUN) -m veritorque openapi | diff openapi.json - || { echo "openapi.json is not what the service gives: make openapi" >&2; exit 1; }
 
 containers: $(READY)
 	.venv/bin/hadolint docker/Dockerfile
@@ -101,15 +101,15 @@ lock: ## rewrite the locked requirements after a change of dependencies (needs u
 	uv pip compile $(LOCK_FLAGS) --extra test pyproject.toml --output-file $(LOCK)
 
 openapi: $(READY) ## rewrite openapi.json after a change of the API
-	$(RUN) -m app openapi > openapi.json.new
+	$(RUN) -m veritorque openapi > openapi.json.new
 	mv openapi.json.new openapi.json
 
 reference: $(READY) ## rewrite the generated pages of docs/ after a change of the API, causes, terms, formats or problems
-	$(RUN) -m app.reference.api < openapi.json > docs/api.md.new
-	$(RUN) -m app.reference.problems > docs/problems.md.new
-	$(RUN) -m core.dynamics.guide > docs/terms.md.new
-	$(RUN) -m core.export.guide > docs/formats.md.new
-	$(RUN) -m core.diagnosis.causes.guide > docs/causes.md.new
+	$(RUN) -m veritorque.app.reference.api < openapi.json > docs/api.md.new
+	$(RUN) -m veritorque.app.reference.problems > docs/problems.md.new
+	$(RUN) -m veritorque.core.dynamics.guide > docs/terms.md.new
+	$(RUN) -m veritorque.core.export.guide > docs/formats.md.new
+	$(RUN) -m veritorque.core.diagnosis.causes.guide > docs/causes.md.new
 	for page in api problems terms formats causes; do mv docs/$$page.md.new docs/$$page.md; done
 
 docs: $(READY) ## build the pages of docs/ as a site in site/, which opens without a server

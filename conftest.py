@@ -11,21 +11,21 @@ from hypothesis import HealthCheck, settings
 from jaxtyping import install_import_hook
 
 CHECKED_PACKAGES = (
-    "core.diagnosis",
-    "core.dynamics",
-    "core.estimate",
-    "core.export",
-    "core.extension",
-    "core.log",
-    "core.precision",
-    "core.reduction",
-    "core.robot",
-    "core.signals",
-    "core.study",
-    "core.validation",
+    "veritorque.core.diagnosis",
+    "veritorque.core.dynamics",
+    "veritorque.core.estimate",
+    "veritorque.core.export",
+    "veritorque.core.extension",
+    "veritorque.core.log",
+    "veritorque.core.precision",
+    "veritorque.core.reduction",
+    "veritorque.core.robot",
+    "veritorque.core.signals",
+    "veritorque.core.study",
+    "veritorque.core.validation",
 )
 
-collect_ignore = ["app/store/migrations/env.py"]  # a script, which only Alembic can run
+collect_ignore = ["veritorque/app/store/migrations/env.py"]  # a script, which only Alembic can run
 
 install_import_hook(CHECKED_PACKAGES, "beartype.beartype")
 

@@ -11,7 +11,7 @@ import sys
 import structlog
 from structlog.typing import EventDict, Processor, WrappedLogger
 
-from app.settings import Settings
+from .settings import Settings
 
 bound = structlog.contextvars.bound_contextvars
 """Let the lines written within a ``with`` carry the given names."""

@@ -11,19 +11,19 @@ from typing import Any
 import anyio
 from fastapi import FastAPI
 
-from app.http import exception_handlers, openapi
-from app.http.body.content_digest import ContentDigest
-from app.http.disk_reserve import DiskReserve
-from app.http.host_guard import Door
-from app.http.middleware import BodyLimit, HeadAsGet, SafeHeaders
-from app.http.request_log import Observe
-from app.jobs.executor import Executor
-from app.jobs.supervisor import Supervisor
-from app.routes import events, health, identify, jobs, logs, pages, robots, traces
-from app.services.metrics import Metrics
-from app.services.services import Services
-from app.settings import Settings
-from app.version import VERSION
+from .http import exception_handlers, openapi
+from .http.body.content_digest import ContentDigest
+from .http.disk_reserve import DiskReserve
+from .http.host_guard import Door
+from .http.middleware import BodyLimit, HeadAsGet, SafeHeaders
+from .http.request_log import Observe
+from .jobs.executor import Executor
+from .jobs.supervisor import Supervisor
+from .routes import events, health, identify, jobs, logs, pages, robots, traces
+from .services.metrics import Metrics
+from .services.services import Services
+from .settings import Settings
+from .version import VERSION
 
 TAGS = [
     {"name": "robots", "description": "What is believed before measuring: joints, geometry, gravity."},

@@ -8,9 +8,9 @@ from collections.abc import Mapping
 
 from starlette.exceptions import HTTPException
 
-from app.json_text import plain
-from app.store.errors import Damaged
-from core.errors import ExcitationError, LogError, OptionError, RobotError, SolverError, VeritorqueError
+from ..core.errors import ExcitationError, LogError, OptionError, RobotError, SolverError, VeritorqueError
+from .json_text import plain
+from .store.errors import Damaged
 
 MEDIA_TYPE = "application/problem+json"
 URN = "urn:veritorque:problem:"

@@ -5,10 +5,10 @@ No sample is visited again: every draw is a sum of the blocks' factors and one s
 
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import Figure, processor_seconds
-from core.estimate.estimate import estimate
-from core.estimate.options import EstimateOptions
-from core.precision.bootstrap import bootstrap
-from core.study import IdentifyRequest, identify_in_full
+from veritorque.core.estimate.estimate import estimate
+from veritorque.core.estimate.options import EstimateOptions
+from veritorque.core.precision.bootstrap import bootstrap
+from veritorque.core.study import IdentifyRequest, identify_in_full
 
 DRAWS = 200
 

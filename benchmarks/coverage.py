@@ -8,8 +8,8 @@ import numpy as np
 
 from benchmarks.demo_log import demo_robot, noisy_log, truth
 from benchmarks.figures import Figure
-from core.precision.covariance import INTERVAL_95
-from core.study import IdentifyRequest, identify_in_full
+from veritorque.core.precision.covariance import INTERVAL_95
+from veritorque.core.study import IdentifyRequest, identify_in_full
 
 DRAWS = 200
 DURATION = 30.0

@@ -10,12 +10,12 @@ from typing import Final
 
 import numpy as np
 
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays, read_log
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
 from examples.yumi import arm, make_log
 from examples.yumi.excitation import Excitation
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays, read_log
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
 
 FOLDER: Final = Path(arm.HERE)
 

@@ -10,12 +10,12 @@ from functools import cache
 import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
-from core.diagnosis.diagnose import Question, diagnose
-from core.dynamics.model import standard_model
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.validation.holdout import HoldOut
 from tests.plant.cases import Case, draw, draw_clean
+from veritorque.core.diagnosis.diagnose import Question, diagnose
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.validation.holdout import HoldOut
 
 ROBOTS = ("planar-2", "planar-3", "ur10e", "yumi-left")
 SECONDS = (15.0, 30.0, 60.0, 120.0)

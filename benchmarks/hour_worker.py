@@ -12,9 +12,9 @@ from pathlib import Path
 
 def main() -> None:
     """Read the file named on the command line, identify, and print."""
-    from core.log.reader import read_log
-    from core.robot.builtin import builtin_robot
-    from core.study import IdentifyRequest, identify
+    from veritorque.core.log.reader import read_log
+    from veritorque.core.robot.builtin import builtin_robot
+    from veritorque.core.study import IdentifyRequest, identify
 
     marks = [("imports", time.process_time())]
     log = read_log(Path(sys.argv[1]))

@@ -10,13 +10,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from benchmarks.figures import Figure
-from core.diagnosis.result import Finding
-from core.extension.result import Diagnosed
-from core.log.model import JointLog
-from core.robot.model import RobotModel
-from core.study import IdentifyRequest, diagnose_in_full
-from core.validation.scores import JointScore
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
+from veritorque.core.diagnosis.result import Finding
+from veritorque.core.extension.result import Diagnosed
+from veritorque.core.log.model import JointLog
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.study import IdentifyRequest, diagnose_in_full
+from veritorque.core.validation.scores import JointScore
 
 
 @dataclass(frozen=True)

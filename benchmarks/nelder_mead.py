@@ -12,12 +12,12 @@ from scipy import optimize
 
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import Figure, processor_seconds
-from core.document.identification import Identification
-from core.estimate.estimate import estimate
-from core.estimate.feasibility import feasibility
-from core.estimate.options import EstimateOptions
-from core.study import IdentifyRequest, identify_in_full
-from core.validation.mass_matrix import mass_matrices
+from veritorque.core.document.identification import Identification
+from veritorque.core.estimate.estimate import estimate
+from veritorque.core.estimate.feasibility import feasibility
+from veritorque.core.estimate.options import EstimateOptions
+from veritorque.core.study import IdentifyRequest, identify_in_full
+from veritorque.core.validation.mass_matrix import mass_matrices
 
 EVALUATIONS = 20_000
 POSITIONS = 40

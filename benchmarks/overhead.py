@@ -14,8 +14,8 @@ from pathlib import Path
 from benchmarks.demo_log import demo_robot
 from benchmarks.figures import Figure
 from benchmarks.running import LOG, Running, running_service
-from core.log.reader import read_log
-from core.study import IdentifyRequest, identify
+from veritorque.core.log.reader import read_log
+from veritorque.core.study import IdentifyRequest, identify
 
 REST_S = 1.0
 OPTIONS: dict[str, object] = {"bootstrap": {"draws": 0}}

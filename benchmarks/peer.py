@@ -9,9 +9,9 @@ from typing import Any, Final
 import numpy as np
 import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
 
-from core.reduction.base import BaseModel
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from veritorque.core.reduction.base import BaseModel
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 SYMBOLS: Final = ("M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ")
 """pinocchio's order of a body's parameters."""

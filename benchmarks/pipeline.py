@@ -10,11 +10,11 @@ from scipy import signal
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import base_columns, pinocchio_model
 from benchmarks.scene import NOISE_SHARE, RATE_HZ, Scene, smooth_motion, yumi_arm
-from core.log.reader import log_from_arrays
-from core.regressor.observe import equations, observe
-from core.signals.condition import Motion, condition
-from core.signals.recipe import FilterOptions
-from core.signals.state import MotionState
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.regressor.observe import equations, observe
+from veritorque.core.signals.condition import Motion, condition
+from veritorque.core.signals.recipe import FilterOptions
+from veritorque.core.signals.state import MotionState
 
 TRIM_SECONDS = 2.0
 ORDER, CUTOFF_HZ, POSITION_CUTOFF_HZ, DECIMATION = 5, 10.0, 50.0, 10

@@ -9,15 +9,15 @@ import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.scene import NOISE_SHARE, Scene, scene_of, smooth_motion
-from core.estimate.constraints import Bounds, default_prior
-from core.estimate.programme import Programme
-from core.estimate.system import weighted
-from core.estimate.with_clarabel import solve_with_clarabel
-from core.estimate.with_cvxpy import solve_with_cvxpy
-from core.regressor.factor import Factor
-from core.robot.builtin import builtin_robot
-from core.robot.frames import rotation_rpy
-from core.robot.model import Joint, Link, RobotModel
+from veritorque.core.estimate.constraints import Bounds, default_prior
+from veritorque.core.estimate.programme import Programme
+from veritorque.core.estimate.system import weighted
+from veritorque.core.estimate.with_clarabel import solve_with_clarabel
+from veritorque.core.estimate.with_cvxpy import solve_with_cvxpy
+from veritorque.core.regressor.factor import Factor
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.model import Joint, Link, RobotModel
 
 TARGETS_MS = {7: 15, 14: 60, 30: 400}
 _SAMPLES = 400

@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import base_columns, pinocchio_model, regressors
 from benchmarks.scene import RATE_HZ, smooth_motion, yumi_arm
-from core.signals.state import MotionState
+from veritorque.core.signals.state import MotionState
 
 STRETCH = 2048
 """Samples at a time, about what a tile of a log holds."""

@@ -51,7 +51,7 @@ def running_service(**settings: object) -> Iterator[Running]:
             f"VERITORQUE_{name.upper()}": str(value) for name, value in (chosen | settings).items()
         }
         environment = {**os.environ, "NUMBA_CACHE_DIR": str(KERNELS), **environment}
-        command = [sys.executable, "-m", "app"]
+        command = [sys.executable, "-m", "veritorque"]
         made = subprocess.run(
             [*command, "keys", "create", "bench"], env=environment, check=True, capture_output=True, text=True
         )

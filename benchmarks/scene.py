@@ -9,13 +9,13 @@ from typing import Final
 
 import numpy as np
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.reduction.base import BaseModel, base_model
-from core.regressor.columns import ColumnPlan
-from core.robot.builtin import builtin_robot
-from core.robot.inertia import from_mass_properties
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.reduction.base import BaseModel, base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.inertia import from_mass_properties
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 RATE_HZ: Final = 250.0
 HARMONICS: Final = 6

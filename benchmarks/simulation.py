@@ -13,13 +13,13 @@ import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-i
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import pinocchio_model
 from benchmarks.scene import smooth_motion, yumi_arm
-from core.dynamics.model import standard_model
-from core.robot.inertia import mass_properties
-from core.signals.state import MotionState
-from core.simulation.drive import Drive
-from core.simulation.mechanism import Mechanism, mechanism_of
-from core.simulation.rollout import rollout
-from core.simulation.stage import States
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.robot.inertia import mass_properties
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.drive import Drive
+from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
+from veritorque.core.simulation.rollout import rollout
+from veritorque.core.simulation.stage import States
 
 STEP = 1e-3
 STEPS = 200

@@ -9,18 +9,18 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from core.arrays import Parameters
-from core.diagnosis.diagnose import Question
-from core.diagnosis.diagnose import diagnose as find_causes
-from core.diagnosis.result import Diagnosis
-from core.document.diagnosis import diagnosis_document
-from core.document.identification import grouping_row, identification_document
-from core.document.numbers import plain
-from core.document.reference import reference_from_document
-from core.dynamics.model import DynamicModel, standard_model
-from core.errors import OptionError, SolverError, VeritorqueError
-from core.estimate.measured import Measured, smoothed
-from core.extension.cure import (
+from .arrays import Parameters
+from .diagnosis.diagnose import Question
+from .diagnosis.diagnose import diagnose as find_causes
+from .diagnosis.result import Diagnosis
+from .document.diagnosis import diagnosis_document
+from .document.identification import grouping_row, identification_document
+from .document.numbers import plain
+from .document.reference import reference_from_document
+from .dynamics.model import DynamicModel, standard_model
+from .errors import OptionError, SolverError, VeritorqueError
+from .estimate.measured import Measured, smoothed
+from .extension.cure import (
     all_proven,
     cures,
     extended_base,
@@ -28,25 +28,25 @@ from core.extension.cure import (
     sizes,
     taken_along,
 )
-from core.extension.fold import folded
-from core.extension.gain import JointGain, gains
-from core.extension.result import Diagnosed
-from core.extension.verification import proven
-from core.identification.admission import admit, known_log
-from core.identification.against_reference import compared
-from core.identification.identify import Fitted, Fitting, Progress, fitted, identified
-from core.identification.options import IdentifyOptions, parse_diagnose_options, parse_options
-from core.identification.reference import PRIOR, Reference, reference_from_prior
-from core.identification.result import Identification
-from core.log.model import JointLog
-from core.reduction.base import BaseModel, base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import Observation
-from core.report.traces.writing import write_traces
-from core.robot.model import RobotModel
-from core.signals.several import condition_all
-from core.simulation.mechanism import mechanism_of
-from core.simulation.multistep import Comparison, compare
+from .extension.fold import folded
+from .extension.gain import JointGain, gains
+from .extension.result import Diagnosed
+from .extension.verification import proven
+from .identification.admission import admit, known_log
+from .identification.against_reference import compared
+from .identification.identify import Fitted, Fitting, Progress, fitted, identified
+from .identification.options import IdentifyOptions, parse_diagnose_options, parse_options
+from .identification.reference import PRIOR, Reference, reference_from_prior
+from .identification.result import Identification
+from .log.model import JointLog
+from .reduction.base import BaseModel, base_model
+from .regressor.columns import ColumnPlan
+from .regressor.observe import Observation
+from .report.traces.writing import write_traces
+from .robot.model import RobotModel
+from .signals.several import condition_all
+from .simulation.mechanism import mechanism_of
+from .simulation.multistep import Comparison, compare
 
 __all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full", "parse_options"]
 

@@ -39,7 +39,7 @@ def main() -> None:
     """Run; a failure ends with a traceback."""
     joint = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
     robot = {"name": "two", "joints": [joint, joint], "gravity": [0.0, 0.0, -9.81]}
-    with subprocess.Popen([sys.executable, "-m", "app", "serve"]) as service:
+    with subprocess.Popen([sys.executable, "-m", "veritorque", "serve"]) as service:
         try:
             wait()
             with urllib.request.urlopen(ADDRESS + "/static/example-log.csv") as example:  # noqa: S310 - our own

@@ -5,8 +5,8 @@ Run ``python -m examples.01_identify``; it writes `result.json` beside you, whic
 
 from pathlib import Path
 
-from app.client.result import Result
-from core import IdentifyRequest, builtin_robot, identify, read_log
+from veritorque import IdentifyRequest, builtin_robot, identify, read_log
+from veritorque.app.client.result import Result
 
 LOG = Path(__file__).parent / "yumi" / "log.csv"
 

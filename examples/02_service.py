@@ -1,13 +1,13 @@
 """Identify through a service: upload a log, ask, follow, and take the report and a URDF home.
 
-Start the service with ``python -m app serve``, then run ``python -m examples.02_service``.
+Start the service with ``python -m veritorque serve``, then run ``python -m examples.02_service``.
 """
 
 import os
 from pathlib import Path
 
-from app.client.client import Client
-from app.client.progress import bar
+from veritorque.app.client.client import Client
+from veritorque.app.client.progress import bar
 
 URL = os.environ.get("VERITORQUE_URL", "http://127.0.0.1:8000")
 KEY = os.environ.get("VERITORQUE_KEY")

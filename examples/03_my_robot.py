@@ -9,8 +9,8 @@ import json
 from math import pi
 from pathlib import Path
 
-from core import base_parameters, robot_from_description
-from core.robot.plausibility import suspicions
+from veritorque import base_parameters, robot_from_description
+from veritorque.core.robot.plausibility import suspicions
 
 #        alpha     d     r   theta_offset   position limits, rad
 TABLE = (

@@ -1,14 +1,14 @@
 """Ask a service what the simulation of a robot gets wrong, and read findings, rivals and gain.
 
 The log hides two effects that the description does not tell of. Start the service with
-``python -m app serve``, then run ``python -m examples.04_diagnose``; it takes ten seconds or so.
+``python -m veritorque serve``, then run ``python -m examples.04_diagnose``; it takes ten seconds or so.
 """
 
 import os
 from pathlib import Path
 
-from app.client.client import Client
-from app.client.progress import bar
+from veritorque.app.client.client import Client
+from veritorque.app.client.progress import bar
 
 URL = os.environ.get("VERITORQUE_URL", "http://127.0.0.1:8000")
 KEY = os.environ.get("VERITORQUE_KEY")

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.client.result import Result
-from core import IdentifyRequest, builtin_robot, identify, read_log
+from veritorque import IdentifyRequest, builtin_robot, identify, read_log
+from veritorque.app.client.result import Result
 
 YUMI = Path(__file__).parent / "yumi"
 FAR = 4.0

@@ -10,7 +10,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from core.export.formats import FORMATS
+from veritorque.core.export.formats import FORMATS
 
 SECONDS = 2.0
 

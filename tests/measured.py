@@ -7,12 +7,12 @@ from functools import cache
 import numpy as np
 import pyarrow.parquet as pq
 
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.robot.urdf import robot_from_urdf
 from tests.tools import shared
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.urdf import robot_from_urdf
 
 FRANKA_ROWS = 20_544
 TX40_TRAIN = (500, round((0.1 + 0.7 * 7.3) * 5000))

@@ -13,9 +13,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from core.robot.frames import rotation_rpy
-from core.robot.inertia import from_mass_properties, mass_properties
-from core.robot.model import Joint, Link, RobotModel
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.inertia import from_mass_properties, mass_properties
+from veritorque.core.robot.model import Joint, Link, RobotModel
 
 SHARED = Path(__file__).resolve().parents[1] / ".." / "shared"
 

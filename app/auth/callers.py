@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from starlette.requests import Request
 
-from app.auth.keys import KeyRing
-from app.problems import Problem
-from app.settings import LOCAL, SCOPES
-from app.store.keys import KeyRecord
+from ..problems import Problem
+from ..settings import LOCAL, SCOPES
+from ..store.keys import KeyRecord
+from .keys import KeyRing
 
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
 CHALLENGE = {"WWW-Authenticate": 'Bearer realm="veritorque"'}

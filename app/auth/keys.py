@@ -7,8 +7,8 @@ import hmac
 import threading
 import time
 
-from app.store.database import Database
-from app.store.keys import KeyRecord, KeyStore, digest
+from ..store.database import Database
+from ..store.keys import KeyRecord, KeyStore, digest
 
 FRESH_S = 2.0
 

@@ -8,7 +8,7 @@ import math
 import time
 from collections.abc import Callable
 
-from app.problems import Problem
+from ..problems import Problem
 
 BURST_S = 4.0
 """Requests of so many seconds may come at once."""

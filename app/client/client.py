@@ -6,12 +6,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from app.client.errors import NoResultError, ServiceError, from_problem
-from app.client.follow import Follower
-from app.client.parcel import log_parcel, robot_parcel
-from app.client.records import Job, Log, Robot
-from app.client.result import Result
-from app.client.transport import Transport, segment
+from .errors import NoResultError, ServiceError, from_problem
+from .follow import Follower
+from .parcel import log_parcel, robot_parcel
+from .records import Job, Log, Robot
+from .result import Result
+from .transport import Transport, segment
 
 Tell = Callable[[str, float], None]
 RobotLike = Robot | str | Path | Mapping[str, object]

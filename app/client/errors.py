@@ -7,7 +7,7 @@ Every one is a `ServiceError`: `NoAnswerError` where nobody answers, `RefusedErr
 from collections.abc import Mapping
 from typing import TypeVar
 
-from core.errors import VeritorqueError
+from ...core.errors import VeritorqueError
 
 Said = TypeVar("Said", bound="ServiceError")
 URN = "urn:veritorque:problem:"

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Final
 
-from app.client.errors import NoAnswerError, RefusedError, ServiceError
-from app.client.records import Job
-from app.client.transport import Transport, segment
+from .errors import NoAnswerError, RefusedError, ServiceError
+from .records import Job
+from .transport import Transport, segment
 
 PATIENCE_S: Final = 30.0
 """How long a service may be away, s."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from core.errors import LogError, RobotError
+from ...core.errors import LogError, RobotError
 
 PIECE: Final = 1 << 20
 LOG_TYPES: Final = {

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from core.errors import OptionError
+from ...core.errors import OptionError
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -10,7 +10,7 @@ from urllib.parse import quote, urlsplit
 
 import httpx2
 
-from app.client.errors import NoAnswerError, RefusedError, from_problem
+from .errors import NoAnswerError, RefusedError, from_problem
 
 Document = dict[str, Any]
 SILENCE_S: Final = 45.0

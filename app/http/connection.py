@@ -15,8 +15,9 @@ from httptools import HttpParserError, HttpParserUpgrade, HttpRequestParser
 from uvicorn._types import ASGI3Application
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
-from app.http.body.chunks import Pieces
-from app.http.refusals import (
+from ..problems import Problem
+from .body.chunks import Pieces
+from .refusals import (
     BODY_BYTES,
     BODY_LOOKS,
     HEAD_LOOKS,
@@ -28,7 +29,6 @@ from app.http.refusals import (
     too_slow,
     trailers_too_large,
 )
-from app.problems import Problem
 
 ANSWER_LOOKS = 120
 """Looks at a client that takes nothing of its answer before it is given up: a minute."""

@@ -3,7 +3,7 @@
 import shutil
 from pathlib import Path
 
-from app.problems import Problem
+from ..problems import Problem
 
 
 class DiskReserve:

@@ -11,13 +11,13 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Match
 
-from app.http.body.json_body import invalid
-from app.http.negotiation import preferred
-from app.json_text import json_bytes
-from app.pages.files import STRICT, shell
-from app.problems import KINDS, MEDIA_TYPE, Problem, problem_of, problem_of_damage
-from app.store.errors import Damaged, KeyReused, OverQuota, Unavailable
-from core.errors import VeritorqueError
+from ...core.errors import VeritorqueError
+from ..json_text import json_bytes
+from ..pages.files import STRICT, shell
+from ..problems import KINDS, MEDIA_TYPE, Problem, problem_of, problem_of_damage
+from ..store.errors import Damaged, KeyReused, OverQuota, Unavailable
+from .body.json_body import invalid
+from .negotiation import preferred
 
 HTML = "text/html"
 LOGGER = logging.getLogger(__name__)

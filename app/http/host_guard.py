@@ -12,8 +12,8 @@ from urllib.parse import urlsplit
 
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from app.http.exception_handlers import problem_response
-from app.problems import Problem
+from ..problems import Problem
+from .exception_handlers import problem_response
 
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
 OWN_SITE = (b"same-origin", b"none")

@@ -12,9 +12,9 @@ from typing import Annotated, Any, Final
 from fastapi import Header, Response
 from fastapi.responses import FileResponse
 
-from app.http.negotiation import matches
-from app.store.blobs import check_file
-from app.version import VERSION
+from ..store.blobs import check_file
+from ..version import VERSION
+from .negotiation import matches
 
 IfNoneMatch = Annotated[str | None, Header(max_length=1000, description="ETags of what is known already")]
 UNCHANGED: Final[dict[int | str, dict[str, Any]]] = {304: {"description": "Nothing has changed since"}}

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.http.disk_reserve import DiskReserve
-from app.http.exception_handlers import HEADERS, problem_response
-from app.http.refusals import too_large
-from app.problems import Problem
+from ..problems import Problem
+from .disk_reserve import DiskReserve
+from .exception_handlers import HEADERS, problem_response
+from .refusals import too_large
 
 DOCUMENT_LIMIT = 6 * 1024**2  # a URDF of 5 MB and its envelope
 FORM_OVERHEAD = DOCUMENT_LIMIT

@@ -11,11 +11,11 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
-from app.problems import KINDS, MEDIA_TYPE
-from app.schemas.common import ProblemDocument
-from app.schemas.jobs import JobRequest
-from app.schemas.results import ResultDocument
-from app.schemas.robots import RobotDescription
+from ..problems import KINDS, MEDIA_TYPE
+from ..schemas.common import ProblemDocument
+from ..schemas.jobs import JobRequest
+from ..schemas.results import ResultDocument
+from ..schemas.robots import RobotDescription
 
 SCHEMAS = "#/components/schemas/"
 DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultDocument, ProblemDocument)

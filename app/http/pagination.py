@@ -5,7 +5,7 @@ from typing import Annotated, Protocol
 
 from fastapi import Query
 
-from app.http.body.json_body import invalid
+from .body.json_body import invalid
 
 LARGEST = 2**62
 Limit = Annotated[int, Query(ge=1, le=1000)]

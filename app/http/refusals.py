@@ -2,8 +2,8 @@
 
 from starlette.responses import Response
 
-from app.http.exception_handlers import HEADERS, problem_response
-from app.problems import Problem
+from ..problems import Problem
+from .exception_handlers import HEADERS, problem_response
 
 HEAD_LOOKS = 17
 """Looks at an unfinished head before it is given up: 8.5 s."""

@@ -10,9 +10,9 @@ import time
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app import logging as journal
-from app.http.trace_context import trace_id
-from app.services.metrics import Metrics
+from .. import logging as journal
+from ..services.metrics import Metrics
+from .trace_context import trace_id
 
 LOGGER = logging.getLogger(__name__)
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")

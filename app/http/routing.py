@@ -16,9 +16,9 @@ from fastapi import APIRouter, Request, Response
 from fastapi.dependencies.models import Dependant
 from fastapi.routing import APIRoute
 
-from app.http.body.json_body import invalid
-from app.problems import Problem
-from app.services.services import desk_of
+from ..problems import Problem
+from ..services.services import desk_of
+from .body.json_body import invalid
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 MOST_PARAMETERS = 100

@@ -7,8 +7,8 @@ import socket
 import uvicorn
 from fastapi import FastAPI
 
-from app.http.connection import PatientConnection
-from app.settings import Settings
+from ..settings import Settings
+from .connection import PatientConnection
 
 TICKS_PER_LOOK = 5
 """uvicorn ticks ten times a second."""

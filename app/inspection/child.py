@@ -13,18 +13,18 @@ from multiprocessing.connection import Connection
 
 import pyarrow as pa
 
-from app.inspection.budget import Budget
-from app.inspection.confinement import confine
-from app.json_text import json_bytes
-from app.problems import problem_of, problem_of_damage
-from app.processes.fork_server import READERS
-from app.store.errors import Damaged
-from app.store.records import Document
-from core.errors import LogError, VeritorqueError
+from ...core.errors import LogError, VeritorqueError
+from ..json_text import json_bytes
+from ..problems import problem_of, problem_of_damage
+from ..processes.fork_server import READERS
+from ..store.errors import Damaged
+from ..store.records import Document
+from .budget import Budget
+from .confinement import confine
 
 Work = Callable[[], Document]
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
-NEEDED = ("app.jobs.computations", *READERS)
+NEEDED = ("veritorque.app.jobs.computations", *READERS)
 """What the work and the libraries that read take long to load."""
 
 

@@ -15,9 +15,8 @@ import sys
 import sysconfig
 from pathlib import Path
 
-import app
-import core
-from app.inspection.budget import Budget
+from ... import app, core
+from .budget import Budget
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 VERSION_FLAG, PATH_BENEATH, NO_NEW_PRIVILEGES = 1, 1, 38

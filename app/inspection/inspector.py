@@ -14,14 +14,14 @@ from pathlib import Path
 
 import anyio
 
-from app.inspection import child
-from app.inspection.budget import Budget, budget_for
-from app.jobs import computations as science
-from app.jobs.computation import Glance, LogFile
-from app.problems import Problem, problem_of
-from app.processes.fork_server import Child, Standby, fork_server
-from app.store.records import Document
-from core.errors import LogError
+from ...core.errors import LogError
+from ..jobs import computations as science
+from ..jobs.computation import Glance, LogFile
+from ..problems import Problem, problem_of
+from ..processes.fork_server import Child, Standby, fork_server
+from ..store.records import Document
+from . import child
+from .budget import Budget, budget_for
 
 LOGGER = logging.getLogger(__name__)
 LONGEST_ANSWER = 16 * 1024**2
@@ -38,7 +38,7 @@ class Inspector:
     """
 
     def __init__(self) -> None:
-        self._context = fork_server("app.inspection.child", *child.NEEDED)
+        self._context = fork_server("veritorque.app.inspection.child", *child.NEEDED)
         self._standby = Standby(lambda: Child(self._context, child.inspect))
         self._at_once = os.cpu_count() or 1
         self.limiter = anyio.CapacityLimiter(self._at_once)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.store.records import Document
+from ..store.records import Document
 
 Progress = Callable[[str, float], None]
 

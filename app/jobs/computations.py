@@ -12,23 +12,23 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from app.jobs.computation import Computation, Glance, LogFile, Progress
-from app.json_text import plain
-from app.store.blobs import check_file
-from app.store.records import Document
-from core.errors import OptionError
-from core.log.preview import FEWEST_POINTS, preview
-from core.log.reader import read_log
-from core.robot.builtin import builtin_description, builtin_robots
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.robot.plausibility import suspicions
-from core.robot.urdf import robot_from_urdf
-from core.robot.writing import to_description
+from ...core.errors import OptionError
+from ...core.log.preview import FEWEST_POINTS, preview
+from ...core.log.reader import read_log
+from ...core.robot.builtin import builtin_description, builtin_robots
+from ...core.robot.description import robot_from_description
+from ...core.robot.model import RobotModel
+from ...core.robot.plausibility import suspicions
+from ...core.robot.urdf import robot_from_urdf
+from ...core.robot.writing import to_description
+from ..json_text import plain
+from ..store.blobs import check_file
+from ..store.records import Document
+from .computation import Computation, Glance, LogFile, Progress
 
 if TYPE_CHECKING:
-    from core.dynamics.model import DynamicModel
-    from core.identification.options import IdentifyOptions
+    from ...core.dynamics.model import DynamicModel
+    from ...core.identification.options import IdentifyOptions
 
 KINDS = ("identify", "diagnose")
 MOST_NUMBERS = 600_000
@@ -149,7 +149,7 @@ def read_options(kind: str, options: Document) -> "IdentifyOptions":
             evidence={"given": kind, "known": list(KINDS)},
             remedy="ask for one of the known kinds",
         )
-    from core.identification.options import parse_diagnose_options, parse_options
+    from ...core.identification.options import parse_diagnose_options, parse_options
 
     return (parse_diagnose_options if kind == "diagnose" else parse_options)(options)
 
@@ -162,7 +162,7 @@ def model_of(description: Document, terms: tuple[str, ...] | None) -> "DynamicMo
     OptionError
         If the terms do not fit the robot.
     """
-    from core.dynamics.model import standard_model
+    from ...core.dynamics.model import standard_model
 
     return standard_model(robot_from_description(description), terms)
 
@@ -177,7 +177,7 @@ def admit(options: "IdentifyOptions", model: "DynamicModel", logs: Sequence[Docu
     LogError
         If a log is given twice, or holds currents and the robot does not say what torque a current gives.
     """
-    from core.identification.admission import KnownLog, admit
+    from ...core.identification.admission import KnownLog, admit
 
     known = [
         KnownLog(
@@ -205,7 +205,7 @@ def reference_job(kind: str, options: Document) -> str | None:
     name = _reference_name(options) if kind == "diagnose" else None
     if name is None:
         return None
-    from core.identification.reference import PRIOR
+    from ...core.identification.reference import PRIOR
 
     return None if name == PRIOR else name
 
@@ -222,7 +222,7 @@ def check_reference(description: Document, options: Document, reference: Path | 
     """
     if _reference_name(options) is None:  # no request waits for the solver to be loaded but one that needs it
         return
-    from core import study
+    from ...core import study
 
     robot = robot_from_description(description)
     study.check_reference(study.IdentifyRequest(robot, (), options, _result(reference)))
@@ -236,7 +236,7 @@ def base_parameters(description: Document) -> Document:
     RobotError
         If the description cannot be used.
     """
-    from core import study
+    from ...core import study
 
     document: Document = study.base_parameters(robot_from_description(description))
     return document
@@ -252,7 +252,7 @@ def compute(computation: Computation, progress: Progress) -> Document:
     Damaged
         If a log or the result to compare with is not what it was.
     """
-    from core import study
+    from ...core import study
 
     for log in computation.logs:
         check_file(log.path, log.sha256)

@@ -14,8 +14,10 @@ from multiprocessing.connection import wait
 from threading import Event
 from typing import Protocol
 
-from app.jobs import computations, job_process
-from app.jobs.computation import (
+from ..problems import Problem
+from ..processes.fork_server import READERS, Child, NotWanted, Standby, fork_server
+from . import computations, job_process
+from .computation import (
     Computation,
     Died,
     Failed,
@@ -26,9 +28,7 @@ from app.jobs.computation import (
     Stopped,
     Work,
 )
-from app.jobs.limits import Limits
-from app.problems import Problem
-from app.processes.fork_server import READERS, Child, NotWanted, Standby, fork_server
+from .limits import Limits
 
 LOGGER = logging.getLogger(__name__)
 LOOK_EVERY_S = 0.05
@@ -74,11 +74,13 @@ class ProcessExecutor:
         work: Work = computations.compute,
         *,
         limits: Limits = Limits(),  # noqa: B008 - it never changes
-        preload: tuple[str, ...] = ("core.study", "sklearn.ensemble", *READERS),
+        preload: tuple[str, ...] = ("veritorque.core.study", "sklearn.ensemble", *READERS),
         rehearse: Rehearse = job_process.nothing,
         at_once: int = 1,
     ) -> None:
-        self._context = fork_server("app.jobs.fork_hooks", "app.jobs.job_process", *preload)
+        self._context = fork_server(
+            "veritorque.app.jobs.fork_hooks", "veritorque.app.jobs.job_process", *preload
+        )
         self._at_once = at_once
         self._standby = Standby(lambda: Child(self._context, job_process.compute, work, limits, rehearse))
 

@@ -13,12 +13,12 @@ import traceback
 from contextlib import suppress
 from multiprocessing.connection import Connection
 
-from app.jobs.computation import Computation, Progress, Rehearse, Work
-from app.jobs.limits import Limits
-from app.json_text import json_bytes
-from app.problems import Problem, problem_of, problem_of_damage
-from app.store.errors import Damaged
-from core.errors import VeritorqueError
+from ...core.errors import VeritorqueError
+from ..json_text import json_bytes
+from ..problems import Problem, problem_of, problem_of_damage
+from ..store.errors import Damaged
+from .computation import Computation, Progress, Rehearse, Work
+from .limits import Limits
 
 PROGRESS, RESULT, FAILURE, TRACE = b"p", b"r", b"f", b"t"
 IDLE_S = 0.02

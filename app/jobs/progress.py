@@ -3,9 +3,9 @@
 import logging
 import time
 
-from app.store.errors import Unavailable
-from app.store.store import Store
-from app.store.work import Held
+from ..store.errors import Unavailable
+from ..store.store import Store
+from ..store.work import Held
 
 LOGGER = logging.getLogger(__name__)
 REPORT_EVERY_S = 0.2

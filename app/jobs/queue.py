@@ -5,17 +5,17 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from app.jobs import computations as science
-from app.jobs.references import check_reference
-from app.problems import Problem
-from app.services.catalogue import Catalogue
-from app.store.queueing import Asked, Outcome
-from app.store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
-from app.store.store import TenantStore
-from core.errors import LogError
+from ...core.errors import LogError
+from ..problems import Problem
+from ..services.catalogue import Catalogue
+from ..store.queueing import Asked, Outcome
+from ..store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
+from ..store.store import TenantStore
+from . import computations as science
+from .references import check_reference
 
 if TYPE_CHECKING:
-    from core.dynamics.model import DynamicModel
+    from ...core.dynamics.model import DynamicModel
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ clock that is set back an hour takes no job from anybody. Source: Gray & Cherito
 import time
 from collections.abc import Callable
 
-from app.jobs.liveness import Presence
-from app.problems import Problem
-from app.store.store import Store
-from app.store.work import MOST_ATTEMPTS, Held
+from ..problems import Problem
+from ..store.store import Store
+from ..store.work import MOST_ATTEMPTS, Held
+from .liveness import Presence
 
 LEASE_S = 10.0
 """A worker that shows no life for so long no longer holds its jobs."""

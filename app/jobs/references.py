@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from app.jobs import computations as science
-from app.problems import Problem
-from app.store.records import Document, RobotRecord
-from app.store.store import TenantStore
-from core.errors import OptionError
+from ...core.errors import OptionError
+from ..problems import Problem
+from ..store.records import Document, RobotRecord
+from ..store.store import TenantStore
+from . import computations as science
 
 
 def reference_file(store: TenantStore, kind: str, options: Document) -> Path | None:

@@ -15,8 +15,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-from app.jobs.computation import Ended
-from app.settings import Settings
+from ..settings import Settings
+from .computation import Ended
 
 LOGGER = logging.getLogger(__name__)
 SILENCE_S = 10.0
@@ -128,7 +128,7 @@ class Supervisor:
 def start_worker(settings: Settings) -> "subprocess.Popen[bytes]":
     """Start a worker process that is told the same as the service."""
     return subprocess.Popen(
-        [sys.executable, "-m", "app", "work", "--beside"],
+        [sys.executable, "-m", "veritorque", "work", "--beside"],
         env={**os.environ, **settings.environment()},
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,

@@ -8,11 +8,11 @@ import numpy as np
 import pyarrow as pa
 from pyarrow.csv import write_csv
 
-from app.jobs.computation import Progress
-from app.store.blobs import BlobStore
-from core.log.reader import read_log
-from core.robot.builtin import builtin_description
-from core.robot.description import robot_from_description
+from ...core.log.reader import read_log
+from ...core.robot.builtin import builtin_description
+from ...core.robot.description import robot_from_description
+from ..store.blobs import BlobStore
+from .computation import Progress
 
 SAMPLES = 7500
 RATE_HZ = 250.0
@@ -23,7 +23,7 @@ def rehearse(blobs: BlobStore, progress: Progress) -> None:
 
     Files stand among the blobs that are received, where those of a process that was killed are removed.
     """
-    from core import study
+    from ...core import study
 
     robot = robot_from_description(builtin_description("yumi-left"))
     with blobs.aside() as traces:

@@ -12,23 +12,23 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from app import logging as journal
-from app.jobs.computation import Computation, Died, Ended, Failed, Finished, LogFile, Outcome, Stopped
-from app.jobs.executor import Executor
-from app.jobs.job_process import mistake
-from app.jobs.liveness import Presence
-from app.jobs.progress import Reporter
-from app.jobs.reclaim import Lives
-from app.jobs.references import reference_file
-from app.lifecycle.retention import expire
-from app.problems import URN, Problem, problem_of
-from app.settings import Kept
-from app.store.errors import Unavailable
-from app.store.records import Document, JobRecord
-from app.store.store import Store
-from app.store.sweep import Sweep
-from app.store.work import Held
-from core.errors import VeritorqueError
+from ...core.errors import VeritorqueError
+from .. import logging as journal
+from ..lifecycle.retention import expire
+from ..problems import URN, Problem, problem_of
+from ..settings import Kept
+from ..store.errors import Unavailable
+from ..store.records import Document, JobRecord
+from ..store.store import Store
+from ..store.sweep import Sweep
+from ..store.work import Held
+from .computation import Computation, Died, Ended, Failed, Finished, LogFile, Outcome, Stopped
+from .executor import Executor
+from .job_process import mistake
+from .liveness import Presence
+from .progress import Reporter
+from .reclaim import Lives
+from .references import reference_file
 
 LOGGER = logging.getLogger(__name__)
 LOOK_EVERY_S = 0.02

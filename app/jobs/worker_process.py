@@ -10,14 +10,14 @@ import sys
 import threading
 from dataclasses import asdict
 
-from app.jobs.computation import Ended
-from app.jobs.supervisor import ALIVE, ENDED, READY
-from app.jobs.worker import Worker
-from app.json_text import json_bytes
-from app.services.catalogue import built_in_robots
-from app.services.services import executor_of, worker_of
-from app.settings import Settings
-from app.store.store import Store
+from ..json_text import json_bytes
+from ..services.catalogue import built_in_robots
+from ..services.services import executor_of, worker_of
+from ..settings import Settings
+from ..store.store import Store
+from .computation import Ended
+from .supervisor import ALIVE, ENDED, READY
+from .worker import Worker
 
 PULSE_S = 1.0
 

@@ -8,10 +8,10 @@ backup is not complete.
 import json
 from pathlib import Path
 
-from app.lifecycle.copying import copy_store, is_empty
-from app.store.store import Store
-from app.store.tables import now
-from app.version import VERSION
+from ..store.store import Store
+from ..store.tables import now
+from ..version import VERSION
+from .copying import copy_store, is_empty
 
 NOTE = "backup.json"
 

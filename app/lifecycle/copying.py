@@ -9,10 +9,10 @@ from collections.abc import Set as AbstractSet
 
 from sqlalchemy import Connection, insert, select, text
 
-from app.store.blobs import PIECE, BlobStore
-from app.store.errors import Damaged
-from app.store.store import Store
-from app.store.tables import METADATA
+from ..store.blobs import PIECE, BlobStore
+from ..store.errors import Damaged
+from ..store.store import Store
+from ..store.tables import METADATA
 
 ROWS_TOGETHER = 500
 

@@ -12,10 +12,10 @@ from pathlib import Path
 from sqlalchemy import func, select, text
 from sqlalchemy.exc import SQLAlchemyError
 
-from app.settings import Settings
-from app.store.errors import Damaged, Unavailable
-from app.store.store import Store
-from app.store.tables import METADATA
+from ..settings import Settings
+from ..store.errors import Damaged, Unavailable
+from ..store.store import Store
+from ..store.tables import METADATA
 
 OTHERS_MAY = 0o077
 SHOWN = 5

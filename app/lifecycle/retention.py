@@ -8,9 +8,9 @@ from datetime import UTC, datetime, timedelta
 
 from sqlalchemy import Connection, Delete, delete, exists
 
-from app.settings import Kept
-from app.store.database import Database
-from app.store.tables import JOBS, LOGS, REPEATS, written
+from ..settings import Kept
+from ..store.database import Database
+from ..store.tables import JOBS, LOGS, REPEATS, written
 
 
 def expire(database: Database, days: Mapping[Kept, float]) -> dict[str, int]:

@@ -13,7 +13,7 @@ from pathlib import Path
 from string import Template
 from typing import Final
 
-from app.version import VERSION
+from ..version import VERSION
 
 PAGES: Final = Path(__file__).parent
 MEDIA_TYPES: Final = {

@@ -5,7 +5,7 @@
 
 import sys
 
-from app.problems import KINDS, MEDIA_TYPE, URN
+from ..problems import KINDS, MEDIA_TYPE, URN
 
 OPENING = f"""\
 # Problems

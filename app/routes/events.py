@@ -10,14 +10,14 @@ from typing import Annotated
 from fastapi import Header, Response
 from fastapi.responses import StreamingResponse
 
-from app.http.openapi import problems
-from app.http.routing import chapter
-from app.json_text import json_bytes
-from app.services.job_feed import JobFeed, no_such_job
-from app.services.serialisers import job_document
-from app.services.services import DeskOf
-from app.store.errors import Unavailable
-from app.store.records import JobRecord
+from ..http.openapi import problems
+from ..http.routing import chapter
+from ..json_text import json_bytes
+from ..services.job_feed import JobFeed, no_such_job
+from ..services.serialisers import job_document
+from ..services.services import DeskOf
+from ..store.errors import Unavailable
+from ..store.records import JobRecord
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
 MEDIA_TYPE = "text/event-stream"

@@ -6,11 +6,11 @@ from importlib.metadata import version
 from fastapi import Request, Response
 from fastapi.responses import JSONResponse
 
-from app.auth.callers import require_scope
-from app.http.openapi import problems
-from app.http.routing import chapter
-from app.services.services import CallerOf, ServicesOf
-from app.version import VERSION
+from ..auth.callers import require_scope
+from ..http.openapi import problems
+from ..http.routing import chapter
+from ..services.services import CallerOf, ServicesOf
+from ..version import VERSION
 
 ROUTER = chapter(tag="service")
 PACKAGES = ("clarabel", "cvxpy-base", "fastapi", "numba", "numpy", "pyarrow", "scipy", "sqlalchemy")

@@ -7,8 +7,8 @@ from fastapi import Header, Request, Response
 from fastapi.responses import JSONResponse
 from starlette.datastructures import FormData, UploadFile
 
-from app.http.body.json_body import parse_json, parse_object, require_media_type
-from app.http.body.uploads import (
+from ..http.body.json_body import parse_json, parse_object, require_media_type
+from ..http.body.uploads import (
     MULTIPART,
     claimed_type,
     files_of,
@@ -17,19 +17,19 @@ from app.http.body.uploads import (
     refuse_unknown_parts,
     text_of,
 )
-from app.http.exception_handlers import problem_response
-from app.http.negotiation import LONGEST_WAIT_S, wait_seconds
-from app.http.openapi import body, file_part, problems, text_part
-from app.http.routing import chapter
-from app.jobs.queue import Wanted
-from app.problems import Problem
-from app.schemas.examples import MAPPING
-from app.schemas.jobs import Job
-from app.schemas.results import ResultDocument
-from app.services.serialisers import job_document
-from app.services.services import Desk, DeskOf
-from app.services.waiting import wait_for
-from app.store.records import JobRecord, LogRecord, RobotRecord
+from ..http.exception_handlers import problem_response
+from ..http.negotiation import LONGEST_WAIT_S, wait_seconds
+from ..http.openapi import body, file_part, problems, text_part
+from ..http.routing import chapter
+from ..jobs.queue import Wanted
+from ..problems import Problem
+from ..schemas.examples import MAPPING
+from ..schemas.jobs import Job
+from ..schemas.results import ResultDocument
+from ..services.serialisers import job_document
+from ..services.services import Desk, DeskOf
+from ..services.waiting import wait_for
+from ..store.records import JobRecord, LogRecord, RobotRecord
 
 ROUTER = chapter("/v1/identify", tag="identify")
 PARTS = ("robot", "log", "mapping", "options")

@@ -6,25 +6,25 @@ from typing import Annotated
 from fastapi import Header, Path, Request, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
-from app.http.body.json_body import check, parse_json, require_media_type
-from app.http.immutable_response import UNCHANGED, IfNoneMatch, Result, file_response
-from app.http.negotiation import matches, preferred, wait_seconds
-from app.http.openapi import body, problems, reference
-from app.http.pagination import CursorOf, Limit, before, following
-from app.http.routing import chapter
-from app.jobs.queue import Wanted
-from app.problems import Problem
-from app.schemas.examples import JOB_REQUESTS
-from app.schemas.jobs import Job, JobList, JobRequest
-from app.schemas.results import ResultDocument
-from app.services.export_files import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
-from app.services.finished_jobs import RETRY_AFTER_S, find_job, result_of, traces_of
-from app.services.job_feed import no_such_job
-from app.services.report_response import report_response
-from app.services.serialisers import job_document
-from app.services.services import DeskOf
-from app.services.waiting import wait_for
-from app.store.records import JobRecord
+from ..http.body.json_body import check, parse_json, require_media_type
+from ..http.immutable_response import UNCHANGED, IfNoneMatch, Result, file_response
+from ..http.negotiation import matches, preferred, wait_seconds
+from ..http.openapi import body, problems, reference
+from ..http.pagination import CursorOf, Limit, before, following
+from ..http.routing import chapter
+from ..jobs.queue import Wanted
+from ..problems import Problem
+from ..schemas.examples import JOB_REQUESTS
+from ..schemas.jobs import Job, JobList, JobRequest
+from ..schemas.results import ResultDocument
+from ..services.export_files import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
+from ..services.finished_jobs import RETRY_AFTER_S, find_job, result_of, traces_of
+from ..services.job_feed import no_such_job
+from ..services.report_response import report_response
+from ..services.serialisers import job_document
+from ..services.services import DeskOf
+from ..services.waiting import wait_for
+from ..store.records import JobRecord
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
 RESULT_FORMS = ("application/json", "text/csv", "text/html")

@@ -7,8 +7,8 @@ import anyio
 from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
-from app.http.body.json_body import media_type_of, parse_object, require_media_type
-from app.http.body.uploads import (
+from ..http.body.json_body import media_type_of, parse_object, require_media_type
+from ..http.body.uploads import (
     LOG_MEDIA_TYPES,
     LONGEST_TEXT_FILE,
     MULTIPART,
@@ -20,20 +20,20 @@ from app.http.body.uploads import (
     refuse_unknown_parts,
     text_of,
 )
-from app.http.immutable_response import UNCHANGED, IfNoneMatch
-from app.http.negotiation import matches
-from app.http.openapi import body, file_part, problems, text_part
-from app.http.pagination import CursorOf, Limit, before, following
-from app.http.routing import chapter
-from app.problems import Problem
-from app.schemas.examples import CSV_LOG, MAPPING
-from app.schemas.logs import LogList, LogSummary, LogTraces
-from app.services.decimated_traces import GlanceOf
-from app.services.serialisers import log_document
-from app.services.services import Desk, DeskOf
-from app.store.blobs import Incoming
-from app.store.records import LogRecord
-from app.version import VERSION
+from ..http.immutable_response import UNCHANGED, IfNoneMatch
+from ..http.negotiation import matches
+from ..http.openapi import body, file_part, problems, text_part
+from ..http.pagination import CursorOf, Limit, before, following
+from ..http.routing import chapter
+from ..problems import Problem
+from ..schemas.examples import CSV_LOG, MAPPING
+from ..schemas.logs import LogList, LogSummary, LogTraces
+from ..services.decimated_traces import GlanceOf
+from ..services.serialisers import log_document
+from ..services.services import Desk, DeskOf
+from ..store.blobs import Incoming
+from ..store.records import LogRecord
+from ..version import VERSION
 
 ROUTER = chapter("/v1/logs", tag="logs")
 FORM_SCHEMA = {

@@ -7,9 +7,9 @@ with a key where one is needed. Nothing is asked of any other place.
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse
 
-from app.http.negotiation import matches
-from app.pages.files import PLAIN, STATIC, STRICT, PageFile, shell
-from app.problems import Problem
+from ..http.negotiation import matches
+from ..pages.files import PLAIN, STATIC, STRICT, PageFile, shell
+from ..problems import Problem
 
 ROUTER = APIRouter(include_in_schema=False)
 

@@ -6,15 +6,15 @@ import anyio
 from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
-from app.http.body.json_body import parse_json, require_media_type
-from app.http.openapi import body, problems, reference
-from app.http.pagination import CursorOf, Limit, before, following
-from app.http.routing import chapter
-from app.problems import Problem
-from app.schemas.examples import PENDULUM_URDF, YUMI_LEFT
-from app.schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
-from app.services.serialisers import robot_document, robot_summary
-from app.services.services import DeskOf, ServicesOf
+from ..http.body.json_body import parse_json, require_media_type
+from ..http.openapi import body, problems, reference
+from ..http.pagination import CursorOf, Limit, before, following
+from ..http.routing import chapter
+from ..problems import Problem
+from ..schemas.examples import PENDULUM_URDF, YUMI_LEFT
+from ..schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
+from ..services.serialisers import robot_document, robot_summary
+from ..services.services import DeskOf, ServicesOf
 
 ROUTER = chapter("/v1/robots", tag="robots")
 XML_TYPES = ("application/xml", "text/xml")

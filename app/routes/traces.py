@@ -2,13 +2,13 @@
 
 from fastapi import Response
 
-from app.http.immutable_response import UNCHANGED, IfNoneMatch
-from app.http.openapi import problems
-from app.http.routing import chapter
-from app.schemas.traces import ResidualViews, ResultTraces
-from app.services.decimated_traces import Number, ViewOf, traces_response, views_response
-from app.services.finished_jobs import find_job, traces_of
-from app.services.services import DeskOf
+from ..http.immutable_response import UNCHANGED, IfNoneMatch
+from ..http.openapi import problems
+from ..http.routing import chapter
+from ..schemas.traces import ResidualViews, ResultTraces
+from ..services.decimated_traces import Number, ViewOf, traces_response, views_response
+from ..services.finished_jobs import find_job, traces_of
+from ..services.services import DeskOf
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
 

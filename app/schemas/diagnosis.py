@@ -4,9 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from app.schemas.common import Open
-from app.schemas.fit import HeldOutSpan, JointFit
-from app.schemas.robots import RobotDescription
+from .common import Open
+from .fit import HeldOutSpan, JointFit
+from .robots import RobotDescription
 
 Matrix = list[list[float | None]]
 PerJoint = list[float | None]

@@ -4,7 +4,7 @@ The ids of the example logs follow from the bytes of the files that ship with th
 their own names; a test keeps them together.
 """
 
-from core.robot.builtin import builtin_description
+from ...core.robot.builtin import builtin_description
 
 YUMI_LEFT: dict[str, object] = builtin_description("yumi-left")
 EXAMPLE_LOG = "examples/yumi/log.csv"

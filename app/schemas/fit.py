@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from app.schemas.common import Open
+from .common import Open
 
 
 class JointFit(Open):

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from app.schemas.common import Identity, Instant, Next, Open, Options, ProblemDocument, Strict
+from .common import Identity, Instant, Next, Open, Options, ProblemDocument, Strict
 
 State = Literal["accepted", "running", "successful", "failed", "dismissed"]
 

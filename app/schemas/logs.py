@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, JsonValue
 
-from app.schemas.common import Instant, Next, Open
+from .common import Instant, Next, Open
 
 
 class Defect(Open):

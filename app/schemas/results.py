@@ -4,9 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from app.schemas.common import Open
-from app.schemas.diagnosis import Diagnosis
-from app.schemas.fit import HeldOutSpan, JointFit
+from .common import Open
+from .diagnosis import Diagnosis
+from .fit import HeldOutSpan, JointFit
 
 
 class BaseParameter(Open):

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from app.schemas.common import Open
-from app.schemas.logs import Stamps
+from .common import Open
+from .logs import Stamps
 
 Span = Annotated[list[float], Field(min_length=2, max_length=2, description="begin and end, s")]
 

@@ -5,15 +5,15 @@ Everything here may take a while and is called from worker threads, never on the
 
 from pathlib import PurePath
 
-from app.inspection.inspector import Inspector
-from app.jobs import computations as science
-from app.jobs.computation import Glance, LogFile
-from app.problems import Problem
-from app.store.blobs import Incoming
-from app.store.records import Document, LogRecord, RobotRecord
-from app.store.store import TenantStore
-from core.log.formats.content import recognise
-from core.robot.model import RobotModel
+from ...core.log.formats.content import recognise
+from ...core.robot.model import RobotModel
+from ..inspection.inspector import Inspector
+from ..jobs import computations as science
+from ..jobs.computation import Glance, LogFile
+from ..problems import Problem
+from ..store.blobs import Incoming
+from ..store.records import Document, LogRecord, RobotRecord
+from ..store.store import TenantStore
 
 LONGEST_NAME = 200
 

@@ -7,14 +7,14 @@ from typing import Annotated
 import numpy as np
 from fastapi import Depends, Query, Response
 
-from app.http.immutable_response import Result
-from app.jobs.computation import Glance
-from app.json_text import json_bytes
-from app.problems import Problem
-from core.log.preview import FEWEST_POINTS, MOST_POINTS
-from core.report.traces.layout import SIGNALS
-from core.report.traces.reading import Traces, View, read_traces
-from core.report.traces.views import read_views
+from ...core.log.preview import FEWEST_POINTS, MOST_POINTS
+from ...core.report.traces.layout import SIGNALS
+from ...core.report.traces.reading import Traces, View, read_traces
+from ...core.report.traces.views import read_views
+from ..http.immutable_response import Result
+from ..jobs.computation import Glance
+from ..json_text import json_bytes
+from ..problems import Problem
 
 Number = Annotated[int, Query(ge=1, description="counted from 1")]
 Stamp = Annotated[float | None, Query(allow_inf_nan=False, description="s on the log's own clock")]

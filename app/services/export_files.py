@@ -1,6 +1,6 @@
 """Offer an identified robot as files, and document in what forms they come."""
 
-from core.export.formats import FORMATS
+from ...core.export.formats import FORMATS
 
 ARTIFACTS = FORMATS
 """The files of a result by name: what is written as which media type."""

@@ -1,10 +1,10 @@
 """Find a job and what it left: its result, its traces; or say why there are none."""
 
-from app.http.immutable_response import Result
-from app.problems import Problem
-from app.services.job_feed import no_such_job
-from app.services.services import Desk
-from app.store.records import JobRecord
+from ..http.immutable_response import Result
+from ..problems import Problem
+from ..store.records import JobRecord
+from .job_feed import no_such_job
+from .services import Desk
 
 RETRY_AFTER_S = "1"
 

@@ -12,10 +12,10 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from app.problems import Problem
-from app.store.errors import Unavailable
-from app.store.many import ManyJobs, Place
-from app.store.records import JobRecord
+from ..problems import Problem
+from ..store.errors import Unavailable
+from ..store.many import ManyJobs, Place
+from ..store.records import JobRecord
 
 LOGGER = logging.getLogger(__name__)
 LOOK_EVERY_S = 0.005

@@ -13,11 +13,11 @@ from prometheus_client.core import GaugeMetricFamily, InfoMetricFamily, Metric
 from prometheus_client.exposition import choose_encoder
 from prometheus_client.registry import Collector
 
-from app.jobs.computation import Ended
-from app.settings import Settings
-from app.store.records import STATES
-from app.store.store import Store
-from app.version import VERSION
+from ..jobs.computation import Ended
+from ..settings import Settings
+from ..store.records import STATES
+from ..store.store import Store
+from ..version import VERSION
 
 METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 REQUEST_SECONDS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 10.0, 60.0)

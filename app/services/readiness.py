@@ -10,10 +10,10 @@ from collections.abc import Callable
 
 import anyio
 
-from app.problems import Problem
-from app.settings import Settings
-from app.store.errors import Unavailable
-from app.store.store import Store
+from ..problems import Problem
+from ..settings import Settings
+from ..store.errors import Unavailable
+from ..store.store import Store
 
 FRESH_S = 1.0
 PATIENCE_S = 1.0

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from core.log.preview import FEWEST_POINTS
-from core.report.page.page import compose_page
-from core.report.page.running import Origin
-from core.report.page.traces import EXTENDED, FILTERED, MEASURED, MOTION, PLAIN, JointTraces
-from core.report.traces.reading import Traces, View, read_traces
+from ...core.log.preview import FEWEST_POINTS
+from ...core.report.page.page import compose_page
+from ...core.report.page.running import Origin
+from ...core.report.page.traces import EXTENDED, FILTERED, MEASURED, MOTION, PLAIN, JointTraces
+from ...core.report.traces.reading import Traces, View, read_traces
 
 POINTS_TOGETHER = 4000
 """Points of all joints of a page together, so that a robot of many joints makes no page of many megabytes."""

@@ -5,13 +5,13 @@ from pathlib import Path
 
 from fastapi.responses import HTMLResponse
 
-from app.http.immutable_response import Result
-from app.services.finished_jobs import result_of
-from app.services.report import report_page
-from app.services.services import Desk
-from app.store.records import JobRecord
-from core.report.page.page import POLICY
-from core.report.page.running import Origin
+from ...core.report.page.page import POLICY
+from ...core.report.page.running import Origin
+from ..http.immutable_response import Result
+from ..store.records import JobRecord
+from .finished_jobs import result_of
+from .report import report_page
+from .services import Desk
 
 FRAMED = "; frame-ancestors 'none'; sandbox"
 """What only a header may say: the page is shown nowhere else, and runs nothing."""

@@ -1,6 +1,6 @@
 """Write records as the documents of the contract."""
 
-from app.store.records import Document, JobRecord, LogRecord, RobotRecord
+from ..store.records import Document, JobRecord, LogRecord, RobotRecord
 
 
 def robot_summary(robot: RobotRecord) -> Document:

@@ -8,28 +8,28 @@ from typing import Annotated
 import anyio
 from fastapi import Depends, Request
 
-from app.auth.callers import Caller, caller_of
-from app.auth.keys import KeyRing
-from app.auth.rate_limit import Pace
-from app.inspection.inspector import Inspector
-from app.jobs import computations as science
-from app.jobs.computation import Ended
-from app.jobs.executor import Executor, ProcessExecutor
-from app.jobs.limits import Limits
-from app.jobs.queue import Queue, Wanted
-from app.jobs.supervisor import Supervisor
-from app.jobs.warm_up import rehearse
-from app.jobs.worker import Capacity, Worker
-from app.problems import Problem
-from app.services.batching import Intake
-from app.services.catalogue import Catalogue, built_in_robots
-from app.services.job_feed import JobFeed
-from app.services.metrics import Metrics
-from app.services.readiness import Readiness
-from app.settings import Settings
-from app.store.lock import DirectoryLock
-from app.store.records import Document, JobRecord, Quota, RobotRecord
-from app.store.store import Store, TenantStore
+from ..auth.callers import Caller, caller_of
+from ..auth.keys import KeyRing
+from ..auth.rate_limit import Pace
+from ..inspection.inspector import Inspector
+from ..jobs import computations as science
+from ..jobs.computation import Ended
+from ..jobs.executor import Executor, ProcessExecutor
+from ..jobs.limits import Limits
+from ..jobs.queue import Queue, Wanted
+from ..jobs.supervisor import Supervisor
+from ..jobs.warm_up import rehearse
+from ..jobs.worker import Capacity, Worker
+from ..problems import Problem
+from ..settings import Settings
+from ..store.lock import DirectoryLock
+from ..store.records import Document, JobRecord, Quota, RobotRecord
+from ..store.store import Store, TenantStore
+from .batching import Intake
+from .catalogue import Catalogue, built_in_robots
+from .job_feed import JobFeed
+from .metrics import Metrics
+from .readiness import Readiness
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,8 @@
 
 import time
 
-from app.services.job_feed import JobFeed
-from app.store.records import JobRecord
+from ..store.records import JobRecord
+from .job_feed import JobFeed
 
 
 async def wait_for(feed: JobFeed, job: JobRecord, seconds: float) -> JobRecord:

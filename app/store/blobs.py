@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from app.store.errors import Damaged, Unavailable
+from .errors import Damaged, Unavailable
 
 PIECE = 1 << 20
 Mark = tuple[int, int]

@@ -19,8 +19,8 @@ from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
-from app.store.errors import Unavailable
-from app.store.migrations.upgrade import upgrade
+from .errors import Unavailable
+from .migrations.upgrade import upgrade
 
 MOST_TOGETHER = 256
 """Units of work that one commit carries."""

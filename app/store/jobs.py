@@ -14,11 +14,11 @@ from functools import partial
 
 from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select, update
 
-from app.store.database import Database
-from app.store.queueing import Asked, Outcome, queue_all
-from app.store.records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
-from app.store.rows import job_record, request_record
-from app.store.tables import JOBS, now
+from .database import Database
+from .queueing import Asked, Outcome, queue_all
+from .records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
+from .rows import job_record, request_record
+from .tables import JOBS, now
 
 OURS = JOBS.c.tenant == bindparam("tenant")
 FIND = select(JOBS).where(OURS, JOBS.c.id == bindparam("id"))

@@ -10,8 +10,8 @@ from typing import Any
 
 from sqlalchemy import Row, and_, insert, select, update
 
-from app.store.database import Database
-from app.store.tables import KEYS, now
+from .database import Database
+from .tables import KEYS, now
 
 PREFIX = "vt_"
 

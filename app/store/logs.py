@@ -5,12 +5,12 @@ import json
 
 from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select
 
-from app.json_text import canonical_json
-from app.store.database import Database, insert_if_new
-from app.store.quota import refuse_beyond, refuse_more
-from app.store.records import UNBOUNDED, Document, LogRecord, Quota
-from app.store.rows import log_record
-from app.store.tables import LOGS, now
+from ..json_text import canonical_json
+from .database import Database, insert_if_new
+from .quota import refuse_beyond, refuse_more
+from .records import UNBOUNDED, Document, LogRecord, Quota
+from .rows import log_record
+from .tables import LOGS, now
 
 FIND = select(LOGS).where(LOGS.c.tenant == bindparam("tenant"), LOGS.c.id == bindparam("id"))
 

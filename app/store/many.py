@@ -5,10 +5,10 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, bindparam, select
 
-from app.store.database import Database
-from app.store.records import JobRecord
-from app.store.rows import job_record
-from app.store.tables import JOBS
+from .database import Database
+from .records import JobRecord
+from .rows import job_record
+from .tables import JOBS
 
 Place = tuple[str, str]
 """Tenant and id of a job."""

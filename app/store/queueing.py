@@ -12,14 +12,14 @@ from functools import cached_property
 
 from sqlalchemy import Connection, and_, bindparam, delete, insert, select
 
-from app.json_text import canonical_json
-from app.store.database import take_turns
-from app.store.errors import KeyReused, OverQuota
-from app.store.quota import room_for_jobs
-from app.store.records import UNFINISHED, JobRecord, JobRequestRecord, Quota
-from app.store.rows import job_record
-from app.store.tables import JOBS, REPEATS, now, one_of
-from app.version import VERSION
+from ..json_text import canonical_json
+from ..version import VERSION
+from .database import take_turns
+from .errors import KeyReused, OverQuota
+from .quota import room_for_jobs
+from .records import UNFINISHED, JobRecord, JobRequestRecord, Quota
+from .rows import job_record
+from .tables import JOBS, REPEATS, now, one_of
 
 ANSWERED = (*UNFINISHED, "successful")
 """States of a job that answers a later request for the same."""

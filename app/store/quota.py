@@ -4,10 +4,10 @@ import math
 
 from sqlalchemy import Connection, bindparam, func, literal, select
 
-from app.store.database import take_turns
-from app.store.errors import OverQuota
-from app.store.records import UNFINISHED, Quota
-from app.store.tables import JOBS, LOGS, one_of
+from .database import take_turns
+from .errors import OverQuota
+from .records import UNFINISHED, Quota
+from .tables import JOBS, LOGS, one_of
 
 UNFINISHED_JOBS = select(func.count()).select_from(
     select(literal(1))

@@ -5,11 +5,11 @@ import json
 
 from sqlalchemy import ColumnElement, Connection, and_, delete, select
 
-from app.json_text import canonical_json
-from app.store.database import Database, insert_if_new
-from app.store.records import Document, RobotRecord
-from app.store.rows import robot_record
-from app.store.tables import ROBOTS, now
+from ..json_text import canonical_json
+from .database import Database, insert_if_new
+from .records import Document, RobotRecord
+from .rows import robot_record
+from .tables import ROBOTS, now
 
 
 class RobotStore:

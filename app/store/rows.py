@@ -5,7 +5,7 @@ from typing import Any
 
 from sqlalchemy import Row
 
-from app.store.records import JobRecord, JobRequestRecord, LogRecord, RobotRecord
+from .records import JobRecord, JobRequestRecord, LogRecord, RobotRecord
 
 
 def request_record(text: str) -> JobRequestRecord:

@@ -8,16 +8,16 @@ from pathlib import Path
 
 from sqlalchemy import Connection, exists, or_, select, union_all
 
-from app.store.blobs import BlobStore, Incoming
-from app.store.database import Database
-from app.store.jobs import JobStore
-from app.store.logs import LogStore, log_id
-from app.store.many import ManyJobs
-from app.store.migrations.upgrade import touch
-from app.store.records import UNBOUNDED, Document, LogRecord, Quota
-from app.store.robots import RobotStore
-from app.store.tables import JOBS, LOGS
-from app.store.work import Held, WorkStore
+from .blobs import BlobStore, Incoming
+from .database import Database
+from .jobs import JobStore
+from .logs import LogStore, log_id
+from .many import ManyJobs
+from .migrations.upgrade import touch
+from .records import UNBOUNDED, Document, LogRecord, Quota
+from .robots import RobotStore
+from .tables import JOBS, LOGS
+from .work import Held, WorkStore
 
 BYTES_OF_JOBS = (JOBS.c.result_sha256, JOBS.c.traces_sha256)
 

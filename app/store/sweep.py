@@ -5,8 +5,8 @@ needless at one look and has not been touched until the next, a while later, is 
 touches what it is given again.
 """
 
-from app.store.blobs import Mark
-from app.store.store import Store
+from .blobs import Mark
+from .store import Store
 
 
 class Sweep:

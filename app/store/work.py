@@ -9,10 +9,10 @@ from collections.abc import Mapping
 
 from sqlalchemy import ColumnElement, Connection, and_, func, or_, select, update
 
-from app.store.database import Database
-from app.store.records import Document, JobRecord
-from app.store.rows import job_record
-from app.store.tables import JOBS, now
+from .database import Database
+from .records import Document, JobRecord
+from .rows import job_record
+from .tables import JOBS, now
 
 MOST_ATTEMPTS = 3
 """A job whose computation died this often is not tried again."""

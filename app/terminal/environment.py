@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NoReturn
 import typer
 from pydantic import ValidationError
 
-from app.settings import PREFIX, Settings
-from app.terminal.output.exit_codes import Exit
+from ..settings import PREFIX, Settings
+from .output.exit_codes import Exit
 
 if TYPE_CHECKING:
-    from app.store.store import Store
+    from ..store.store import Store
 
 
 def chosen_settings(**chosen: object) -> Settings:
@@ -27,8 +27,8 @@ def chosen_settings(**chosen: object) -> Settings:
 @contextmanager
 def opened(settings: Settings) -> Iterator["Store"]:
     """Open what is kept, or say why that cannot be."""
-    from app.store.errors import Unavailable
-    from app.store.store import Store
+    from ..store.errors import Unavailable
+    from ..store.store import Store
 
     try:
         store = Store(settings.data_dir, settings.database_url)

@@ -16,10 +16,10 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from app.terminal.interruption import let_commands_hear
-from app.terminal.output.exit_codes import Exit, exit_of, exit_of_error
-from app.terminal.output.streams import complain, note
-from core.errors import VeritorqueError
+from ...core.errors import VeritorqueError
+from .interruption import let_commands_hear
+from .output.exit_codes import Exit, exit_of, exit_of_error
+from .output.streams import complain, note
 
 NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
@@ -81,7 +81,7 @@ def guarded() -> Iterator[None]:
 
 
 def _other(error: Exception) -> Exit:
-    from app.problems import Problem
+    from ..problems import Problem
 
     if isinstance(error, Problem):
         complain(str(error.detail), error.evidence, error.remedy)

@@ -4,26 +4,26 @@ from typing import Annotated
 
 import typer
 
-from app.terminal.guard import Commands
-from app.terminal.output.streams import say, speak_any_alphabet
-from app.version import VERSION
+from ..version import VERSION
+from .guard import Commands
+from .output.streams import say, speak_any_alphabet
 
 HOMES = {
-    "identify": "app.terminal.commands.identify",
-    "diagnose": "app.terminal.commands.diagnose",
-    "logs": "app.terminal.commands.logs",
-    "robots": "app.terminal.commands.robots",
-    "report": "app.terminal.commands.report",
-    "export": "app.terminal.commands.export",
-    "serve": "app.terminal.commands.serve",
-    "work": "app.terminal.commands.work",
-    "keys": "app.terminal.commands.keys",
-    "doctor": "app.terminal.commands.upkeep",
-    "backup": "app.terminal.commands.upkeep",
-    "restore": "app.terminal.commands.upkeep",
-    "gc": "app.terminal.commands.upkeep",
-    "openapi": "app.terminal.commands.contract",
-    "version": "app.terminal.commands.contract",
+    "identify": "veritorque.app.terminal.commands.identify",
+    "diagnose": "veritorque.app.terminal.commands.diagnose",
+    "logs": "veritorque.app.terminal.commands.logs",
+    "robots": "veritorque.app.terminal.commands.robots",
+    "report": "veritorque.app.terminal.commands.report",
+    "export": "veritorque.app.terminal.commands.export",
+    "serve": "veritorque.app.terminal.commands.serve",
+    "work": "veritorque.app.terminal.commands.work",
+    "keys": "veritorque.app.terminal.commands.keys",
+    "doctor": "veritorque.app.terminal.commands.upkeep",
+    "backup": "veritorque.app.terminal.commands.upkeep",
+    "restore": "veritorque.app.terminal.commands.upkeep",
+    "gc": "veritorque.app.terminal.commands.upkeep",
+    "openapi": "veritorque.app.terminal.commands.contract",
+    "version": "veritorque.app.terminal.commands.contract",
 }
 
 

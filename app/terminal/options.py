@@ -6,8 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from app.terminal.backend.protocol import FromUrdf
-from core.errors import LogError, OptionError, RobotError, VeritorqueError
+from ...core.errors import LogError, OptionError, RobotError, VeritorqueError
+from .backend.protocol import FromUrdf
 
 Document = dict[str, Any]
 

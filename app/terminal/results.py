@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from core.errors import OptionError
+from ...core.errors import OptionError
 
 RESULT_HELP = "A result document (a file, as --out or --json wrote it); with --url the id of a job."
 
@@ -19,7 +19,7 @@ def read_result(given: str) -> dict[str, Any]:
     OptionError
         If the file is not there, or holds something else.
     """
-    from app.schemas.results import ResultDocument
+    from ..schemas.results import ResultDocument
 
     try:
         content = Path(given).read_bytes()

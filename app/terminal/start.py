@@ -31,13 +31,13 @@ class Closed(io.RawIOBase):
 def main() -> None:
     """Run the command line."""
     try:
-        from app.terminal.interruption import hear_from_the_start
+        from .interruption import hear_from_the_start
 
         hear_from_the_start()
     except KeyboardInterrupt:
         os._exit(130)
     _hold_streams()
-    from app.terminal.main import main as run
+    from .main import main as run
 
     run()
 

@@ -8,9 +8,9 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from app.terminal.backend.protocol import Document, Study, bench
-from app.terminal.output.files import require_folder, save
-from app.terminal.output.streams import aside, write
+from .backend.protocol import Document, Study, bench
+from .output.files import require_folder, save
+from .output.streams import aside, write
 
 OutOption = Annotated[Path | None, typer.Option(help="Save the result document here.")]
 ReportOption = Annotated[Path | None, typer.Option(help="Save the report, one HTML file, here.")]
@@ -33,7 +33,7 @@ def run(study: Study, *, url: str, key: str, wanted: Wanted) -> Document:
     VeritorqueError
         Whatever stands in the way.
     """
-    from app.client.progress import bar
+    from ..client.progress import bar
 
     signal.signal(signal.SIGTERM, _interrupt)  # ends a job on a service as Ctrl-C does
     for path in (wanted.out, wanted.report):

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.stats import median_abs_deviation
 
-from core.arrays import JointSeries, JointVector, Mask, Matrix, Samples
-from core.diagnosis.causes.sample_check import disturbance
-from core.diagnosis.dataset.dataset import BAND_OVER_MOTION, Look
-from core.diagnosis.regression.ar_noise import JointNoise, places
-from core.dynamics.prediction import Prediction
-from core.robot.parameters import INERTIAL_SYMBOLS
+from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
+from ..dynamics.prediction import Prediction
+from ..robot.parameters import INERTIAL_SYMBOLS
+from .causes.sample_check import disturbance
+from .dataset.dataset import BAND_OVER_MOTION, Look
+from .regression.ar_noise import JointNoise, places
 
 LARGEST_SHARE = 0.05
 """Share of a joint's mean square residual that the positions' noise may have."""

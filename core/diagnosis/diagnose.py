@@ -10,29 +10,29 @@ from functools import partial
 
 import numpy as np
 
-from core.arrays import BlockKey, JointSeries
-from core.diagnosis.bandwidth import Fitted, narrowed
-from core.diagnosis.causes.registry import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
-from core.diagnosis.checks.alternatives import Standing, weighed
-from core.diagnosis.checks.bursts import burst
-from core.diagnosis.checks.change_points import switchings
-from core.diagnosis.checks.findings import finding, raw_finding
-from core.diagnosis.checks.holdout_outliers import Explained, surprised, turned, unsurprising
-from core.diagnosis.checks.kurtosis import level_keeper
-from core.diagnosis.checks.lack_of_fit import best_stranger, strangers
-from core.diagnosis.dataset.dataset import Look, look_at
-from core.diagnosis.residual.atlas import atlas
-from core.diagnosis.residual.learner import Predictable, predictable_share, refuse_too_little
-from core.diagnosis.result import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate
-from core.diagnosis.search.likelihood_ratio import log_p, rise
-from core.diagnosis.search.restarts import consolidated, reconsidered
-from core.diagnosis.search.stepwise import Selection, confirmed, continued, select
-from core.dynamics.model import DynamicModel
-from core.identification.reference import Reference
-from core.log.model import JointLog
-from core.regressor.columns import ColumnPlan
+from ..arrays import BlockKey, JointSeries
+from ..dynamics.model import DynamicModel
+from ..identification.reference import Reference
+from ..log.model import JointLog
+from ..regressor.columns import ColumnPlan
+from .bandwidth import Fitted, narrowed
+from .causes.registry import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
+from .checks.alternatives import Standing, weighed
+from .checks.bursts import burst
+from .checks.change_points import switchings
+from .checks.findings import finding, raw_finding
+from .checks.holdout_outliers import Explained, surprised, turned, unsurprising
+from .checks.kurtosis import level_keeper
+from .checks.lack_of_fit import best_stranger, strangers
+from .dataset.dataset import Look, look_at
+from .residual.atlas import atlas
+from .residual.learner import Predictable, predictable_share, refuse_too_little
+from .result import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
+from .search.fitter import Bench
+from .search.hypothesis import Candidate
+from .search.likelihood_ratio import log_p, rise
+from .search.restarts import consolidated, reconsidered
+from .search.stepwise import Selection, confirmed, continued, select
 
 Progress = Callable[[str, float], None]
 OPEN = 1e-3

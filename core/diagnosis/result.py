@@ -5,14 +5,14 @@ from typing import Literal
 
 import numpy as np
 
-from core.arrays import JointVector, Vector
-from core.diagnosis.causes.protocol import Cure, Quantity, Site
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.residual.atlas import Atlas
-from core.diagnosis.residual.learner import Predictable
-from core.diagnosis.search.hypothesis import Candidate
-from core.diagnosis.search.stepwise import Selection
-from core.dynamics.prediction import Prediction
+from ..arrays import JointVector, Vector
+from ..dynamics.prediction import Prediction
+from .causes.protocol import Cure, Quantity, Site
+from .dataset.dataset import Look
+from .residual.atlas import Atlas
+from .residual.learner import Predictable
+from .search.hypothesis import Candidate
+from .search.stepwise import Selection
 
 Verdict = Literal["causes_found", "nothing_found", "unexplained"]
 

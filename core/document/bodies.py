@@ -8,10 +8,10 @@ of them is negative, no such body exists and there is nothing to draw. Source: T
 
 import numpy as np
 
-from core.arrays import LinkParameters, Parameters
-from core.dynamics.model import DynamicModel
-from core.dynamics.terms.rigid_body import RigidBody
-from core.robot.inertia import mass_properties
+from ..arrays import LinkParameters, Parameters
+from ..dynamics.model import DynamicModel
+from ..dynamics.terms.rigid_body import RigidBody
+from ..robot.inertia import mass_properties
 
 
 def body_rows(model: DynamicModel, standard: Parameters) -> list[dict[str, object]]:

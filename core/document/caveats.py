@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from core.document.identified import IdentifiedRobot
+from .identified import IdentifiedRobot
 
 SOURCE = "Written by Veritorque from measured motion. Units are SI, angles are in rad, joints count from 1."
 REPRESENTATIVE = (

@@ -6,21 +6,21 @@ in the document, so that a report can be drawn from it alone, at any time.
 
 from typing import cast
 
-from core.diagnosis.diagnose import UNEXPLAINED_SHARE
-from core.document.finding import finding_row, not_identifiable_row
-from core.document.identification import base_parameter_rows, held_out_spans, identification_document
-from core.document.identified import BaseValue, IdentifiedRobot
-from core.document.model_file import model_document
-from core.document.numbers import plain
-from core.document.remainder import dependence_rows, spectrum_rows, unexplained
-from core.document.repairs import repaired_description
-from core.extension.gain import JointGain
-from core.extension.motion_gain import motion_intervals
-from core.extension.repair import repairs
-from core.extension.result import Diagnosed
-from core.identification.against_reference import Compared
-from core.identification.result import Identification
-from core.simulation.multistep import Comparison, MultiStep
+from ..diagnosis.diagnose import UNEXPLAINED_SHARE
+from ..extension.gain import JointGain
+from ..extension.motion_gain import motion_intervals
+from ..extension.repair import repairs
+from ..extension.result import Diagnosed
+from ..identification.against_reference import Compared
+from ..identification.result import Identification
+from ..simulation.multistep import Comparison, MultiStep
+from .finding import finding_row, not_identifiable_row
+from .identification import base_parameter_rows, held_out_spans, identification_document
+from .identified import BaseValue, IdentifiedRobot
+from .model_file import model_document
+from .numbers import plain
+from .remainder import dependence_rows, spectrum_rows, unexplained
+from .repairs import repaired_description
 
 
 def diagnosis_document(found: Diagnosed, *, version: str, options: object) -> dict[str, object]:

@@ -1,8 +1,8 @@
 """Write a finding as rows of the result document: every number with its unit and how well it is known."""
 
-from core.diagnosis.causes.protocol import Quantity, Site
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.result import Curve, Finding, Gain, NotIdentifiable, Rival
+from ..diagnosis.causes.protocol import Quantity, Site
+from ..diagnosis.causes.registry import BY_ID
+from ..diagnosis.result import Curve, Finding, Gain, NotIdentifiable, Rival
 
 
 def finding_row(finding: Finding) -> dict[str, object]:

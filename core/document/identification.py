@@ -7,19 +7,19 @@ from collections.abc import Collection
 
 import numpy as np
 
-from core.arrays import BlockKey
-from core.document.bodies import body_rows
-from core.document.numbers import plain
-from core.document.reference import written_factor
-from core.identification.doubts import doubts
-from core.identification.result import Identification
-from core.log.model import JointLog
-from core.precision.bootstrap import intervals
-from core.precision.covariance import INTERVAL_95, relative_deviation_percent
-from core.reduction.base import BaseModel
-from core.regressor.observe import Observation
-from core.robot.writing import to_description
-from core.signals.condition import Motion
+from ..arrays import BlockKey
+from ..identification.doubts import doubts
+from ..identification.result import Identification
+from ..log.model import JointLog
+from ..precision.bootstrap import intervals
+from ..precision.covariance import INTERVAL_95, relative_deviation_percent
+from ..reduction.base import BaseModel
+from ..regressor.observe import Observation
+from ..robot.writing import to_description
+from ..signals.condition import Motion
+from .bodies import body_rows
+from .numbers import plain
+from .reference import written_factor
 
 SCHEMA_VERSION = "1.0"
 

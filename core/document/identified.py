@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointVector, LinkTable, Parameters
-from core.dynamics.model import DynamicModel
-from core.dynamics.terms.rigid_body import RigidBody
-from core.errors import OptionError
-from core.robot.inertia import pseudo_inertia
-from core.robot.model import Coupling, RobotModel
+from ..arrays import JointVector, LinkTable, Parameters
+from ..dynamics.model import DynamicModel
+from ..dynamics.terms.rigid_body import RigidBody
+from ..errors import OptionError
+from ..robot.inertia import pseudo_inertia
+from ..robot.model import Coupling, RobotModel
 
 NEGLIGIBLE = 1e-9
 """An eigenvalue of a pseudo-inertia below this share of the largest one is rounding, not a negative."""

@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from core.document.caveats import REPRESENTATIVE, SOURCE
-from core.document.identified import BaseValue, IdentifiedRobot
-from core.document.terms import term_fields, term_of
-from core.dynamics.model import DynamicModel
-from core.dynamics.prediction import Prediction
-from core.errors import RobotError
-from core.robot.description import robot_from_description
-from core.robot.writing import to_description
+from ..dynamics.model import DynamicModel
+from ..dynamics.prediction import Prediction
+from ..errors import RobotError
+from ..robot.description import robot_from_description
+from ..robot.writing import to_description
+from .caveats import REPRESENTATIVE, SOURCE
+from .identified import BaseValue, IdentifiedRobot
+from .terms import term_fields, term_of
 
 FORMAT, FORMAT_VERSION = "veritorque-model", "1.0"
 
@@ -46,8 +46,8 @@ def read_model(text: str | bytes) -> IdentifiedRobot:
 
     Examples
     --------
-    >>> from core.robot.builtin import builtin_robot
-    >>> from core.dynamics.model import standard_model
+    >>> from veritorque.core.robot.builtin import builtin_robot
+    >>> from veritorque.core.dynamics.model import standard_model
     >>> model = standard_model(builtin_robot("yumi-left"), ("viscous",))
     >>> numbers = np.arange(7.0)
     >>> text = write_model(IdentifiedRobot(model, numbers, ("individually",) * 7))

@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from core.document.identified import BaseValue, IdentifiedRobot
-from core.document.model_file import model_from_document
-from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
-from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.dynamics.terms.missing_rotor import MissingRotor
-from core.extension.fold import folded
-from core.robot.description import robot_from_description
-from core.robot.frames import nearest_rotation
-from core.robot.model import Coupling, RobotModel
+from ..dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
+from ..dynamics.terms.coulomb import Coulomb
+from ..dynamics.terms.coupling import GearCoupling
+from ..dynamics.terms.missing_coupling import MissingCoupling
+from ..dynamics.terms.missing_rotor import MissingRotor
+from ..extension.fold import folded
+from ..robot.description import robot_from_description
+from ..robot.frames import nearest_rotation
+from ..robot.model import Coupling, RobotModel
+from .identified import BaseValue, IdentifiedRobot
+from .model_file import model_from_document
 
 Document = Mapping[str, Any]
 

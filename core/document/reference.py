@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Matrix
-from core.document.reading import model_of_result
-from core.errors import OptionError
-from core.identification.reference import Reference, doubted
-from core.reduction.base import base_model
-from core.robot.description import robot_from_description
-from core.robot.differences import differences
-from core.robot.model import RobotModel
+from ..arrays import Matrix
+from ..errors import OptionError
+from ..identification.reference import Reference, doubted
+from ..reduction.base import base_model
+from ..robot.description import robot_from_description
+from ..robot.differences import differences
+from ..robot.model import RobotModel
+from .reading import model_of_result
 
 Document = Mapping[str, Any]
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from core.diagnosis.residual.atlas import Atlas
-from core.diagnosis.result import Diagnosis, Stranger
+from ..diagnosis.residual.atlas import Atlas
+from ..diagnosis.result import Diagnosis, Stranger
 
 SHOWN_DIGITS = 5
 """Bins of an atlas are for looking at; more digits would only make the document long."""

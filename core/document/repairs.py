@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from core.extension.repair import Repair, repaired_robot
-from core.robot.model import RobotModel
-from core.robot.writing import to_description
+from ..extension.repair import Repair, repaired_robot
+from ..robot.model import RobotModel
+from ..robot.writing import to_description
 
 
 def repaired_description(robot: RobotModel, repairs: Iterable[Repair]) -> dict[str, object] | None:

@@ -14,11 +14,11 @@ from typing import Any, cast
 
 import numpy as np
 
-from core.dynamics import terms as package
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.errors import RobotError
-from core.robot.model import Coupling
+from ..dynamics import terms as package
+from ..dynamics.prediction import Prediction
+from ..dynamics.term import Term
+from ..errors import RobotError
+from ..robot.model import Coupling
 
 NAME = "name"
 """The field of a standard term that never differs from its default."""

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
-from core.dynamics.prediction import Prediction
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ..arrays import JointSeries, Samples
+from ..robot.model import RobotModel
+from ..signals.state import MotionState
+from .prediction import Prediction
 
 
 @dataclass(frozen=True)

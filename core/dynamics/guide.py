@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from importlib import import_module
 from pkgutil import iter_modules
 
-from core.dynamics import terms
-from core.dynamics.model import STANDARD_TERMS, DynamicModel
-from core.dynamics.terms.effect import AllJointsTerm, OneJointTerm
-from core.robot.description import robot_from_description
+from ..robot.description import robot_from_description
+from . import terms
+from .model import STANDARD_TERMS, DynamicModel
+from .terms.effect import AllJointsTerm, OneJointTerm
 
 OPENING = """\
 # Terms

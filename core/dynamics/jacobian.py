@@ -7,8 +7,8 @@ By virtual work its transpose gives what a wrench on the link puts on the joints
 import numpy as np
 from jaxtyping import Float
 
-from core.arrays import JointSeries
-from core.robot.model import Link, RobotModel
+from ..arrays import JointSeries
+from ..robot.model import Link, RobotModel
 
 Jacobian = Float[np.ndarray, "samples 6 joints"]
 

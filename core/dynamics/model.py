@@ -10,19 +10,19 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import JointSeries, Parameters, Weights
-from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.term import Entry, Term
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
-from core.dynamics.terms.offset import Offset
-from core.dynamics.terms.rigid_body import RigidBody
-from core.dynamics.terms.rotor_inertia import RotorInertia
-from core.dynamics.terms.viscous import Viscous
-from core.errors import OptionError
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ..arrays import JointSeries, Parameters, Weights
+from ..errors import OptionError
+from ..robot.model import RobotModel
+from ..robot.parameters import Parameter
+from ..signals.state import MotionState
+from .newton_euler import inverse_dynamics
+from .term import Entry, Term
+from .terms.coulomb import Coulomb
+from .terms.coupling import GearCoupling
+from .terms.offset import Offset
+from .terms.rigid_body import RigidBody
+from .terms.rotor_inertia import RotorInertia
+from .terms.viscous import Viscous
 
 STANDARD_TERMS: Mapping[str, type[RigidBody | RotorInertia | Viscous | Coulomb | Offset | GearCoupling]] = {
     "rigid_body": RigidBody,

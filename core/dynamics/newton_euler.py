@@ -6,10 +6,10 @@ laws of mechanics. Sources: Luh, Walker & Paul 1980; Khalil & Dombre (2002), ch.
 
 import numpy as np
 
-from core.arrays import JointSeries, LinkTable
-from core.robot.inertia import inertia_about_origin
-from core.robot.model import Link, RobotModel
-from core.signals.state import MotionState
+from ..arrays import JointSeries, LinkTable
+from ..robot.inertia import inertia_about_origin
+from ..robot.model import Link, RobotModel
+from ..signals.state import MotionState
 
 _Z = np.array([0.0, 0.0, 1.0])
 

@@ -14,13 +14,13 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import JointSeries, LinkTable, Parameters, Weights
-from core.dynamics.model import DynamicModel, term_torque
-from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.term import Term
-from core.dynamics.terms.rigid_body import RigidBody
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ..arrays import JointSeries, LinkTable, Parameters, Weights
+from ..robot.model import RobotModel
+from ..signals.state import MotionState
+from .model import DynamicModel, term_torque
+from .newton_euler import inverse_dynamics
+from .term import Term
+from .terms.rigid_body import RigidBody
 
 STEPS = (1e-5, 1.0, 1.0)
 """Of the differences by position, velocity and acceleration, rad (m), per s, per s2."""

@@ -6,10 +6,10 @@ time series for each of them; everything that is structurally zero is never comp
 
 from typing import ClassVar, Protocol, runtime_checkable
 
-from core.arrays import Series
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ..arrays import Series
+from ..robot.model import RobotModel
+from ..robot.parameters import Parameter
+from ..signals.state import MotionState
 
 Entry = tuple[int, int]
 """Joint row and parameter column, both counted from 0 within the term."""

@@ -9,8 +9,8 @@ import clarabel
 import numpy as np
 from scipy import sparse
 
-from core.arrays import LinkParameters, SquareMatrix
-from core.estimate.with_clarabel import svec_rows
+from ..arrays import LinkParameters, SquareMatrix
+from .with_clarabel import svec_rows
 
 LARGEST_DEVIATION = 100.0
 """In SI units: what is known worse is not known."""

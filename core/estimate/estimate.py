@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, Parameters
-from core.estimate.constraints import Prior, check_links
-from core.estimate.options import EstimateOptions
-from core.estimate.programme import Programme, Solution
-from core.estimate.system import System
-from core.estimate.with_clarabel import solve_with_clarabel
-from core.reduction.base import BaseModel
+from ..arrays import BaseParameters, Indices, Parameters
+from ..reduction.base import BaseModel
+from .constraints import Prior, check_links
+from .options import EstimateOptions
+from .programme import Programme, Solution
+from .system import System
+from .with_clarabel import solve_with_clarabel
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +96,7 @@ def solve(programme: Programme, solver: str) -> Solution:
     """Solve a programme with the named solver."""
     if solver == "clarabel":
         return solve_with_clarabel(programme)
-    from core.estimate.with_cvxpy import solve_with_cvxpy  # takes as long to load as all the rest together
+    from .with_cvxpy import solve_with_cvxpy  # takes as long to load as all the rest together
 
     return solve_with_cvxpy(programme)
 

@@ -11,13 +11,13 @@ import clarabel
 import numpy as np
 from scipy import sparse
 
-from core.arrays import BaseParameters, Parameters
-from core.dynamics.model import DynamicModel
-from core.estimate.constraints import Bounds, Prior, congruence, link_columns, lower_bounds
-from core.estimate.programme import refusal
-from core.estimate.with_clarabel import SVEC_IDENTITY, svec_rows
-from core.reduction.base import BaseModel
-from core.robot.inertia import pseudo_inertia
+from ..arrays import BaseParameters, Parameters
+from ..dynamics.model import DynamicModel
+from ..reduction.base import BaseModel
+from ..robot.inertia import pseudo_inertia
+from .constraints import Bounds, Prior, congruence, link_columns, lower_bounds
+from .programme import refusal
+from .with_clarabel import SVEC_IDENTITY, svec_rows
 
 _CAP = 1.0
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Matrix, Vector, Weights
+from ..arrays import Matrix, Vector, Weights
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,17 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BlockKey
-from core.dynamics.model import DynamicModel
-from core.errors import ExcitationError, OptionError
-from core.estimate.options import EstimateOptions
-from core.estimate.robust import ROUNDS, huber_weights
-from core.estimate.smoothing import chosen_widths, scan_plan, with_candidates
-from core.estimate.system import System, ordinary, stacked, weighted
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import Observation, Weigh, observe
-from core.signals.condition import Motion
+from ..arrays import BlockKey
+from ..dynamics.model import DynamicModel
+from ..errors import ExcitationError, OptionError
+from ..reduction.base import base_model
+from ..regressor.columns import ColumnPlan
+from ..regressor.observe import Observation, Weigh, observe
+from ..signals.condition import Motion
+from .options import EstimateOptions
+from .robust import ROUNDS, huber_weights
+from .smoothing import chosen_widths, scan_plan, with_candidates
+from .system import System, ordinary, stacked, weighted
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,8 @@ Apart from what estimates, so that a wish can be checked where nothing is comput
 
 from dataclasses import dataclass, field
 
-from core.errors import OptionError
-from core.estimate.constraints import Bounds
+from ..errors import OptionError
+from .constraints import Bounds
 
 ESTIMATORS = ("sdp", "ols", "wls", "irls")
 SOLVERS = ("clarabel", "cvxpy")

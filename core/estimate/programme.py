@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Matrix, Parameters, Vector
-from core.errors import SolverError
-from core.estimate.constraints import Bounds, Prior
-from core.estimate.options import PULL
-from core.estimate.system import System
-from core.reduction.base import BaseModel
+from ..arrays import Matrix, Parameters, Vector
+from ..errors import SolverError
+from ..reduction.base import BaseModel
+from .constraints import Bounds, Prior
+from .options import PULL
+from .system import System
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,8 +7,8 @@ Holland & Welsch 1977.
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointVector, Samples, Weights
-from core.regressor.observe import Rows, Weigh
+from ..arrays import BaseParameters, Indices, JointVector, Samples, Weights
+from ..regressor.observe import Rows, Weigh
 
 HUBER = 1.345
 ROUNDS = 3

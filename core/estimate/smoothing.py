@@ -10,17 +10,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Indices, JointVector, Series
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Entry, Term
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
-from core.regressor.columns import ColumnPlan
-from core.regressor.factor import Factor
-from core.regressor.observe import Observation
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ..arrays import Indices, JointVector, Series
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Entry, Term
+from ..dynamics.terms.coulomb import Coulomb
+from ..dynamics.terms.coupling import GearCoupling
+from ..regressor.columns import ColumnPlan
+from ..regressor.factor import Factor
+from ..regressor.observe import Observation
+from ..robot.model import RobotModel
+from ..robot.parameters import Parameter
+from ..signals.state import MotionState
 
 SHARES = (0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4)
 """Candidate widths as shares of a joint's RMS speed, besides the plain sign."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointVector, Matrix, Vector
-from core.errors import ExcitationError
-from core.regressor.factor import Factor
+from ..arrays import BaseParameters, Indices, JointVector, Matrix, Vector
+from ..errors import ExcitationError
+from ..regressor.factor import Factor
 
 RANK_TOLERANCE = 1e-8
 ROUNDING = 1e-12

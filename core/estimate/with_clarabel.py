@@ -11,10 +11,10 @@ import clarabel
 import numpy as np
 from scipy import sparse
 
-from core.arrays import Matrix, Vector
-from core.estimate.constraints import CentreBox, congruence, link_columns, lower_bounds
-from core.estimate.programme import Programme, Solution, refusal
-from core.robot.inertia import PSEUDO_INERTIA_BASIS
+from ..arrays import Matrix, Vector
+from ..robot.inertia import PSEUDO_INERTIA_BASIS
+from .constraints import CentreBox, congruence, link_columns, lower_bounds
+from .programme import Programme, Solution, refusal
 
 _UPPER = np.triu_indices(4)
 _BY_COLUMN = np.lexsort((_UPPER[0], _UPPER[1]))

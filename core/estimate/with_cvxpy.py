@@ -8,9 +8,9 @@ import warnings
 import cvxpy
 import numpy as np
 
-from core.estimate.constraints import CentreBox, congruence, link_columns, lower_bounds
-from core.estimate.programme import Programme, Solution, refusal
-from core.robot.inertia import PSEUDO_INERTIA_BASIS, pseudo_inertia
+from ..robot.inertia import PSEUDO_INERTIA_BASIS, pseudo_inertia
+from .constraints import CentreBox, congruence, link_columns, lower_bounds
+from .programme import Programme, Solution, refusal
 
 _KINDS = {
     cvxpy.OPTIMAL_INACCURATE: "inaccurate",

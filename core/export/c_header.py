@@ -11,12 +11,12 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from core.document.caveats import caveats
-from core.document.identified import IdentifiedRobot
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
-from core.export.c_source import TYPES_AND_TORQUE
-from core.robot.model import Link
+from ..document.caveats import caveats
+from ..document.identified import IdentifiedRobot
+from ..dynamics.terms.coulomb import Coulomb
+from ..dynamics.terms.coupling import GearCoupling
+from ..robot.model import Link
+from .c_source import TYPES_AND_TORQUE
 
 WIDTH = 110
 

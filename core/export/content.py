@@ -6,10 +6,10 @@ inertial parameters refer to.
 
 from collections.abc import Mapping
 
-from core.document.caveats import REPRESENTATIVE, SOURCE, smoothing
-from core.document.identified import IdentifiedRobot
-from core.robot.model import Link
-from core.robot.parameters import INERTIAL_SYMBOLS
+from ..document.caveats import REPRESENTATIVE, SOURCE, smoothing
+from ..document.identified import IdentifiedRobot
+from ..robot.model import Link
+from ..robot.parameters import INERTIAL_SYMBOLS
 
 FRAMES = (
     "Link frame j sits at rotation (into the antecedent's frame) and translation (m) on its antecedent (0: "

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from core.export.tables import base_parameter_table, standard_parameter_table
+from .tables import base_parameter_table, standard_parameter_table
 
 Document = Mapping[str, Any]
 
@@ -35,50 +35,50 @@ def _standard_csv(document: Document) -> bytes:
 
 
 def _yaml(document: Document) -> bytes:
-    from core.document.reading import identified_robot
-    from core.export.yaml import write_yaml
+    from ..document.reading import identified_robot
+    from .yaml import write_yaml
 
     return write_yaml(identified_robot(document)).encode()
 
 
 def _matlab(document: Document) -> bytes:
-    from core.document.reading import identified_robot
-    from core.export.matlab import write_matlab
+    from ..document.reading import identified_robot
+    from .matlab import write_matlab
 
     return write_matlab(identified_robot(document))
 
 
 def _c_header(document: Document) -> bytes:
-    from core.document.reading import identified_robot
-    from core.export.c_header import write_c_header
+    from ..document.reading import identified_robot
+    from .c_header import write_c_header
 
     return write_c_header(identified_robot(document)).encode()
 
 
 def _urdf(document: Document) -> bytes:
-    from core.document.reading import identified_robot
-    from core.export.urdf import write_urdf
+    from ..document.reading import identified_robot
+    from .urdf import write_urdf
 
     return write_urdf(identified_robot(document)).encode()
 
 
 def _mjcf(document: Document) -> bytes:
-    from core.document.reading import identified_robot
-    from core.export.mjcf import write_mjcf
+    from ..document.reading import identified_robot
+    from .mjcf import write_mjcf
 
     return write_mjcf(identified_robot(document)).encode()
 
 
 def _sdf(document: Document) -> bytes:
-    from core.document.reading import identified_robot
-    from core.export.sdf import write_sdf
+    from ..document.reading import identified_robot
+    from .sdf import write_sdf
 
     return write_sdf(identified_robot(document)).encode()
 
 
 def _model(document: Document) -> bytes:
-    from core.document.model_file import write_model
-    from core.document.reading import identified_model
+    from ..document.model_file import write_model
+    from ..document.reading import identified_model
 
     return write_model(identified_model(document)).encode()
 

@@ -5,10 +5,10 @@
 
 import sys
 
-from core.export.formats import FORMATS
-from core.log.formats.content import FORMS
-from core.log.profiles import PROFILES, Pattern
-from core.log.units import PREFIXES, UNITS, Unit
+from ..log.formats.content import FORMS
+from ..log.profiles import PROFILES, Pattern
+from ..log.units import PREFIXES, UNITS, Unit
+from .formats import FORMATS
 
 OPENING = """\
 # Formats

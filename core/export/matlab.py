@@ -8,9 +8,9 @@ import io
 
 import numpy as np
 
-from core.document.caveats import by_identifiability
-from core.document.identified import IdentifiedRobot
-from core.export.content import Row, content
+from ..document.caveats import by_identifiability
+from ..document.identified import IdentifiedRobot
+from .content import Row, content
 
 VARIABLE = "identified"
 HEADER = b"MATLAB 5.0 MAT-file, identified robot written by Veritorque"

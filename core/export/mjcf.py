@@ -11,12 +11,12 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from scipy.spatial.transform import Rotation as Turn
 
-from core.arrays import LinkParameters, Rotation, Vector
-from core.document.caveats import caveats, smoothing
-from core.document.identified import IdentifiedRobot
-from core.export.elements import child, comment, document
-from core.export.movers import Mover, free_name, movers
-from core.robot.inertia import mass_properties
+from ..arrays import LinkParameters, Rotation, Vector
+from ..document.caveats import caveats, smoothing
+from ..document.identified import IdentifiedRobot
+from ..robot.inertia import mass_properties
+from .elements import child, comment, document
+from .movers import Mover, free_name, movers
 
 KINDS = {"revolute": "hinge", "prismatic": "slide"}
 

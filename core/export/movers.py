@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Rotation, Vector3
-from core.errors import RobotError
-from core.robot.frames import rotation_z
-from core.robot.model import Joint, JointKind, Link, RobotModel
+from ..arrays import Rotation, Vector3
+from ..errors import RobotError
+from ..robot.frames import rotation_z
+from ..robot.model import Joint, JointKind, Link, RobotModel
 
 
 @dataclass(frozen=True)

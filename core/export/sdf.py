@@ -13,14 +13,14 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from core.arrays import LinkParameters, Rotation, Vector3
-from core.document.caveats import caveats, rotors
-from core.document.identified import IdentifiedRobot
-from core.export.elements import child, comment, document, text_of
-from core.export.movers import Mover, free_name, movers
-from core.export.urdf import left_out, upright
-from core.robot.frames import rpy_of_rotation
-from core.robot.inertia import mass_properties
+from ..arrays import LinkParameters, Rotation, Vector3
+from ..document.caveats import caveats, rotors
+from ..document.identified import IdentifiedRobot
+from ..robot.frames import rpy_of_rotation
+from ..robot.inertia import mass_properties
+from .elements import child, comment, document, text_of
+from .movers import Mover, free_name, movers
+from .urdf import left_out, upright
 
 
 def write_sdf(identified: IdentifiedRobot) -> str:

@@ -9,13 +9,13 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from core.arrays import LinkParameters, Rotation, Vector3
-from core.document.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
-from core.document.identified import IdentifiedRobot
-from core.export.elements import child, comment, document
-from core.export.movers import Mover, free_name, movers
-from core.robot.frames import rotation_to, rpy_of_rotation
-from core.robot.inertia import mass_properties
+from ..arrays import LinkParameters, Rotation, Vector3
+from ..document.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
+from ..document.identified import IdentifiedRobot
+from ..robot.frames import rotation_to, rpy_of_rotation
+from ..robot.inertia import mass_properties
+from .elements import child, comment, document
+from .movers import Mover, free_name, movers
 
 UNLIMITED = 1e9
 """URDF wants effort and velocity limits: N m and rad/s where none is known."""

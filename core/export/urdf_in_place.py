@@ -10,18 +10,18 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from core.document.caveats import caveats
-from core.document.identified import IdentifiedRobot
-from core.errors import RobotError
-from core.export.elements import comment, text_of
-from core.export.urdf import left_out, write_inertial
-from core.export.urdf_spans import Element, Span, find_elements
-from core.robot.differences import differences
-from core.robot.frames import rotation_to
-from core.robot.inertia import moved
-from core.robot.model import RobotModel
-from core.robot.urdf import robot_from_urdf
-from core.robot.urdf_document import UrdfDocument, read_urdf_document
+from ..document.caveats import caveats
+from ..document.identified import IdentifiedRobot
+from ..errors import RobotError
+from ..robot.differences import differences
+from ..robot.frames import rotation_to
+from ..robot.inertia import moved
+from ..robot.model import RobotModel
+from ..robot.urdf import robot_from_urdf
+from ..robot.urdf_document import UrdfDocument, read_urdf_document
+from .elements import comment, text_of
+from .urdf import left_out, write_inertial
+from .urdf_spans import Element, Span, find_elements
 
 Edit = tuple[Span, str]
 """Bytes from, up to, and what to put there."""

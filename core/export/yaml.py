@@ -9,9 +9,9 @@ import json
 import textwrap
 from collections.abc import Mapping
 
-from core.document.caveats import caveats
-from core.document.identified import IdentifiedRobot
-from core.export.content import content
+from ..document.caveats import caveats
+from ..document.identified import IdentifiedRobot
+from .content import content
 
 WIDTH = 110
 

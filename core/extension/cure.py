@@ -9,11 +9,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Indices
-from core.diagnosis.result import Diagnosis, Finding
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
-from core.reduction.base import BaseModel
+from ..arrays import Indices
+from ..diagnosis.result import Diagnosis, Finding
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Term
+from ..reduction.base import BaseModel
 
 
 def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Parameters, Weights
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
+from ..arrays import Parameters, Weights
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Term
 
 
 def folded(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Weights]:

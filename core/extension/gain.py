@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Matrix, Vector
-from core.regressor.observe import Observation
+from ..arrays import BaseParameters, Matrix, Vector
+from ..regressor.observe import Observation
 
 DRAWS = 1000
 SEED = 0

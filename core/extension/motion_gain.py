@@ -6,9 +6,9 @@ Source: Kuensch, Ann. Stat. 17, 1989.
 
 import numpy as np
 
-from core.arrays import Intervals
-from core.extension.gain import DRAWS, FEWEST_BLOCKS, SEED
-from core.simulation.multistep import Comparison
+from ..arrays import Intervals
+from ..simulation.multistep import Comparison
+from .gain import DRAWS, FEWEST_BLOCKS, SEED
 
 
 def motion_intervals(comparison: Comparison) -> Intervals | None:

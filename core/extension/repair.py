@@ -7,14 +7,14 @@ there. It is of first order where its finding is: after a large one a second dia
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Numbers, Site, Solved
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.causes.repairs import Mends, MendsRobot, mends
-from core.diagnosis.causes.sample_check import RawCause
-from core.diagnosis.result import Diagnosis, Finding
-from core.diagnosis.search.hypothesis import Candidate
-from core.extension.cure import gains_surely
-from core.robot.model import RobotModel
+from ..diagnosis.causes.protocol import Numbers, Site, Solved
+from ..diagnosis.causes.registry import BY_ID
+from ..diagnosis.causes.repairs import Mends, MendsRobot, mends
+from ..diagnosis.causes.sample_check import RawCause
+from ..diagnosis.result import Diagnosis, Finding
+from ..diagnosis.search.hypothesis import Candidate
+from ..robot.model import RobotModel
+from .cure import gains_surely
 
 NOT_SURE = "Nothing is changed for it: its gain on rows that no fit has seen is not beyond doubt"
 

@@ -10,15 +10,15 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.causes.repairs import MendsLog
-from core.errors import LogError
-from core.extension.repair import Repair
-from core.log.model import JointLog, LogRows, rows_at
-from core.robot.model import RobotModel
-from core.signals.condition import effort_scale
-from core.signals.resample import dropped
+from ..arrays import JointVector
+from ..diagnosis.causes.registry import BY_ID
+from ..diagnosis.causes.repairs import MendsLog
+from ..errors import LogError
+from ..log.model import JointLog, LogRows, rows_at
+from ..robot.model import RobotModel
+from ..signals.condition import effort_scale
+from ..signals.resample import dropped
+from .repair import Repair
 
 NEIGHBOURS = 40
 """Rows on either side that a spline is laid through; further ones change nothing."""

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from core.diagnosis.result import Diagnosis
-from core.extension.gain import JointGain
-from core.identification.against_reference import Compared
-from core.identification.result import Identification
-from core.simulation.multistep import Comparison
+from ..diagnosis.result import Diagnosis
+from ..identification.against_reference import Compared
+from ..identification.result import Identification
+from ..simulation.multistep import Comparison
+from .gain import JointGain
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from core.diagnosis.result import Diagnosis, Evidence, Finding
-from core.errors import SolverError
-from core.extension.cure import gains_surely
-from core.extension.gain import JointGain
+from ..diagnosis.result import Diagnosis, Evidence, Finding
+from ..errors import SolverError
+from .cure import gains_surely
+from .gain import JointGain
 
 Answer = TypeVar("Answer")
 """What an identification gives."""

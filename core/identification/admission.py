@@ -6,13 +6,13 @@ What only the samples can show (no motion, a cut-off below the motion's band) is
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.dynamics.model import DynamicModel
-from core.errors import OptionError, VeritorqueError
-from core.estimate.constraints import check_links
-from core.identification.options import IdentifyOptions
-from core.log.model import JointLog
-from core.signals.condition import check_currents
-from core.signals.several import check_different
+from ..dynamics.model import DynamicModel
+from ..errors import OptionError, VeritorqueError
+from ..estimate.constraints import check_links
+from ..log.model import JointLog
+from ..signals.condition import check_currents
+from ..signals.several import check_different
+from .options import IdentifyOptions
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass, replace
 
-from core.arrays import BaseParameters, Parameters
-from core.estimate.estimate import nearest
-from core.identification.reference import Reference
-from core.identification.result import Identification
-from core.validation.scores import JointScore, scores, total_percent
+from ..arrays import BaseParameters, Parameters
+from ..estimate.estimate import nearest
+from ..validation.scores import JointScore, scores, total_percent
+from .reference import Reference
+from .result import Identification
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ A programme that ends at an optimum has answered the question it was given; whet
 
 import numpy as np
 
-from core.arrays import JointVector, Mask
-from core.estimate.estimate import Estimate
-from core.identification.result import Identification
+from ..arrays import JointVector, Mask
+from ..estimate.estimate import Estimate
+from .result import Identification
 
 HIGH_PRICE = 1.25
 """Constraints that raise the squared error by more than a quarter are at odds with the log."""

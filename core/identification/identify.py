@@ -3,23 +3,23 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from core.estimate.constraints import Prior, default_prior
-from core.estimate.estimate import Estimate, estimate
-from core.estimate.feasibility import active_constraints, feasibility
-from core.estimate.gaussian_prior import Belief
-from core.estimate.measured import Measured, weighted_system
-from core.estimate.system import System
-from core.identification.options import IdentifyOptions
-from core.identification.result import Identification
-from core.log.model import JointLog
-from core.precision.bootstrap import bootstrap
-from core.precision.covariance import assess
-from core.precision.essential import essential_parameters
-from core.reduction.base import BaseModel
-from core.regressor.observe import Observation, torque_scales
-from core.validation.excitation import excitation
-from core.validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
-from core.validation.scores import scores, total_percent
+from ..estimate.constraints import Prior, default_prior
+from ..estimate.estimate import Estimate, estimate
+from ..estimate.feasibility import active_constraints, feasibility
+from ..estimate.gaussian_prior import Belief
+from ..estimate.measured import Measured, weighted_system
+from ..estimate.system import System
+from ..log.model import JointLog
+from ..precision.bootstrap import bootstrap
+from ..precision.covariance import assess
+from ..precision.essential import essential_parameters
+from ..reduction.base import BaseModel
+from ..regressor.observe import Observation, torque_scales
+from ..validation.excitation import excitation
+from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
+from ..validation.scores import scores, total_percent
+from .options import IdentifyOptions
+from .result import Identification
 
 Progress = Callable[[str, float], None]
 

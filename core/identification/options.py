@@ -8,12 +8,12 @@ from dataclasses import dataclass, field, replace
 from itertools import starmap
 from typing import cast
 
-from core.dynamics.model import STANDARD_TERMS
-from core.errors import OptionError
-from core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid
-from core.estimate.options import PULL, EstimateOptions
-from core.signals.recipe import FilterOptions
-from core.validation.holdout import HoldOut
+from ..dynamics.model import STANDARD_TERMS
+from ..errors import OptionError
+from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid
+from ..estimate.options import PULL, EstimateOptions
+from ..signals.recipe import FilterOptions
+from ..validation.holdout import HoldOut
 
 DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
 """A diagnosis wants many held-out blocks: the interval of a gain is drawn from them."""

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import null_space, qr, solve_triangular
 
-from core.arrays import BaseParameters, EquationRows, LinkParameters, Matrix, Parameters
-from core.errors import RobotError
-from core.estimate.constraints import link_columns
-from core.estimate.gaussian_prior import Belief
-from core.estimate.system import RANK_TOLERANCE, System, column_scale
-from core.reduction.base import BaseModel
-from core.robot.inertia import link_parameters, pseudo_inertia
+from ..arrays import BaseParameters, EquationRows, LinkParameters, Matrix, Parameters
+from ..errors import RobotError
+from ..estimate.constraints import link_columns
+from ..estimate.gaussian_prior import Belief
+from ..estimate.system import RANK_TOLERANCE, System, column_scale
+from ..reduction.base import BaseModel
+from ..robot.inertia import link_parameters, pseudo_inertia
 
 PRIOR = "prior"
 """The name of the reference that is the robot's own description."""

@@ -2,18 +2,18 @@
 
 from dataclasses import dataclass
 
-from core.arrays import BlockKey, Matrix
-from core.estimate.estimate import Estimate
-from core.estimate.feasibility import Feasibility
-from core.log.model import JointLog
-from core.precision.covariance import Precision
-from core.precision.essential import Essential
-from core.reduction.base import BaseModel
-from core.regressor.observe import Observation
-from core.signals.condition import Motion
-from core.validation.excitation import ExcitationScore
-from core.validation.mass_matrix import MassMatrixCheck
-from core.validation.scores import JointScore
+from ..arrays import BlockKey, Matrix
+from ..estimate.estimate import Estimate
+from ..estimate.feasibility import Feasibility
+from ..log.model import JointLog
+from ..precision.covariance import Precision
+from ..precision.essential import Essential
+from ..reduction.base import BaseModel
+from ..regressor.observe import Observation
+from ..signals.condition import Motion
+from ..validation.excitation import ExcitationScore
+from ..validation.mass_matrix import MassMatrixCheck
+from ..validation.scores import JointScore
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.errors import LogError
-from core.log.layout import Channel, Layout
-from core.log.model import JointLog
-from core.log.reader import lay_out, open_table, read_table
-from core.log.suggestion import suggested_mapping, suggested_units
+from ..arrays import JointVector
+from ..errors import LogError
+from .layout import Channel, Layout
+from .model import JointLog
+from .reader import lay_out, open_table, read_table
+from .suggestion import suggested_mapping, suggested_units
 
 PIECE_ROWS = 1 << 16
 

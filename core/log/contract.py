@@ -6,10 +6,10 @@ starts.
 
 import numpy as np
 
-from core.arrays import JointVector, SampleMask, Series
-from core.errors import LogError
-from core.log.defects.stretch import Stretch, counted
-from core.log.layout import Layout
+from ..arrays import JointVector, SampleMask, Series
+from ..errors import LogError
+from .defects.stretch import Stretch, counted
+from .layout import Layout
 
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0

@@ -11,13 +11,13 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from core.arrays import JointSeries, Series
-from core.errors import LogError
-from core.log.formats.table import Table
-from core.log.mapping import ChannelRequest, LogMapping
-from core.log.model import LogRows
-from core.log.plausible_units import plausible_readings
-from core.log.units import PREFIXES, TIME, UNITS
+from ..arrays import JointSeries, Series
+from ..errors import LogError
+from .formats.table import Table
+from .mapping import ChannelRequest, LogMapping
+from .model import LogRows
+from .plausible_units import plausible_readings
+from .units import PREFIXES, TIME, UNITS
 
 SHOWN_COLUMNS = 24
 NEEDED = ("position", "torque", "current")

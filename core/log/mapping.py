@@ -17,8 +17,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 
-from core.errors import LogError
-from core.log.units import TIME, UNITS
+from ..errors import LogError
+from .units import TIME, UNITS
 
 RATE = "rate_hz"
 MAX_MAPPED_COLUMNS = 64

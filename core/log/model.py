@@ -9,7 +9,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
+from ..arrays import JointSeries, Samples
 
 
 @dataclass(frozen=True)

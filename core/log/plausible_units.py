@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Vector
-from core.log.units import COUNTS, UNITS
+from ..arrays import Vector
+from .units import COUNTS, UNITS
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ from math import ceil
 
 import numpy as np
 
-from core.arrays import Instants, InstantSeries, JointSeries, Samples
-from core.errors import OptionError
-from core.log.model import JointLog
+from ..arrays import Instants, InstantSeries, JointSeries, Samples
+from ..errors import OptionError
+from .model import JointLog
 
 MOST_POINTS = 4000
 FEWEST_POINTS = 10

@@ -11,8 +11,8 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from core.errors import LogError
-from core.log.units import TIME, UNITS
+from ..errors import LogError
+from .units import TIME, UNITS
 
 PROFILE, JOINTS = "profile", "joints"
 SHOWN_COLUMNS = 24

@@ -10,21 +10,21 @@ from pathlib import Path
 
 import numpy as np
 
-from core.errors import LogError
-from core.log.defects.examine import examine
-from core.log.formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
-from core.log.formats.delimited import open_delimited
-from core.log.formats.matlab5 import open_matlab5
-from core.log.formats.matlab7 import open_matlab7
-from core.log.formats.npz import open_npz
-from core.log.formats.parquet import ParquetSource, ParquetTable, open_parquet
-from core.log.formats.recording import open_bag, open_mcap
-from core.log.formats.table import Table
-from core.log.layout import Channel, Layout, bind
-from core.log.mapping import parse_mapping
-from core.log.model import ArraySource, JointLog, LogRows, LogSource
-from core.log.profiles import fill_in
-from core.log.units import PREFIXES
+from ..errors import LogError
+from .defects.examine import examine
+from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
+from .formats.delimited import open_delimited
+from .formats.matlab5 import open_matlab5
+from .formats.matlab7 import open_matlab7
+from .formats.npz import open_npz
+from .formats.parquet import ParquetSource, ParquetTable, open_parquet
+from .formats.recording import open_bag, open_mcap
+from .formats.table import Table
+from .layout import Channel, Layout, bind
+from .mapping import parse_mapping
+from .model import ArraySource, JointLog, LogRows, LogSource
+from .profiles import fill_in
+from .units import PREFIXES
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,

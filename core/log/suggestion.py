@@ -9,14 +9,14 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from core.errors import LogError
-from core.log.formats.table import Table
-from core.log.layout import Layout
-from core.log.mapping import RATE
-from core.log.model import Defect
-from core.log.plausible_units import plausible_readings
-from core.log.profiles import PROFILE, PROFILES, fill_in
-from core.log.units import TIME, UNITS
+from ..errors import LogError
+from .formats.table import Table
+from .layout import Layout
+from .mapping import RATE
+from .model import Defect
+from .plausible_units import plausible_readings
+from .profiles import PROFILE, PROFILES, fill_in
+from .units import TIME, UNITS
 
 WORDS: Mapping[str, tuple[str, ...]] = {
     "velocity": ("qd", "dq", "vel", "velocity", "velocities", "speed", "omega", "qdot"),
@@ -40,7 +40,7 @@ def suggested_mapping(table: Table) -> dict[str, object] | None:
     Examples
     --------
     >>> import numpy as np
-    >>> from core.log.formats.table import MemoryTable
+    >>> from veritorque.core.log.formats.table import MemoryTable
     >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
     >>> suggested_mapping(MemoryTable(columns))["position"]
     {'columns': ['pos1'], 'unit': 'deg'}

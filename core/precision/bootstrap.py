@@ -8,11 +8,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, Intervals, Matrix
-from core.errors import SolverError
-from core.estimate.system import System
-from core.regressor.factor import Factor
-from core.regressor.observe import Block
+from ..arrays import BaseParameters, Indices, Intervals, Matrix
+from ..errors import SolverError
+from ..estimate.system import System
+from ..regressor.factor import Factor
+from ..regressor.observe import Block
 
 
 def bootstrap(

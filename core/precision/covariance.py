@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
-from core.estimate.system import System, column_scale
-from core.regressor.memory import LaggedProducts
+from ..arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
+from ..estimate.system import System, column_scale
+from ..regressor.memory import LaggedProducts
 
 _RANK_TOLERANCE = 1e-8
 _ROUNDS = 3

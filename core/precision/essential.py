@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from core.arrays import Indices, SquareMatrix, Vector
-from core.estimate.system import System, column_scale
-from core.precision.covariance import INTERVAL_95, Precision, subset
+from ..arrays import Indices, SquareMatrix, Vector
+from ..estimate.system import System, column_scale
+from .covariance import INTERVAL_95, Precision, subset
 
 
 @dataclass(frozen=True)

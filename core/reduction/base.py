@@ -11,12 +11,12 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import BaseParameters, Matrix, Parameters, Rows
-from core.dynamics.model import DynamicModel
-from core.regressor.columns import all_columns, dense
-from core.robot.model import Link, RobotModel
-from core.robot.parameters import INERTIAL_SYMBOLS, Parameter
-from core.signals.state import MotionState
+from ..arrays import BaseParameters, Matrix, Parameters, Rows
+from ..dynamics.model import DynamicModel
+from ..regressor.columns import all_columns, dense
+from ..robot.model import Link, RobotModel
+from ..robot.parameters import INERTIAL_SYMBOLS, Parameter
+from ..signals.state import MotionState
 
 RANK_TOLERANCE = 1e-9
 """A column is dependent when less than this share of it lies outside the columns before it.

@@ -9,13 +9,13 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import Indices, Matrix, Series
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
-from core.dynamics.terms.rigid_body import RigidBody
-from core.regressor.kernel import rigid_body_series
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ..arrays import Indices, Matrix, Series
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Term
+from ..dynamics.terms.rigid_body import RigidBody
+from ..robot.model import RobotModel
+from ..signals.state import MotionState
+from .kernel import rigid_body_series
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Indices, Matrix, Parameters, Rows
+from ..arrays import Indices, Matrix, Parameters, Rows
 
 
 @dataclass(frozen=True, eq=False)

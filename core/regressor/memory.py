@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Indices, Matrix, Parameters, Rows, Vector
+from ..arrays import Indices, Matrix, Parameters, Rows, Vector
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from functools import reduce
 
 import numpy as np
 
-from core.arrays import (
+from ..arrays import (
     BaseParameters,
     BlockKey,
     EquationRows,
@@ -22,11 +22,11 @@ from core.arrays import (
     UsableRows,
     Weights,
 )
-from core.regressor.columns import ColumnPlan
-from core.regressor.factor import Factor
-from core.regressor.memory import LaggedProducts
-from core.signals.condition import Motion
-from core.signals.tile import Tile
+from ..signals.condition import Motion
+from ..signals.tile import Tile
+from .columns import ColumnPlan
+from .factor import Factor
+from .memory import LaggedProducts
 
 _POSITIONS_PER_TILE = 32
 

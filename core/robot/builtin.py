@@ -10,12 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Rotation, Vector3
-from core.errors import RobotError
-from core.robot.description import LEVEL_GRAVITY, MODIFIED_DH, robot_from_description
-from core.robot.frames import rotation_rpy
-from core.robot.model import RobotModel
-from core.robot.modified_dh import ModifiedDHRow, row_of_placement
+from ..arrays import Rotation, Vector3
+from ..errors import RobotError
+from .description import LEVEL_GRAVITY, MODIFIED_DH, robot_from_description
+from .frames import rotation_rpy
+from .model import RobotModel
+from .modified_dh import ModifiedDHRow, row_of_placement
 
 _PI = float(np.pi)
 _ARM = (

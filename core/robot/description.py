@@ -10,13 +10,13 @@ from typing import cast
 
 import numpy as np
 
-from core.arrays import LinkParameters, LinkTable
-from core.errors import RobotError
-from core.robot.fields import Fields
-from core.robot.inertia import from_mass_properties
-from core.robot.model import FRICTION_KINDS, Coupling, Joint, JointKind, Limits, Link, RobotModel
-from core.robot.modified_dh import ModifiedDHRow
-from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ..arrays import LinkParameters, LinkTable
+from ..errors import RobotError
+from .fields import Fields
+from .inertia import from_mass_properties
+from .model import FRICTION_KINDS, Coupling, Joint, JointKind, Limits, Link, RobotModel
+from .modified_dh import ModifiedDHRow
+from .parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 
 MODIFIED_DH, FRAMES = "modified-dh", "frames"
 MOST_JOINTS = 64

@@ -6,7 +6,7 @@ same way down, the same declared friction, rotors and couplings.
 
 import numpy as np
 
-from core.robot.model import Link, RobotModel
+from .model import Link, RobotModel
 
 TOLERANCE = 1e-8
 """In m, rad and m/s2: documents are written with ten digits."""

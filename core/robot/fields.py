@@ -9,7 +9,7 @@ from typing import NoReturn
 
 import numpy as np
 
-from core.errors import RobotError
+from ..errors import RobotError
 
 LONGEST_NAME = 100
 LARGEST_NUMBER = 1e30

@@ -6,7 +6,7 @@ m. Source: Khalil & Dombre (2002), ch. 2; URDF's roll-pitch-yaw is about fixed a
 
 import numpy as np
 
-from core.arrays import Rotation, Vector3
+from ..arrays import Rotation, Vector3
 
 
 def rotation_x(angle: float) -> Rotation:

@@ -8,9 +8,9 @@ basis matrices, and numpy and the solver both use that definition. Source: Wensi
 
 import numpy as np
 
-from core.arrays import LinkParameters, PseudoInertia, Rotation, Vector3
-from core.robot.frames import cross_matrix
-from core.robot.parameters import INERTIAL_SYMBOLS
+from ..arrays import LinkParameters, PseudoInertia, Rotation, Vector3
+from .frames import cross_matrix
+from .parameters import INERTIAL_SYMBOLS
 
 
 def _basis() -> np.ndarray:

@@ -6,7 +6,7 @@ in N, so that an inertia becomes a mass and a stiffness N/m.
 
 import re
 
-from core.robot.model import RobotModel
+from .model import RobotModel
 
 _ALONG = (
     (re.compile(r"\(N m\)"), "N"),

@@ -11,9 +11,9 @@ from typing import Literal
 
 import numpy as np
 
-from core.arrays import JointVector, LinkTable, Rotation, Vector3
-from core.errors import RobotError
-from core.robot.modified_dh import ModifiedDHRow
+from ..arrays import JointVector, LinkTable, Rotation, Vector3
+from ..errors import RobotError
+from .modified_dh import ModifiedDHRow
 
 JointKind = Literal["revolute", "prismatic"]
 FRICTION_KINDS = ("viscous", "coulomb", "offset")

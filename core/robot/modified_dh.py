@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Rotation, Vector3
-from core.robot.frames import rotation_x, rotation_z
+from ..arrays import Rotation, Vector3
+from .frames import rotation_x, rotation_z
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ None of this is refused, because robots hang from ceilings and cranes are long; 
 
 import numpy as np
 
-from core.robot.inertia import pseudo_inertia
-from core.robot.model import Joint, Link, RobotModel
+from .inertia import pseudo_inertia
+from .model import Joint, Link, RobotModel
 
 
 def suspicions(robot: RobotModel) -> tuple[str, ...]:
@@ -14,7 +14,7 @@ def suspicions(robot: RobotModel) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> from core.robot.builtin import builtin_robot
+    >>> from veritorque.core.robot.builtin import builtin_robot
     >>> suspicions(builtin_robot("yumi"))
     ()
     """

@@ -13,14 +13,14 @@ from typing import cast
 
 import numpy as np
 
-from core.arrays import LinkParameters, Rotation, Vector3
-from core.errors import RobotError
-from core.robot.description import LEVEL_GRAVITY, MOST_JOINTS
-from core.robot.fields import LARGEST_NUMBER
-from core.robot.frames import rotation_to
-from core.robot.inertia import moved
-from core.robot.model import Joint, JointKind, Link, RobotModel
-from core.robot.urdf_document import MOVING_KINDS, UrdfDocument, UrdfJoint, read_urdf_document
+from ..arrays import LinkParameters, Rotation, Vector3
+from ..errors import RobotError
+from .description import LEVEL_GRAVITY, MOST_JOINTS
+from .fields import LARGEST_NUMBER
+from .frames import rotation_to
+from .inertia import moved
+from .model import Joint, JointKind, Link, RobotModel
+from .urdf_document import MOVING_KINDS, UrdfDocument, UrdfJoint, read_urdf_document
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,12 +14,12 @@ import numpy as np
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import fromstring
 
-from core.arrays import LinkParameters, Rotation, Vector, Vector3
-from core.errors import RobotError
-from core.robot.fields import LARGEST_NUMBER, LONGEST_NAME
-from core.robot.frames import rotation_rpy
-from core.robot.inertia import from_mass_properties
-from core.robot.model import Limits
+from ..arrays import LinkParameters, Rotation, Vector, Vector3
+from ..errors import RobotError
+from .fields import LARGEST_NUMBER, LONGEST_NAME
+from .frames import rotation_rpy
+from .inertia import from_mass_properties
+from .model import Limits
 
 MOST_BYTES = 5_000_000
 MOVING_KINDS = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}

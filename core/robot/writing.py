@@ -7,10 +7,10 @@ the unrepaired one.
 
 import numpy as np
 
-from core.errors import RobotError
-from core.robot.description import FRAMES, MODIFIED_DH
-from core.robot.model import Joint, Link, RobotModel
-from core.robot.parameters import INERTIAL_SYMBOLS
+from ..errors import RobotError
+from .description import FRAMES, MODIFIED_DH
+from .model import Joint, Link, RobotModel
+from .parameters import INERTIAL_SYMBOLS
 
 
 def to_description(robot: RobotModel) -> dict[str, object]:

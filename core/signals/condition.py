@@ -11,13 +11,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.errors import LogError
-from core.log.model import JointLog
-from core.robot.model import RobotModel
-from core.signals.recipe import FilterOptions, Recipe, choose_recipe
-from core.signals.segment import Segment, gap_free
-from core.signals.tile import Tile
+from ..arrays import JointVector
+from ..errors import LogError
+from ..log.model import JointLog
+from ..robot.model import RobotModel
+from .recipe import FilterOptions, Recipe, choose_recipe
+from .segment import Segment, gap_free
+from .tile import Tile
 
 TILE_KEPT = 512
 

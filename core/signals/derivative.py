@@ -6,7 +6,7 @@ log can be processed stretch after stretch without seams. Source: the seed paper
 
 import numpy as np
 
-from core.arrays import InstantSeries, JointSeries
+from ..arrays import InstantSeries, JointSeries
 
 
 def centred_difference(values: JointSeries, rate_hz: float) -> InstantSeries:

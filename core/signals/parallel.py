@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import KeptSeries, Matrix, Samples, Series
+from ..arrays import KeptSeries, Matrix, Samples, Series
 
 _ROWS = 32
 

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import signal
 
-from core.arrays import JointSeries, JointVector
-from core.errors import OptionError
-from core.log.model import JointLog, LogRows
-from core.signals.derivative import median
-from core.signals.resample import uniform
-from core.signals.zero_phase import HIGHEST_ORDER
+from ..arrays import JointSeries, JointVector
+from ..errors import OptionError
+from ..log.model import JointLog, LogRows
+from .derivative import median
+from .resample import uniform
+from .zero_phase import HIGHEST_ORDER
 
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""

@@ -8,8 +8,8 @@ are dropped samples and are left out; many of them are a robot that stands still
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
-from core.log.model import STANDING_ROWS, LogRows, repeated
+from ..arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
+from ..log.model import STANDING_ROWS, LogRows, repeated
 
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that stray from a uniform clock by less than a thousandth of a step are uniform."""

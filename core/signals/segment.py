@@ -11,16 +11,16 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 from scipy.signal import oaconvolve
 
-from core.arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
-from core.log.defects.clock import GAP_STEPS, SHORT_GAP_S
-from core.log.model import JointLog, LogRows
-from core.signals.derivative import centred_difference, median
-from core.signals.parallel import ParallelFilter
-from core.signals.recipe import Recipe
-from core.signals.resample import bridged, dropped, is_uniform, on_grid
-from core.signals.state import MotionState
-from core.signals.tile import Tile
-from core.signals.zero_phase import kernel, reach_of
+from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
+from ..log.defects.clock import GAP_STEPS, SHORT_GAP_S
+from ..log.model import JointLog, LogRows
+from .derivative import centred_difference, median
+from .parallel import ParallelFilter
+from .recipe import Recipe
+from .resample import bridged, dropped, is_uniform, on_grid
+from .state import MotionState
+from .tile import Tile
+from .zero_phase import kernel, reach_of
 
 STILL_SECONDS = 0.2
 END_SHARE = 1e-3

@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from core.errors import LogError, VeritorqueError
-from core.log.model import JointLog
-from core.robot.model import RobotModel
-from core.signals.condition import Motion, condition
-from core.signals.recipe import FilterOptions
+from ..errors import LogError, VeritorqueError
+from ..log.model import JointLog
+from ..robot.model import RobotModel
+from .condition import Motion, condition
+from .recipe import FilterOptions
 
 
 def condition_all(

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from core.arrays import JointSeries, Samples
+from ..arrays import JointSeries, Samples
 
 
 @dataclass(frozen=True, eq=False)

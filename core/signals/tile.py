@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from core.arrays import InstantMask, Instants, JointSeries, KeptSeries, Series
-from core.signals.parallel import ParallelFilter
-from core.signals.state import MotionState
+from ..arrays import InstantMask, Instants, JointSeries, KeptSeries, Series
+from .parallel import ParallelFilter
+from .state import MotionState
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.arrays import Samples, Vector
-from core.errors import OptionError
+from ..arrays import Samples, Vector
+from ..errors import OptionError
 
 HIGHEST_ORDER = 12
 _FLOOR = 1e-14

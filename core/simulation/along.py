@@ -8,10 +8,10 @@ back where a simulated channel is to be read.
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.simulation.mechanism import Mechanism
-from core.simulation.share import Share
-from core.simulation.windows import Stretch
+from ..arrays import JointSeries
+from .mechanism import Mechanism
+from .share import Share
+from .windows import Stretch
 
 
 def remembered(mechanism: Mechanism, stretch: Stretch) -> JointSeries:

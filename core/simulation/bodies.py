@@ -9,13 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import LinkTable, Parameters, Samples
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
-from core.dynamics.terms.link_change import LinkChange
-from core.dynamics.terms.payload import Payload
-from core.dynamics.terms.rigid_body import RigidBody
-from core.simulation.inverse import Bodies, bodies_of
+from ..arrays import LinkTable, Parameters, Samples
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Term
+from ..dynamics.terms.link_change import LinkChange
+from ..dynamics.terms.payload import Payload
+from ..dynamics.terms.rigid_body import RigidBody
+from .inverse import Bodies, bodies_of
 
 
 @dataclass(frozen=True, eq=False)

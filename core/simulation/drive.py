@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.simulation.stage import States
+from .stage import States
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,9 +11,9 @@ factorisation, and friction where something is at rest. Source: Featherstone 200
 import numpy as np
 from numba import njit
 
-from core.simulation.factor import factorise, less, less_mass_times, substitute
-from core.simulation.hold import hold_block
-from core.simulation.kernel import BLOCK, OPTIONS, ROBOT, mass_of_block, move_block, scratch, torque_of_block
+from .factor import factorise, less, less_mass_times, substitute
+from .hold import hold_block
+from .kernel import BLOCK, OPTIONS, ROBOT, mass_of_block, move_block, scratch, torque_of_block
 
 _TABLE = "float64[:,::1]"
 

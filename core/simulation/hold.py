@@ -12,7 +12,7 @@ projected Gauss-Seidel. Sources: Acary & Brogliato 2008, ch. 12 and 13.
 import numpy as np
 from numba import njit
 
-from core.simulation.factor import solve_one
+from .factor import solve_one
 
 SWEEPS = 2_000
 CLOSE = 1e-13

@@ -12,11 +12,11 @@ from functools import cached_property
 
 import numpy as np
 
-from core.errors import SolverError
-from core.simulation import forward as kernel
-from core.simulation.drive import Drive
-from core.simulation.mechanism import Mechanism
-from core.simulation.stage import States, rates
+from ..errors import SolverError
+from . import forward as kernel
+from .drive import Drive
+from .mechanism import Mechanism
+from .stage import States, rates
 
 LONGEST_STEP = 1e-3
 """The integrator's longest step, s."""

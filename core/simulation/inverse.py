@@ -6,10 +6,10 @@ Source: Featherstone 2008, ch. 5.
 
 import numpy as np
 
-from core.arrays import JointSeries, LinkTable
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
-from core.simulation import forward
+from ..arrays import JointSeries, LinkTable
+from ..robot.model import RobotModel
+from ..signals.state import MotionState
+from . import forward
 
 Bodies = tuple[np.ndarray, ...]
 """What the kernels need of a robot, in the order of `kernel.ROBOT`."""

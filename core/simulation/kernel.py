@@ -14,7 +14,7 @@ composite rigid bodies).
 import numpy as np
 from numba import njit
 
-from core.regressor.kernel import sine_cosine
+from ..regressor.kernel import sine_cosine
 
 BLOCK = 64
 

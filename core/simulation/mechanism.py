@@ -10,24 +10,24 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import JointSeries, Parameters, Weights
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
-from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.dynamics.terms.missing_rotor import MissingRotor
-from core.dynamics.terms.offset import Offset
-from core.dynamics.terms.rigid_body import RigidBody
-from core.dynamics.terms.rotor_inertia import RotorInertia
-from core.dynamics.terms.viscous import Viscous
-from core.errors import OptionError
-from core.robot.model import Coupling, RobotModel
-from core.signals.state import MotionState
-from core.simulation import forward
-from core.simulation.bodies import Phases, is_body, phases_of
-from core.simulation.inverse import Bodies, bodies_of, columns
-from core.simulation.share import Share, share_of
+from ..arrays import JointSeries, Parameters, Weights
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Term
+from ..dynamics.terms.coulomb import Coulomb
+from ..dynamics.terms.coupling import GearCoupling
+from ..dynamics.terms.missing_coupling import MissingCoupling
+from ..dynamics.terms.missing_rotor import MissingRotor
+from ..dynamics.terms.offset import Offset
+from ..dynamics.terms.rigid_body import RigidBody
+from ..dynamics.terms.rotor_inertia import RotorInertia
+from ..dynamics.terms.viscous import Viscous
+from ..errors import OptionError
+from ..robot.model import Coupling, RobotModel
+from ..signals.state import MotionState
+from . import forward
+from .bodies import Phases, is_body, phases_of
+from .inverse import Bodies, bodies_of, columns
+from .share import Share, share_of
 
 
 @dataclass(frozen=True, eq=False)

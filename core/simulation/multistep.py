@@ -12,16 +12,16 @@ from functools import partial
 
 import numpy as np
 
-from core.arrays import BlockKey, JointVector, Matrix
-from core.errors import OptionError
-from core.signals.condition import Motion
-from core.simulation.along import driving
-from core.simulation.drive import Drive
-from core.simulation.integrate import LONGEST_STEP
-from core.simulation.mechanism import Mechanism
-from core.simulation.rollout import rollout
-from core.simulation.stage import States
-from core.simulation.windows import Windows, windows
+from ..arrays import BlockKey, JointVector, Matrix
+from ..errors import OptionError
+from ..signals.condition import Motion
+from .along import driving
+from .drive import Drive
+from .integrate import LONGEST_STEP
+from .mechanism import Mechanism
+from .rollout import rollout
+from .stage import States
+from .windows import Windows, windows
 
 Progress = Callable[[float], None]
 _AT_ONCE = 1024

@@ -14,17 +14,17 @@ from typing import Literal
 
 import numpy as np
 
-from core.arrays import BlockKey, JointSeries, JointVector, Samples
-from core.errors import OptionError
-from core.signals.condition import Motion
-from core.signals.state import MotionState
-from core.simulation.along import logged_only, remembered
-from core.simulation.drive import Drive, Feedback
-from core.simulation.integrate import LONGEST_STEP
-from core.simulation.mechanism import Mechanism
-from core.simulation.rollout import rollout
-from core.simulation.stage import States
-from core.simulation.windows import Stretch, same_clock, stretches
+from ..arrays import BlockKey, JointSeries, JointVector, Samples
+from ..errors import OptionError
+from ..signals.condition import Motion
+from ..signals.state import MotionState
+from .along import logged_only, remembered
+from .drive import Drive, Feedback
+from .integrate import LONGEST_STEP
+from .mechanism import Mechanism
+from .rollout import rollout
+from .stage import States
+from .windows import Stretch, same_clock, stretches
 
 FeedForward = Literal["measured", "model", "none"]
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.simulation.drive import Drive
-from core.simulation.integrate import LONGEST_STEP, Integrator
-from core.simulation.mechanism import Mechanism
-from core.simulation.stage import States, drag_of
+from .drive import Drive
+from .integrate import LONGEST_STEP, Integrator
+from .mechanism import Mechanism
+from .stage import States, drag_of
 
 Progress = Callable[[float], None]
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointSeries, Parameters, Weights
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ..arrays import JointSeries, Parameters, Weights
+from ..dynamics.model import DynamicModel
+from ..dynamics.term import Term
+from ..robot.model import RobotModel
+from ..signals.state import MotionState
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,11 +9,11 @@ from typing import Self
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
-from core.signals.state import MotionState
-from core.simulation import forward
-from core.simulation.inverse import columns
-from core.simulation.mechanism import Mechanism
+from ..arrays import JointSeries, Samples
+from ..signals.state import MotionState
+from . import forward
+from .inverse import columns
+from .mechanism import Mechanism
 
 CREEP = 1e-9
 """Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""

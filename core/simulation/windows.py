@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BlockKey, JointSeries, Samples
-from core.errors import LogError
-from core.signals.condition import Motion, without_standstill_mask
-from core.signals.state import MotionState
-from core.signals.tile import Tile
+from ..arrays import BlockKey, JointSeries, Samples
+from ..errors import LogError
+from ..signals.condition import Motion, without_standstill_mask
+from ..signals.state import MotionState
+from ..signals.tile import Tile
 
 
 @dataclass(frozen=True, eq=False)

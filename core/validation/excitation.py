@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Matrix, Vector
+from ..arrays import Matrix, Vector
 
 _COLLINEAR = 1e-12
 """Singular values below this share of the largest are rounding."""

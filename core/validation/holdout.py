@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BlockKey
-from core.errors import OptionError
+from ..arrays import BlockKey
+from ..errors import OptionError
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import JointSeries, Parameters
-from core.dynamics.model import DynamicModel
-from core.regressor.columns import all_columns
-from core.robot.inertia import pseudo_inertia
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ..arrays import JointSeries, Parameters
+from ..dynamics.model import DynamicModel
+from ..regressor.columns import all_columns
+from ..robot.inertia import pseudo_inertia
+from ..robot.model import RobotModel
+from ..signals.state import MotionState
 
 CONFIGURATIONS = 10_000
 _INERTIAL_TERMS = ("rigid_body", "rotor_inertia", "coupling")

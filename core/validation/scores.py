@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import BaseParameters, Indices
-from core.regressor.observe import Block, Observation
+from ..arrays import BaseParameters, Indices
+from ..regressor.observe import Block, Observation
 
 
 @dataclass(frozen=True)

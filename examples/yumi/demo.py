@@ -18,14 +18,14 @@ from typing import Final, NoReturn
 from rich.console import Console
 from rich.markup import escape
 
-from app.client.client import Client
-from app.client.progress import bar
-from app.client.records import Job
-from app.terminal.output.findings import Document
-from core.errors import VeritorqueError
 from examples.yumi.diagnosis import print_diagnosis
 from examples.yumi.service import ROOT, running_service
 from examples.yumi.summary import Truth, print_summary
+from veritorque.app.client.client import Client
+from veritorque.app.client.progress import bar
+from veritorque.app.client.records import Job
+from veritorque.app.terminal.output.findings import Document
+from veritorque.core.errors import VeritorqueError
 
 HERE: Final = Path(__file__).parent
 LOG: Final = HERE / "log.csv"

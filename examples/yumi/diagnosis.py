@@ -7,10 +7,10 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from app.terminal.output import findings
-from app.terminal.output.findings import spoken
-from app.terminal.output.tables import number
 from examples.yumi.summary import LEFT, score
+from veritorque.app.terminal.output import findings
+from veritorque.app.terminal.output.findings import spoken
+from veritorque.app.terminal.output.tables import number
 
 Document = Mapping[str, Any]
 

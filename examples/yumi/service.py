@@ -13,8 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-from app.client.client import Client
-from app.client.errors import ServiceError
+from veritorque.app.client.client import Client
+from veritorque.app.client.errors import ServiceError
 
 ROOT: Final = Path(__file__).parents[2]
 START_SECONDS: Final = 180.0

@@ -12,9 +12,9 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from app.terminal.output import tables
-from app.terminal.output.columns import print_table
-from app.terminal.output.tables import number, parted, percent, score_columns
+from veritorque.app.terminal.output import tables
+from veritorque.app.terminal.output.columns import print_table
+from veritorque.app.terminal.output.tables import number, parted, percent, score_columns
 
 Document = Mapping[str, Any]
 Truth = Mapping[str, float]

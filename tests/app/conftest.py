@@ -4,10 +4,10 @@ import os
 import pytest
 from starlette.testclient import TestClient
 
-from app.main import create_app
-from app.settings import Settings
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import StubExecutor
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings
 
 os.environ.setdefault("VERITORQUE_HOSTS", '["testserver"]')  # as the test client calls every service
 

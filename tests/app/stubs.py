@@ -2,12 +2,12 @@
 
 import threading
 
-from app.jobs import computations as science
-from app.jobs.computation import Failed, Finished, Stopped
-from app.json_text import json_bytes
-from app.problems import Problem, problem_of
-from core.errors import VeritorqueError
 from tests.core.report.documents import identified
+from veritorque.app.jobs import computations as science
+from veritorque.app.jobs.computation import Failed, Finished, Stopped
+from veritorque.app.json_text import json_bytes
+from veritorque.app.problems import Problem, problem_of
+from veritorque.core.errors import VeritorqueError
 
 RESULT = identified()
 

@@ -8,9 +8,9 @@ import pickle  # noqa: TID251  (to show that it is refused)
 import numpy as np
 import pytest
 
-from app.http.body.uploads import LONGEST_TEXT_FILE
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns, csv_log, description
+from veritorque.app.http.body.uploads import LONGEST_TEXT_FILE
 
 JSON, CSV, XML = ({"Content-Type": kind} for kind in ("application/json", "text/csv", "application/xml"))
 

@@ -9,21 +9,21 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
-from app.jobs import computations as science
-from app.main import create_app
-from app.problems import KINDS, Problem
-from app.schemas import examples
-from app.schemas.jobs import Job, JobList, JobRequest
-from app.schemas.logs import LogList, LogSummary
-from app.schemas.robots import Robot, RobotDescription, RobotList
-from app.services import readiness
-from app.settings import Settings
-from app.store.logs import log_id as id_of_log
-from app.version import VERSION
-from core.robot import description as core_description
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import description
 from tests.app.stubs import StubExecutor
+from veritorque.app.jobs import computations as science
+from veritorque.app.main import create_app
+from veritorque.app.problems import KINDS, Problem
+from veritorque.app.schemas import examples
+from veritorque.app.schemas.jobs import Job, JobList, JobRequest
+from veritorque.app.schemas.logs import LogList, LogSummary
+from veritorque.app.schemas.robots import Robot, RobotDescription, RobotList
+from veritorque.app.services import readiness
+from veritorque.app.settings import Settings
+from veritorque.app.store.logs import log_id as id_of_log
+from veritorque.app.version import VERSION
+from veritorque.core.robot import description as core_description
 
 ROOT = Path(__file__).parents[2]
 OPENAPI = create_app().openapi()

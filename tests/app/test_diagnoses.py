@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.main import create_app
-from app.settings import Settings
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import columns, description
 from tests.app.stubs import InlineExecutor
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings
 
 CSV = {"Content-Type": "text/csv"}
 

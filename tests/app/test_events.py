@@ -8,12 +8,12 @@ from contextlib import contextmanager
 
 import pytest
 
-from app.routes import events
-from app.services.job_feed import LOOK_EVERY_S
-from app.store.records import JobRequestRecord
-from app.store.store import Store
 from tests.app.conftest import assert_problem, service
 from tests.app.http.test_server import listening_service
+from veritorque.app.routes import events
+from veritorque.app.services.job_feed import LOOK_EVERY_S
+from veritorque.app.store.records import JobRequestRecord
+from veritorque.app.store.store import Store
 
 REQUEST = JobRequestRecord("identify", "yumi", ("log-1",), {})
 

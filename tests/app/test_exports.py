@@ -5,18 +5,18 @@ import json
 import numpy as np
 import pytest
 
-from app.jobs.computation import Finished
-from app.json_text import json_bytes
-from app.services.export_files import ARTIFACTS
-from core.document.model_file import read_model
-from core.document.reading import identified_robot
-from core.log.reader import log_from_arrays
-from core.robot.description import robot_from_description
-from core.robot.urdf import robot_from_urdf
-from core.study import IdentifyRequest, identify
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import columns, csv_log, description
 from tests.app.stubs import StubExecutor
+from veritorque.app.jobs.computation import Finished
+from veritorque.app.json_text import json_bytes
+from veritorque.app.services.export_files import ARTIFACTS
+from veritorque.core.document.model_file import read_model
+from veritorque.core.document.reading import identified_robot
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.study import IdentifyRequest, identify
 
 MEDIA_TYPES = {
     "parameters.csv": "text/csv; charset=utf-8",

@@ -12,16 +12,16 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from app.jobs import worker as worker_module
-from app.jobs.computation import Died, Stopped
-from app.jobs.executor import ProcessExecutor
-from app.store import tables
-from app.store.errors import Unavailable
 from tests.app import work
 from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_executor import COMPUTATION
 from tests.app.jobs.test_jobs import another, asked, state_of
 from tests.app.stubs import InlineExecutor, StubExecutor
+from veritorque.app.jobs import worker as worker_module
+from veritorque.app.jobs.computation import Died, Stopped
+from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.store import tables
+from veritorque.app.store.errors import Unavailable
 
 MIB = 1024**2
 
@@ -29,7 +29,7 @@ MIB = 1024**2
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     monkeypatch.setattr(worker_module, "PAUSE_S", 0.05)
-    monkeypatch.setattr("app.store.database.PATIENCE_S", 0.3)
+    monkeypatch.setattr("veritorque.app.store.database.PATIENCE_S", 0.3)
 
 
 @pytest.fixture

@@ -9,10 +9,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from app.schemas.logs import LogSummary
-from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns
+from veritorque.app.schemas.logs import LogSummary
+from veritorque.app.store.sweep import Sweep
 
 CSV = {"Content-Type": "text/csv"}
 

@@ -13,13 +13,13 @@ from pathlib import Path
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from app import logging as journal
-from app.http.trace_context import trace_id
-from app.settings import Settings
-from app.store.store import Store
 from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_jobs import asked
 from tests.app.stubs import StubExecutor, failing
+from veritorque.app import logging as journal
+from veritorque.app.http.trace_context import trace_id
+from veritorque.app.settings import Settings
+from veritorque.app.store.store import Store
 
 TRACE = "4bf92f3577b34da6a3ce929d0e0e4736"
 TRACEPARENT = f"00-{TRACE}-00f067aa0ba902b7-01"
@@ -43,7 +43,7 @@ def test_a_disk_below_its_reserve_makes_the_service_not_ready(tmp_path):
 
 
 def test_a_database_that_takes_no_writes_makes_the_service_not_ready(tmp_path, monkeypatch):
-    monkeypatch.setattr("app.store.database.PATIENCE_S", 0.2)
+    monkeypatch.setattr("veritorque.app.store.database.PATIENCE_S", 0.2)
     with service(tmp_path) as client:
         assert client.get("/readyz").status_code == 200
         other = sqlite3.connect(tmp_path / "veritorque.sqlite", isolation_level=None)
@@ -159,8 +159,9 @@ def test_a_line_about_a_job_carries_its_id_and_the_trace_of_its_request(tmp_path
 def test_a_job_that_computes_when_the_service_is_told_to_end_is_handed_back(tmp_path, log_bytes):
     """The service runs as it does for users, with its worker process beside it."""
     script = (
-        "import sys; from app.jobs import process; from app.jobs.executor import ProcessExecutor\n"
-        "from app.terminal.main import main; from tests.app import work\n"
+        "import sys; from veritorque.app.jobs import worker_process as process\n"
+        "from veritorque.app.jobs.executor import ProcessExecutor\n"
+        "from veritorque.app.terminal.main import main; from tests.app import work\n"
         "process.executor_of = lambda settings, store: ProcessExecutor(work.sleep, preload=())\n"
         "if __name__ == '__main__': main()\n"
     )

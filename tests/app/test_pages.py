@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from app.pages.files import EXAMPLE_LOGS, STATIC
-from app.schemas.examples import EXAMPLE_LOG_ID, HIDDEN_LOG_ID
-from app.store.logs import log_id
 from tests.app.conftest import assert_problem, service
+from veritorque.app.pages.files import EXAMPLE_LOGS, STATIC
+from veritorque.app.schemas.examples import EXAMPLE_LOG_ID, HIDDEN_LOG_ID
+from veritorque.app.store.logs import log_id
 
 
 class Addresses(HTMLParser):

@@ -5,16 +5,16 @@ import json
 import pytest
 from starlette.testclient import TestClient
 
-from app.jobs.computation import Finished
-from app.json_text import json_bytes
-from app.main import create_app
-from app.schemas.results import ResultDocument
-from app.settings import Settings
 from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_jobs import asked
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import RESULT, StubExecutor, failing
 from tests.core.report.documents import diagnosed, nothing_found
+from veritorque.app.jobs.computation import Finished
+from veritorque.app.json_text import json_bytes
+from veritorque.app.main import create_app
+from veritorque.app.schemas.results import ResultDocument
+from veritorque.app.settings import Settings
 
 WAIT = {"Prefer": "wait=10"}
 BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"

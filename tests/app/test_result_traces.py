@@ -6,12 +6,12 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from app.schemas.results import ResultDocument
-from app.schemas.traces import ResidualViews, ResultTraces
-from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import InlineExecutor, StubExecutor
+from veritorque.app.schemas.results import ResultDocument
+from veritorque.app.schemas.traces import ResidualViews, ResultTraces
+from veritorque.app.store.sweep import Sweep
 
 FEW = {"bootstrap": {"draws": 0}}
 

@@ -1,9 +1,9 @@
 from pathlib import Path
 
-from app.schemas.examples import PENDULUM_URDF
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import description
 from tests.app.stubs import StubExecutor
+from veritorque.app.schemas.examples import PENDULUM_URDF
 
 
 def test_a_created_robot_is_found_where_the_answer_says(client):

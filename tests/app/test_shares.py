@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.auth.rate_limit import BURST_S, Pace
-from app.http import disk_reserve as disk
-from app.problems import Problem
 from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_jobs import another, asked
 from tests.app.planar_arm import csv_log, description
+from veritorque.app.auth.rate_limit import BURST_S, Pace
+from veritorque.app.http import disk_reserve as disk
+from veritorque.app.problems import Problem
 
 CSV = {"Content-Type": "text/csv"}
 
@@ -137,7 +137,7 @@ def test_a_disk_that_is_full_all_the_same_is_a_problem_too(tmp_path, log_bytes, 
         raise OSError(28, "No space left on device")
 
     with service(tmp_path) as client:
-        monkeypatch.setattr("app.store.blobs.os.fsync", full)
+        monkeypatch.setattr("veritorque.app.store.blobs.os.fsync", full)
         assert_problem(client.post("/v1/logs", content=log_bytes, headers=CSV), 507, "disk-full")
 
 

@@ -5,10 +5,10 @@ import json
 import pytest
 from starlette.testclient import TestClient
 
-from app.main import create_app
-from app.schemas.results import ResultDocument
-from app.settings import Settings
 from tests.app.planar_arm import TRUTH, csv_log, description
+from veritorque.app.main import create_app
+from veritorque.app.schemas.results import ResultDocument
+from veritorque.app.settings import Settings
 
 
 @pytest.fixture(scope="module")

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from app.schemas.logs import LogTraces
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns, csv_log
+from veritorque.app.schemas.logs import LogTraces
 
 CSV = {"Content-Type": "text/csv"}
 
@@ -67,7 +67,7 @@ def test_the_number_of_points_is_bounded(client, log_id, points):
 
 def test_who_has_the_traces_is_told_so_without_the_log_being_read(client, log_id, monkeypatch):
     first = client.get(f"/v1/logs/{log_id}/traces?points=100")
-    monkeypatch.setattr("app.inspection.inspector.Inspector.trace", None)
+    monkeypatch.setattr("veritorque.app.inspection.inspector.Inspector.trace", None)
     known = {"If-None-Match": first.headers["etag"]}
     assert client.get(f"/v1/logs/{log_id}/traces?points=100", headers=known).status_code == 304
 

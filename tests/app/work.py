@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 
-from core.errors import ExcitationError
+from veritorque.core.errors import ExcitationError
 
 
 def echo(computation, progress):

@@ -10,8 +10,8 @@ from benchmarks.__main__ import NAMES
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import processor_seconds
 from benchmarks.scene import smooth_motion, yumi_arm
-from core.log.reader import read_log
-from core.study import IdentifyRequest, identify_in_full
+from veritorque.core.log.reader import read_log
+from veritorque.core.study import IdentifyRequest, identify_in_full
 
 
 @pytest.mark.slow

@@ -2,10 +2,10 @@ import shutil
 
 import pytest
 
-from app.store.keys import KeyStore
 from tests.app.stubs import StubExecutor
 from tests.browser.services import serving
 from tests.browser.watch import Watched
+from veritorque.app.store.keys import KeyStore
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE_MS = 120_000  # of a machine that is busy otherwise

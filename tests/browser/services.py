@@ -5,9 +5,9 @@ import socket
 import threading
 import time
 
-from app.http.server import Server
-from app.main import create_app
-from app.settings import Settings
+from veritorque.app.http.server import Server
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings
 
 START_SECONDS = 120.0
 

@@ -2,10 +2,10 @@ import json
 
 import numpy as np
 
-from core.robot.builtin import builtin_description
-from core.robot.description import robot_from_description
-from core.robot.urdf import robot_from_urdf
-from core.robot.writing import to_description
+from veritorque.core.robot.builtin import builtin_description
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.writing import to_description
 
 GANTRY = {
     "name": "gantry",

@@ -114,7 +114,7 @@ def test_a_table_that_is_changed_has_to_be_taken_again(look, service):
 
 
 def test_a_urdf_is_read_and_drawn(look, service, tmp_path):
-    from app.schemas.examples import PENDULUM_URDF
+    from veritorque.app.schemas.examples import PENDULUM_URDF
 
     path = tmp_path / "pendulum.urdf"
     path.write_text(PENDULUM_URDF)

@@ -2,9 +2,9 @@ import itertools
 
 import pytest
 
-from app.jobs.computation import Failed
-from app.problems import Problem
 from tests.app.planar_arm import csv_log, description
+from veritorque.app.jobs.computation import Failed
+from veritorque.app.problems import Problem
 
 SEEDS = itertools.count()  # what was asked before is answered at once
 

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from app.jobs.computation import Computation, LogFile
-from app.json_text import json_bytes
-from app.settings import LOCAL
-from app.store.store import Store
 from tests.chaos.work import compute
+from veritorque.app.jobs.computation import Computation, LogFile
+from veritorque.app.json_text import json_bytes
+from veritorque.app.settings import LOCAL
+from veritorque.app.store.store import Store
 
 
 @dataclass

@@ -6,11 +6,11 @@ import threading
 import time
 from pathlib import Path
 
-from app.store.store import Store
 from tests.chaos.customer import Customer
 from tests.chaos.judge import compare
 from tests.chaos.processes import Fleet
 from tests.chaos.storm import Storm
+from veritorque.app.store.store import Store
 
 MEMORY = Path("/dev/shm")  # noqa: S108 - what is killed is processes: what they wrote need not reach a disk
 TOLD = 4000

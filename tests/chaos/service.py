@@ -10,10 +10,10 @@ import sys
 
 def main():
     """Run a command of the service."""
-    from app.jobs import supervisor
-    from app.jobs import worker_process as process
-    from app.services import services
-    from app.terminal.main import main as command
+    from veritorque.app.jobs import supervisor
+    from veritorque.app.jobs import worker_process as process
+    from veritorque.app.services import services
+    from veritorque.app.terminal.main import main as command
 
     process.executor_of = services.executor_of = _executor
     supervisor.start_worker = _start_worker
@@ -21,9 +21,9 @@ def main():
 
 
 def _executor(settings, _store):
-    from app.jobs.executor import ProcessExecutor
-    from app.jobs.limits import Limits
     from tests.chaos.work import compute
+    from veritorque.app.jobs.executor import ProcessExecutor
+    from veritorque.app.jobs.limits import Limits
 
     limits = Limits(settings.job_memory_bytes, settings.job_cpus)
     return ProcessExecutor(compute, limits=limits, preload=("tests.chaos.work",), at_once=settings.workers)

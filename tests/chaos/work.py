@@ -7,8 +7,8 @@ import csv
 import hashlib
 import time
 
-from app.json_text import canonical_json
-from app.store.blobs import check_file
+from veritorque.app.json_text import canonical_json
+from veritorque.app.store.blobs import check_file
 
 STAGES = 3
 STAGE_S = 0.05

@@ -9,10 +9,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from app.main import create_app
-from app.settings import Settings
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings
 
 CONFIGURATION = Path(__file__).with_name("schemathesis.toml")
 CHECKS = (

@@ -12,13 +12,13 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.robot.urdf import robot_from_urdf
-from core.study import IdentifyRequest, identify
 from tests.tools import shared
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.study import IdentifyRequest, identify
 
 ROOT = Path(__file__).parents[2]
 PRINTED = 0.06

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from core.diagnosis.causes.guide import CURES, guide
-from core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.causes.guide import CURES, guide
+from veritorque.core.diagnosis.causes.registry import BY_ID
 
 PAGE = Path(__file__).parents[2] / "docs" / "causes.md"
 

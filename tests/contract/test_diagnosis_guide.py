@@ -7,13 +7,13 @@ from typing import get_args
 import pytest
 from pydantic import BaseModel
 
-from app.schemas import diagnosis as contract
-from core.diagnosis.checks.alternatives import INDIFFERENCE
-from core.diagnosis.diagnose import UNEXPLAINED_SHARE
-from core.diagnosis.result import Verdict
-from core.diagnosis.search.entry_test import LEVEL
-from core.diagnosis.search.stepwise import MOST
 from tests.core.dynamics.every_term import cures_by_cause
+from veritorque.app.schemas import diagnosis as contract
+from veritorque.core.diagnosis.checks.alternatives import INDIFFERENCE
+from veritorque.core.diagnosis.diagnose import UNEXPLAINED_SHARE
+from veritorque.core.diagnosis.result import Verdict
+from veritorque.core.diagnosis.search.entry_test import LEVEL
+from veritorque.core.diagnosis.search.stepwise import MOST
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")

@@ -36,7 +36,7 @@ def test_words_outside_code_are_not_commands():
 
 
 def test_the_committed_api_document_is_the_one_the_service_gives(monkeypatch, tmp_path):
-    from app.main import create_app
+    from veritorque.app.main import create_app
 
     monkeypatch.setenv("VERITORQUE_DATA_DIR", str(tmp_path))
     given = json.dumps(create_app().openapi(), indent=2, sort_keys=False) + "\n"

@@ -7,16 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from app.problems import KINDS, URN
-from app.settings import PREFIX, Settings
-from core.dynamics.model import STANDARD_TERMS
-from core.estimate.options import ESTIMATORS
-from core.identification.options import parse_options
-from core.log.formats.content import FORMS
-from core.log.mapping import parse_mapping
-from core.log.model import Defect
-from core.log.units import PREFIXES, UNITS
-from core.robot.description import (
+from veritorque.app.problems import KINDS, URN
+from veritorque.app.settings import PREFIX, Settings
+from veritorque.core.dynamics.model import STANDARD_TERMS
+from veritorque.core.estimate.options import ESTIMATORS
+from veritorque.core.identification.options import parse_options
+from veritorque.core.log.formats.content import FORMS
+from veritorque.core.log.mapping import parse_mapping
+from veritorque.core.log.model import Defect
+from veritorque.core.log.units import PREFIXES, UNITS
+from veritorque.core.robot.description import (
     COUPLING_FIELDS,
     JOINT_FIELDS,
     MODIFIED_DH,
@@ -24,8 +24,8 @@ from core.robot.description import (
     ROW_FIELDS,
     robot_from_description,
 )
-from core.robot.plausibility import suspicions
-from core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.urdf import robot_from_urdf
 
 ROOT = Path(__file__).parents[2]
 GUIDES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -65,7 +65,7 @@ def test_the_urdf_of_the_guide_is_accepted_and_its_inertials_become_the_belief()
 
 
 def test_the_coupled_robot_of_the_guide_has_the_sixty_base_parameters_of_the_published_table():
-    from core.study import base_parameters
+    from veritorque.core.study import base_parameters
 
     (text,) = (text for text in blocks(ROBOTS, "json") if "couplings" in text)
     # Source: TX40_bp_5.csv of the data set behind Janot, Vandanjon & Gautier 2014; a count, hence exact.

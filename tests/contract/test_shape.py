@@ -82,7 +82,7 @@ def test_a_fragment_is_not_a_sentence(docstring):
 
 
 def test_shapes_are_checked_while_tests_run():
-    from core.robot.inertia import pseudo_inertia
+    from veritorque.core.robot.inertia import pseudo_inertia
 
     with pytest.raises(TypeCheckError):
         pseudo_inertia(np.zeros(9))

@@ -7,14 +7,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core import study
-from core.errors import OptionError, RobotError
-from core.robot.frames import rotation_x, rotation_y
-from core.robot.model import RobotModel
-from core.study import IdentifyRequest
 from tests.plant.again import arm_of, logged, with_friction, with_gravity
 from tests.plant.effects.drive import TorqueGain
 from tests.plant.effects.surroundings import PayloadChange
+from veritorque.core import study
+from veritorque.core.errors import OptionError, RobotError
+from veritorque.core.robot.frames import rotation_x, rotation_y
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.study import IdentifyRequest
 
 NAME, SEED = "planar-3", 1
 LOAD = {"mass": 0.3, "com_x": 0.05, "com_y": 0.03}

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.errors import ExcitationError
-from core.log.model import JointLog
-from core.signals.state import MotionState
-from core.study import IdentifyRequest, diagnose, identify
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import ExcitationError
+from veritorque.core.log.model import JointLog
+from veritorque.core.signals.state import MotionState
+from veritorque.core.study import IdentifyRequest, diagnose, identify
 
 MODEL = standard_model(planar_robot())
 SPEED = 0.1

@@ -8,9 +8,9 @@ from functools import cache
 
 import pytest
 
-from core.study import IdentifyRequest, diagnose
 from tests.plant.cache import kept
 from tests.plant.cases import draw
+from veritorque.core.study import IdentifyRequest, diagnose
 
 CASES = {
     "friction_presliding": (910, 3.0, "planar-2"),

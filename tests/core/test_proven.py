@@ -5,14 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import core.identification.identify
-import core.study
-from core.diagnosis.result import Diagnosis
-from core.errors import SolverError
-from core.extension.result import Diagnosed
-from core.study import IdentifyRequest, diagnose_in_full
 from tests.core.diagnosis.scenes import measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import diagnosed, hidden
+from veritorque.core.diagnosis.result import Diagnosis
+from veritorque.core.errors import SolverError
+from veritorque.core.extension.result import Diagnosed
+from veritorque.core.study import IdentifyRequest, diagnose_in_full
 
 HARMLESS, HIDDEN = measured_arm(), measured_arm(hidden)
 

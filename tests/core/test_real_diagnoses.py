@@ -7,9 +7,9 @@ seen, at the band of the fit.
 import numpy as np
 import pytest
 
-from core.extension.result import Diagnosed
-from core.study import IdentifyRequest, diagnose_in_full
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
+from veritorque.core.extension.result import Diagnosed
+from veritorque.core.study import IdentifyRequest, diagnose_in_full
 
 UR10E_FIT = ("fourier_30s_12h", 635, 3510)
 

@@ -11,10 +11,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.log.model import JointLog
-from core.study import IdentifyRequest, identify, identify_in_full
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
 from tests.tools import shared
+from veritorque.core.log.model import JointLog
+from veritorque.core.study import IdentifyRequest, identify, identify_in_full
 
 
 def _document(

@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import study
-from core.dynamics.model import standard_model
-from core.errors import LogError, OptionError, VeritorqueError
-from core.log.model import ArraySource, JointLog, LogRows, whole_rows
-from core.log.reader import log_from_arrays, read_log
-from core.robot.builtin import builtin_robot
-from core.robot.model import RobotModel
-from core.signals import condition as conditioning
-from core.signals import segment
-from core.signals.tile import Tile
-from core.study import IdentifyRequest, base_parameters, identify, identify_in_full
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters, wrist_robot
+from veritorque.core import study
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import LogError, OptionError, VeritorqueError
+from veritorque.core.log.model import ArraySource, JointLog, LogRows, whole_rows
+from veritorque.core.log.reader import log_from_arrays, read_log
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals import condition as conditioning
+from veritorque.core.signals import segment
+from veritorque.core.signals.tile import Tile
+from veritorque.core.study import IdentifyRequest, base_parameters, identify, identify_in_full
 
 MODEL = standard_model(planar_robot())
 NOISE = 0.02
@@ -284,7 +284,7 @@ def test_sabotage_a_joint_without_acceleration_breaks_the_law(monkeypatch):
 
 
 def test_sabotage_a_solver_that_ignores_the_links_breaks_feasibility(monkeypatch):
-    from core.estimate import with_clarabel
+    from veritorque.core.estimate import with_clarabel
 
     monkeypatch.setattr(with_clarabel, "_add_links", lambda *_: None)
     monkeypatch.setattr(with_clarabel, "_add_signs", lambda *_: None)

@@ -1,11 +1,11 @@
 """What a diagnosis found stands, even where the programme of the cured model cannot be solved."""
 
-from core import study
-from core.errors import SolverError
-from core.identification import identify as fitting
-from core.study import IdentifyRequest
 from tests.plant.cache import kept
 from tests.plant.cases import draw
+from veritorque.core import study
+from veritorque.core.errors import SolverError
+from veritorque.core.identification import identify as fitting
+from veritorque.core.study import IdentifyRequest
 
 
 def test_findings_stand_where_the_extended_model_cannot_be_identified(monkeypatch):

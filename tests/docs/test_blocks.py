@@ -8,15 +8,15 @@ import time
 
 import pytest
 
-from app.http.server import Server
-from app.main import create_app
-from app.schemas.common import ProblemDocument
-from app.schemas.robots import RobotDescription
-from app.settings import Settings
-from core.identification.options import parse_options
 from tests.app.postgres import binaries, cluster, new_database
 from tests.docs.blocks import BLOCKS, ROOT, blocks_of
 from tests.docs.runner import DATABASE, RUN, run_page, run_page_that_serves
+from veritorque.app.http.server import Server
+from veritorque.app.main import create_app
+from veritorque.app.schemas.common import ProblemDocument
+from veritorque.app.schemas.robots import RobotDescription
+from veritorque.app.settings import Settings
+from veritorque.core.identification.options import parse_options
 
 LANGUAGES = {"bash", "sh", "python", "c", "json", "xml", "text", ""}
 RUN_ELSEWHERE = ("client.md", "terminal.md")

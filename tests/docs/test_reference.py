@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from app.problems import KINDS
-from app.reference import api, problems
-from core.dynamics import guide as terms
-from core.dynamics.model import STANDARD_TERMS
-from core.export import guide as formats
-from core.export.formats import FORMATS
-from core.log.formats.content import FORMS
-from core.log.profiles import PROFILES
 from tests.core.dynamics.every_term import cures
 from tests.docs.blocks import PAGES, ROOT
+from veritorque.app.problems import KINDS
+from veritorque.app.reference import api, problems
+from veritorque.core.dynamics import guide as terms
+from veritorque.core.dynamics.model import STANDARD_TERMS
+from veritorque.core.export import guide as formats
+from veritorque.core.export.formats import FORMATS
+from veritorque.core.log.formats.content import FORMS
+from veritorque.core.log.profiles import PROFILES
 
 CONTRACT = json.loads((ROOT / "openapi.json").read_text(encoding="utf-8"))
 GENERATED = {

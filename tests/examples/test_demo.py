@@ -9,9 +9,9 @@ from typing import ClassVar
 import pytest
 from rich.console import Console
 
-from app.client.errors import ServiceError
 from examples.yumi import demo, diagnosis, service, summary
 from tests.core.report.documents import diagnosed, nothing_found
+from veritorque.app.client.errors import ServiceError
 
 RESULT = {
     "counts": {"standard": 98, "base": 71, "essential": 57},

@@ -6,10 +6,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from core.robot.builtin import builtin_robot
 from examples.yumi import arm, make_log
 from examples.yumi.excitation import DURATION, Excitation, window
 from examples.yumi.plant import pinocchio_model
+from veritorque.core.robot.builtin import builtin_robot
 
 LOG = arm.HERE / "log.csv"
 TRUTH = json.loads((arm.HERE / "truth.json").read_text(encoding="utf-8"))

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs.computation import Finished
-from app.json_text import json_bytes
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import InlineExecutor, StubExecutor
 from tests.core.report.documents import diagnosed
+from veritorque.app.jobs.computation import Finished
+from veritorque.app.json_text import json_bytes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NOTEBOOK = json.loads((EXAMPLES / "notebook.ipynb").read_text(encoding="utf-8"))
@@ -60,7 +60,7 @@ def test_the_service_gives_report_and_urdf(folder, capsys, monkeypatch, science)
 
 
 def test_a_robot_of_ones_own_is_described_without_suspicion(folder, capsys):
-    from core import robot_from_description
+    from veritorque.core import robot_from_description
 
     told = ran("03", capsys)
     assert "rarely meant" not in told

@@ -10,11 +10,11 @@ import pyarrow as pa
 from rich.console import Console
 from rich.table import Table
 
-from app.inspection.inspector import Inspector
-from app.jobs.computation import LogFile
-from app.problems import Problem
 from tests.fuzz.campaign import MAPPING, Tally, case, run
 from tests.fuzz.seeds import seeds
+from veritorque.app.inspection.inspector import Inspector
+from veritorque.app.jobs.computation import LogFile
+from veritorque.app.problems import Problem
 
 MEMORY_DISK = Path("/dev/shm")  # noqa: S108  (a folder of chance name within)
 

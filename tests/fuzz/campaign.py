@@ -21,12 +21,12 @@ from pathlib import Path
 from random import Random
 from statistics import median
 
-from app.jobs import computations as science
-from app.jobs.computation import LogFile
-from app.json_text import json_bytes
-from core.errors import VeritorqueError
 from tests.fuzz.mutation import spoilt
 from tests.fuzz.seeds import seeds
+from veritorque.app.jobs import computations as science
+from veritorque.app.jobs.computation import LogFile
+from veritorque.app.json_text import json_bytes
+from veritorque.core.errors import VeritorqueError
 
 MEMORY = 400 << 20
 HANG_S = 20.0

@@ -103,7 +103,7 @@ def _robot(order: Order) -> dict[str, str]:
 
 def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping[str, Any]:
     """Ask for a diagnosis of the case's log; give the `diagnosis` of the result document."""
-    from core.study import IdentifyRequest, diagnose
+    from veritorque.core.study import IdentifyRequest, diagnose
 
     # Deviations from drawn blocks are the identification's, and nothing here looks at them.
     document = diagnose(IdentifyRequest(case.believed, (case.log,), options or {"bootstrap": {"draws": 0}}))

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.causes.repairs import mends
-from core.document.repairs import read_repairs
-from core.extension.repaired_log import repaired_log
-from core.robot.description import robot_from_description
-from core.study import IdentifyRequest, diagnose
 from tests.hidden.plan import Order, drawn
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.causes.repairs import mends
+from veritorque.core.document.repairs import read_repairs
+from veritorque.core.extension.repaired_log import repaired_log
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.study import IdentifyRequest, diagnose
 
 DEVIATIONS = 3.0
 

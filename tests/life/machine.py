@@ -9,14 +9,14 @@ from pathlib import Path
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from app.jobs.liveness import Presence
-from app.jobs.reclaim import Lives
-from app.store.errors import KeyReused
-from app.store.records import JobRequestRecord
-from app.store.store import Store
-from app.store.sweep import Sweep
-from app.store.work import MOST_ATTEMPTS
 from tests.chaos.run import MEMORY
+from veritorque.app.jobs.liveness import Presence
+from veritorque.app.jobs.reclaim import Lives
+from veritorque.app.store.errors import KeyReused
+from veritorque.app.store.records import JobRequestRecord
+from veritorque.app.store.store import Store
+from veritorque.app.store.sweep import Sweep
+from veritorque.app.store.work import MOST_ATTEMPTS
 
 MOST_RUNNING = 2
 OWNERS = ("one", "two")

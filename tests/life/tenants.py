@@ -4,10 +4,10 @@ import random
 
 from starlette.testclient import TestClient
 
-from app.main import create_app
-from app.settings import Settings
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import StubExecutor
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings
 
 TENANTS = ("anna", "bert")
 FOREIGN = (404, 422)

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.log.model import JointLog
 from tests.plant.cases import World
 from tests.plant.controller import steer
 from tests.plant.effects.effect import Effect
 from tests.plant.excitation import draw_excitation
 from tests.plant.robots import Arm, draw_arm
 from tests.plant.sensors import record
+from veritorque.core.log.model import JointLog
 
 NOISE_SHARE = 0.02
 """Noise RMS over torque RMS."""

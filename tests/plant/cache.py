@@ -13,12 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-from core.log.model import whole_rows
-from core.log.reader import log_from_arrays
-from core.robot.description import robot_from_description
-from core.robot.writing import to_description
 from tests.plant.cases import Case, Truth
 from tests.plant.effects.effect import Hidden
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.writing import to_description
 
 FOLDER = Path(tempfile.gettempdir()) / "veritorque-plant"
 

@@ -11,8 +11,6 @@ from functools import cached_property, reduce
 
 import numpy as np
 
-from core.log.model import JointLog
-from core.robot.model import RobotModel
 from tests.plant.controller import Steering, steer
 from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot, overriding
 from tests.plant.effects.registry import EFFECTS, FOREIGN
@@ -21,6 +19,8 @@ from tests.plant.excitation import draw_excitation
 from tests.plant.robots import ROBOTS, Arm, draw_arm
 from tests.plant.sensors import NOISES, record
 from tests.plant.strength import Residue, differentiation_error, given, nameable, residue
+from veritorque.core.log.model import JointLog
+from veritorque.core.robot.model import RobotModel
 
 NOISE_SHARES = (0.01, 0.03)
 """Noise RMS over torque RMS, drawn per joint between these."""

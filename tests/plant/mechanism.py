@@ -3,8 +3,8 @@
 import mujoco
 import numpy as np
 
-from core.robot.inertia import mass_properties
 from tests.plant.robots import Arm
+from veritorque.core.robot.inertia import mass_properties
 
 STEPS_PER_SECOND = 2000
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.robot.builtin import builtin_description
-from core.robot.description import robot_from_description
-from core.robot.inertia import from_mass_properties
-from core.robot.model import RobotModel
+from veritorque.core.robot.builtin import builtin_description
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.inertia import from_mass_properties
+from veritorque.core.robot.model import RobotModel
 
 _RIGHT = np.pi / 2
 

@@ -7,9 +7,9 @@ of Statistical Signal Processing I (1993), ch. 7, for the autoregressive spectra
 import numpy as np
 from scipy import signal
 
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
 from tests.plant.effects.effect import Signals
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
 
 NOISES = ("white", "ar1", "strong_ar1", "heavy", "hum")
 """White; autoregressive with 0.8 and 0.98 per sample; Student's t with 3 degrees; 50 Hz with its third."""

@@ -19,11 +19,11 @@ import pinocchio as pin
 from scipy import signal
 from scipy.stats import chi2, ncx2
 
-from core.robot.model import RobotModel
 from tests.plant.effects.effect import Signals
 from tests.plant.mechanism import build, inverse
 from tests.plant.robots import Arm
 from tests.plant.sensors import counted, spectrum
+from veritorque.core.robot.model import RobotModel
 
 BAND_HZ = 20.0
 """What a log's user can make use of: derivatives of quantised positions are noise above."""

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from core.log.model import whole_rows
 from tests.plant import cache
 from tests.plant.cases import draw, draw_clean, draw_foreign
 from tests.plant.effects.registry import EFFECTS, FOREIGN
 from tests.plant.sensors import CORRELATION, NOISES, noise, spectrum
 from tests.plant.strength import given, nameable
+from veritorque.core.log.model import whole_rows
 
 
 @pytest.mark.parametrize("strength", [0.3, 3.0])

@@ -4,13 +4,13 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from core.robot.inertia import mass_properties, pseudo_inertia
 from tests.plant.cases import draw_world
 from tests.plant.engine import Plant, simulate
 from tests.plant.excitation import draw_excitation
 from tests.plant.mechanism import STEPS_PER_SECOND
 from tests.plant.robots import ROBOTS, Arm, draw_arm
 from tests.plant.strength import nameable, residue
+from veritorque.core.robot.inertia import mass_properties, pseudo_inertia
 
 
 def pinocchio_model(arm: Arm) -> pin.Model:

@@ -12,8 +12,8 @@ import re
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.http.exception_handlers import problem_response
-from app.problems import Problem
+from ...problems import Problem
+from ..exception_handlers import problem_response
 
 HEADER = "Content-Digest"
 ALGORITHMS = {"sha-256": "sha256", "sha-512": "sha512"}

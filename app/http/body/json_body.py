@@ -12,7 +12,7 @@ from typing import NoReturn, TypeVar
 from pydantic import BaseModel, ValidationError
 from starlette.requests import Request
 
-from app.problems import Problem
+from ...problems import Problem
 
 MOST_LEVELS = 32
 LONGEST_REASON = 300

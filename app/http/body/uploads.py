@@ -12,11 +12,11 @@ from starlette.datastructures import FormData, UploadFile
 from starlette.formparsers import MultiPartException
 from starlette.requests import ClientDisconnect, Request
 
-from app.http.body.multipart import parse_form
-from app.http.refusals import too_large
-from app.problems import Problem
-from app.store.blobs import Incoming
-from core.log.formats.content import FORMS, NO_CLAIM
+from ....core.log.formats.content import FORMS, NO_CLAIM
+from ...problems import Problem
+from ...store.blobs import Incoming
+from ..refusals import too_large
+from .multipart import parse_form
 
 MULTIPART = "multipart/form-data"
 LOG_MEDIA_TYPES = (*sorted({kind for form in FORMS for kind in form.media_types}), "application/octet-stream")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from sqlalchemy import Connection, Engine, inspect, text
 
-from app.store.tables import METADATA
+from ..tables import METADATA
 
 LATEST = "0002"
 """The last of `versions/`."""

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from app.json_text import json_bytes
-from app.terminal.backend.protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
-from app.terminal.kernel_cache import COMPILING, share_compiled_kernels
-from app.terminal.output.files import save
-from app.terminal.output.streams import note
-from app.terminal.threads import limit_threads
-from core.errors import LogError, OptionError, RobotError
+from ....core.errors import LogError, OptionError, RobotError
+from ...json_text import json_bytes
+from ..kernel_cache import COMPILING, share_compiled_kernels
+from ..output.files import save
+from ..output.streams import note
+from ..threads import limit_threads
+from .protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
 
 PRIOR = "prior"
 
@@ -26,8 +26,8 @@ class LocalBench:
 
     def robots(self) -> list[Document]:
         """List the built-in robots."""
-        from app.services.catalogue import built_in_robots
-        from app.services.serialisers import robot_summary
+        from ...services.catalogue import built_in_robots
+        from ...services.serialisers import robot_summary
 
         return [robot_summary(robot) for robot in built_in_robots().values()]
 
@@ -39,7 +39,7 @@ class LocalBench:
         RobotError
             If there is none, or it cannot be used.
         """
-        from app.jobs import computations as science
+        from ...jobs import computations as science
 
         known = science.built_in_descriptions()
         if given in known:
@@ -48,7 +48,7 @@ class LocalBench:
         else:
             content = _robot_file(given, known)
             if content.lstrip()[:1] in (b"{", b"[") or given.endswith(".json"):
-                from app.http.body.json_body import parse_json
+                from ...http.body.json_body import parse_json
 
                 require_whole(given, part)
                 model, description = science.read_description(parse_json(content, what=given))
@@ -65,7 +65,7 @@ class LocalBench:
 
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
-        from app.jobs import computations as science
+        from ...jobs import computations as science
 
         description = self.robot(given, part)["description"]
         _tell_of_compiling()
@@ -79,10 +79,10 @@ class LocalBench:
         VeritorqueError
             If the robot, the logs or the options do not allow it.
         """
-        from app.jobs import computations as science
-        from app.jobs.computation import Computation, LogFile
-        from app.services.catalogue import log_name
-        from app.services.report import report_page
+        from ...jobs import computations as science
+        from ...jobs.computation import Computation, LogFile
+        from ...services.catalogue import log_name
+        from ...services.report import report_page
 
         tell("load", 0.0)
         robot = self.robot(study.robot, study.part)["description"]

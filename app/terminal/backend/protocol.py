@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from core.errors import OptionError
+from ....core.errors import OptionError
 
 Document = dict[str, Any]
 Tell = Callable[[str, float], None]
@@ -92,12 +92,12 @@ class Bench(Protocol):
 def bench(url: str, key: str) -> Iterator[Bench]:
     """Choose who computes: the service at `url`, or this process where it is empty."""
     if url:
-        from app.client.client import Client
-        from app.terminal.backend.remote import RemoteBench
+        from ...client.client import Client
+        from .remote import RemoteBench
 
         with Client(url, key or None) as client:
             yield RemoteBench(client)
     else:
-        from app.terminal.backend.local import LocalBench
+        from .local import LocalBench
 
         yield LocalBench()

@@ -4,14 +4,14 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
-from app.client.client import Client
-from app.client.errors import ServiceError
-from app.client.parcel import require_file
-from app.client.records import Robot
-from app.terminal.backend.protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
-from app.terminal.output.files import means_a_file, save
-from app.terminal.output.streams import note
-from core.errors import LogError
+from ....core.errors import LogError
+from ...client.client import Client
+from ...client.errors import ServiceError
+from ...client.parcel import require_file
+from ...client.records import Robot
+from ..output.files import means_a_file, save
+from ..output.streams import note
+from .protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
 
 
 class RemoteBench:

@@ -2,8 +2,8 @@
 
 import typer
 
-from app.terminal.output.streams import say
-from app.version import VERSION
+from ...version import VERSION
+from ..output.streams import say
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
@@ -13,8 +13,8 @@ def openapi() -> None:
     """Print the contract as OpenAPI 3.1."""
     import json
 
-    from app.main import create_app
-    from app.settings import Settings
+    from ...main import create_app
+    from ...settings import Settings
 
     say(json.dumps(create_app(Settings.model_construct()).openapi(), indent=2))
 

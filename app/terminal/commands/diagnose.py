@@ -4,8 +4,8 @@ from typing import Annotated
 
 import typer
 
-from app.terminal.backend.protocol import Study
-from app.terminal.options import (
+from ..backend.protocol import Study
+from ..options import (
     BaseLinkOption,
     GravityOption,
     JsonOption,
@@ -22,8 +22,8 @@ from app.terminal.options import (
     options_of,
     part_of,
 )
-from app.terminal.output.exit_codes import Exit
-from app.terminal.study import OutOption, ReportOption, Wanted, run
+from ..output.exit_codes import Exit
+from ..study import OutOption, ReportOption, Wanted, run
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
@@ -66,8 +66,8 @@ def diagnose(  # noqa: PLR0913  # the options of a command line
     study = Study("diagnose", robot, tuple(logs), mapping_of(mapping, profile), chosen, part)
     document = run(study, url=url, key=key, wanted=Wanted(json, out, report))
     if not json:
-        from app.terminal.output.findings import print_diagnosis
-        from app.terminal.output.streams import out as console
+        from ..output.findings import print_diagnosis
+        from ..output.streams import out as console
 
         print_diagnosis(console(), document)
     if fail_on_findings and document["diagnosis"]["verdict"] != "nothing_found":

@@ -5,13 +5,13 @@ from typing import Annotated
 
 import typer
 
-from app.services.export_files import TRACES_FILE, TRACES_TYPE
-from app.terminal.options import KeyOption, UrlOption
-from app.terminal.output.files import means_a_file, require_folder, save
-from app.terminal.output.streams import say, write
-from app.terminal.results import RESULT_HELP, read_result
-from core.errors import OptionError
-from core.export.formats import FORMATS
+from ....core.errors import OptionError
+from ....core.export.formats import FORMATS
+from ...services.export_files import TRACES_FILE, TRACES_TYPE
+from ..options import KeyOption, UrlOption
+from ..output.files import means_a_file, require_folder, save
+from ..output.streams import say, write
+from ..results import RESULT_HELP, read_result
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 TRACES_TITLE = "torques and residuals of every instant, of a job (--url)"
@@ -66,7 +66,7 @@ def export(
 
 def _content(result: str, name: str, url: str, key: str) -> bytes:
     if url and not means_a_file(result):
-        from app.client.client import Client
+        from ...client.client import Client
 
         with Client(url, key or None) as client:
             return client.export(result, name)

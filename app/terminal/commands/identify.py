@@ -2,8 +2,8 @@
 
 import typer
 
-from app.terminal.backend.protocol import Study
-from app.terminal.options import (
+from ..backend.protocol import Study
+from ..options import (
     BaseLinkOption,
     GravityOption,
     JsonOption,
@@ -20,7 +20,7 @@ from app.terminal.options import (
     options_of,
     part_of,
 )
-from app.terminal.study import OutOption, ReportOption, Wanted, run
+from ..study import OutOption, ReportOption, Wanted, run
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
@@ -60,7 +60,7 @@ def identify(  # noqa: PLR0913  # the options of a command line
     )
     document = run(study, url=url, key=key, wanted=Wanted(json, out, report))
     if not json:
-        from app.terminal.output.streams import out as console
-        from app.terminal.output.tables import print_result
+        from ..output.streams import out as console
+        from ..output.tables import print_result
 
         print_result(console(), document)

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from app.settings import LOCAL, SCOPES
-from app.terminal.environment import chosen_settings, opened, require_directory, stop
-from app.terminal.output.streams import say
+from ...settings import LOCAL, SCOPES
+from ..environment import chosen_settings, opened, require_directory, stop
+from ..output.streams import say
 
 if TYPE_CHECKING:
-    from app.store.keys import KeyStore
+    from ...store.keys import KeyStore
 
 COMMANDS = typer.Typer(
     help="Make, list and revoke the keys of a service.",
@@ -58,7 +58,7 @@ def revoke(identity: Annotated[str, typer.Argument(help="The id that `keys list`
 
 @contextmanager
 def _keys() -> Iterator["KeyStore"]:
-    from app.store.keys import KeyStore
+    from ...store.keys import KeyStore
 
     settings = chosen_settings()
     require_directory(settings.data_dir)

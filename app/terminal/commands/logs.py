@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.terminal.options import JsonOption, MappingOption, ProfileOption, mapping_of
-from app.terminal.output.exit_codes import Exit
-from app.terminal.output.streams import complain, note, say
-from core.errors import LogError
+from ....core.errors import LogError
+from ..options import JsonOption, MappingOption, ProfileOption, mapping_of
+from ..output.exit_codes import Exit
+from ..output.streams import complain, note, say
 
 if TYPE_CHECKING:
-    from core.log.check import LogCheck
+    from ....core.log.check import LogCheck
 
 COMMANDS = typer.Typer(
     help="Look at logs before anything is identified from them.",
@@ -45,8 +45,8 @@ def check(
     json: JsonOption = False,
 ) -> None:
     """Say what is in a log and what is wrong with it: columns, units, rate, gaps, outliers, saturation ..."""
-    from app.terminal.output.logcheck import document_of, lines_of
-    from app.terminal.threads import limit_threads
+    from ..output.logcheck import document_of, lines_of
+    from ..threads import limit_threads
 
     limit_threads(1)
     chosen = mapping_of(mapping, profile)
@@ -78,7 +78,7 @@ def _tell_of(path: Path, seen: "LogCheck") -> None:
 
 
 def _look(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
-    from core.log.check import check_log
+    from ....core.log.check import check_log
 
     try:
         return check_log(path, mapping=mapping)

@@ -5,10 +5,10 @@ from typing import Annotated
 
 import typer
 
-from app.terminal.options import KeyOption, UrlOption
-from app.terminal.output.files import means_a_file, require_folder, save
-from app.terminal.output.streams import note
-from app.terminal.results import RESULT_HELP, read_result
+from ..options import KeyOption, UrlOption
+from ..output.files import means_a_file, require_folder, save
+from ..output.streams import note
+from ..results import RESULT_HELP, read_result
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 EPILOG = """\b
@@ -29,12 +29,12 @@ def report(
     """Write the report of a result: figures, tables and sentences in one HTML file that opens offline."""
     require_folder(out)
     if url and not means_a_file(result):
-        from app.client.client import Client
+        from ...client.client import Client
 
         with Client(url, key or None) as client:
             save(out, client.report(result))
         return
-    from core.report.page.page import compose_page
+    from ....core.report.page.page import compose_page
 
     save(out, compose_page(read_result(result)).encode())
     note("without torques over time, which no result holds: identify --report and jobs (--url) draw them")

@@ -4,9 +4,9 @@ from typing import Annotated, Any
 
 import typer
 
-from app.json_text import json_bytes
-from app.terminal.backend.protocol import bench
-from app.terminal.options import (
+from ...json_text import json_bytes
+from ..backend.protocol import bench
+from ..options import (
     BaseLinkOption,
     GravityOption,
     JsonOption,
@@ -16,8 +16,8 @@ from app.terminal.options import (
     UrlOption,
     part_of,
 )
-from app.terminal.output.exit_codes import Exit
-from app.terminal.output.streams import out, say, write
+from ..output.exit_codes import Exit
+from ..output.streams import out, say, write
 
 COMMANDS = typer.Typer(
     help="List, show and check robots.",
@@ -120,7 +120,7 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
 
 
 def _print_joints(rows: list[dict[str, Any]]) -> None:
-    from app.terminal.output.columns import Column, print_table
+    from ..output.columns import Column, print_table
 
     shown = [name for name in GEOMETRY if any(row.get(name) for row in rows)]
     limits = [(row.get("limits") or {}).get("position") for row in rows]

@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from app.settings import PREFIX, Settings
-from app.terminal.environment import (
+from ...settings import PREFIX, Settings
+from ..environment import (
     chosen_settings,
     opened,
     require_directory,
     stop,
 )
-from app.terminal.kernel_cache import COMPILING, keep_compiled_kernels
-from app.terminal.output.streams import say
-from app.terminal.threads import limit_threads
+from ..kernel_cache import COMPILING, keep_compiled_kernels
+from ..output.streams import say
+from ..threads import limit_threads
 
 if TYPE_CHECKING:
-    from app.store.store import Store
+    from ...store.store import Store
 
 DEFAULTS = Settings.model_construct()
 
@@ -84,7 +84,7 @@ def serve(
 
 
 def _require_a_key(store: "Store", host: str) -> None:
-    from app.auth.keys import KeyRing
+    from ...auth.keys import KeyRing
 
     if not KeyRing(store.database).any():
         stop(
@@ -94,7 +94,7 @@ def _require_a_key(store: "Store", host: str) -> None:
 
 
 def _require_to_be_alone(data_dir: Path) -> None:
-    from app.store.lock import DirectoryInUse, DirectoryLock
+    from ...store.lock import DirectoryInUse, DirectoryLock
 
     try:
         DirectoryLock(data_dir).release()
@@ -113,11 +113,11 @@ def _require_free(host: str, port: int) -> None:
 
 
 def _listen(settings: Settings) -> None:
-    from app.http.server import Server
-    from app.jobs.supervisor import Supervisor
-    from app.logging import open_journal
-    from app.main import create_app
-    from app.services.metrics import Metrics
+    from ...http.server import Server
+    from ...jobs.supervisor import Supervisor
+    from ...logging import open_journal
+    from ...main import create_app
+    from ...services.metrics import Metrics
 
     _require_free(settings.host, settings.port)
     open_journal(settings)

@@ -8,17 +8,17 @@ from typing import Annotated
 
 import typer
 
-from app.lifecycle.backup import NoBackup, back_up
-from app.lifecycle.backup import restore as restore_backup
-from app.lifecycle.doctor import examine
-from app.lifecycle.retention import expire
-from app.settings import Settings
-from app.store.errors import Damaged, Unavailable
-from app.store.store import Store
-from app.store.sweep import Sweep
-from app.terminal.environment import chosen_settings, stop
-from app.terminal.output.exit_codes import Exit
-from app.terminal.output.streams import say
+from ...lifecycle.backup import NoBackup, back_up
+from ...lifecycle.backup import restore as restore_backup
+from ...lifecycle.doctor import examine
+from ...lifecycle.retention import expire
+from ...settings import Settings
+from ...store.errors import Damaged, Unavailable
+from ...store.store import Store
+from ...store.sweep import Sweep
+from ..environment import chosen_settings, stop
+from ..output.exit_codes import Exit
+from ..output.streams import say
 
 PAUSE_S = 20.0
 

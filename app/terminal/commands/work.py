@@ -4,13 +4,13 @@ from typing import Annotated
 
 import typer
 
-from app.terminal.environment import (
+from ..environment import (
     chosen_settings,
     opened,
     require_directory,
 )
-from app.terminal.kernel_cache import keep_compiled_kernels
-from app.terminal.threads import limit_threads
+from ..kernel_cache import keep_compiled_kernels
+from ..threads import limit_threads
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
@@ -30,8 +30,8 @@ def work(
     require_directory(settings.data_dir)
     limit_threads(settings.job_cpus)
     keep_compiled_kernels(settings.data_dir)
-    from app.jobs.worker_process import work_until_told
-    from app.logging import open_journal
+    from ...jobs.worker_process import work_until_told
+    from ...logging import open_journal
 
     open_journal(settings)
     with opened(settings) as store:

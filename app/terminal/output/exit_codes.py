@@ -2,8 +2,8 @@
 
 from enum import IntEnum
 
-from app.client.errors import NoAnswerError, ServiceError
-from core.errors import ExcitationError, SolverError, VeritorqueError
+from ....core.errors import ExcitationError, SolverError, VeritorqueError
+from ...client.errors import NoAnswerError, ServiceError
 
 
 class Exit(IntEnum):

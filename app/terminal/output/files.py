@@ -3,8 +3,8 @@
 import os
 from pathlib import Path
 
-from app.terminal.output.streams import note
-from core.errors import OptionError
+from ....core.errors import OptionError
+from .streams import note
 
 
 def means_a_file(given: str) -> bool:

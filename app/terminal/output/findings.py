@@ -10,8 +10,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
 
-from app.terminal.output.columns import Column, print_table
-from app.terminal.output.tables import effort_column, percent
+from .columns import Column, print_table
+from .tables import effort_column, percent
 
 Document = Mapping[str, Any]
 

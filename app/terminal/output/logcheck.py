@@ -5,10 +5,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from app.json_text import plain
-from core.log.check import LogCheck, Reach
-from core.log.layout import Channel
-from core.log.units import UNITS
+from ....core.log.check import LogCheck, Reach
+from ....core.log.layout import Channel
+from ....core.log.units import UNITS
+from ...json_text import plain
 
 SHOWN = 6
 

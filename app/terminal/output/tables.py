@@ -6,8 +6,8 @@ from typing import Any, Final
 from rich.console import Console
 from rich.markup import escape
 
-from app.terminal.output.columns import Column, print_table
-from core.report.page.units import unit_of_effort
+from ....core.report.page.units import unit_of_effort
+from .columns import Column, print_table
 
 Document = Mapping[str, Any]
 

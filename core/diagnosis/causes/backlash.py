@@ -3,8 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import (
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.backlash import Backlash as BacklashTerm
+from ..dataset.dataset import Look
+from .protocol import Confusion, Scalars, Site, Solved
+from .shared.common import (
     OwnJointCause,
     before_the_gear,
     motor_inertias,
@@ -12,11 +16,7 @@ from core.diagnosis.causes.shared.common import (
     shown,
     spread,
 )
-from core.diagnosis.causes.shared.sites import revolute_joints
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.backlash import Backlash as BacklashTerm
+from .shared.sites import revolute_joints
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, evenly spread on a logarithmic scale: half as wide again is another motion."""

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.cable import Cable
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.cable import Cable
+from ..dataset.dataset import Look
+from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, shown
 
 SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
 """Shares of the samples during which the cable is slack."""

@@ -11,14 +11,14 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.stats import poisson
 
-from core.arrays import JointSeries
-from core.diagnosis.causes.protocol import Confusion, Cure, Quantity
-from core.diagnosis.causes.sample_check import LEVEL, RawFinding, Spoil, residual_share
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.log.model import LogRows
-from core.signals.condition import Motion
-from core.signals.resample import dropped
+from ...arrays import JointSeries
+from ...dynamics.prediction import Prediction
+from ...log.model import LogRows
+from ...signals.condition import Motion
+from ...signals.resample import dropped
+from ..dataset.dataset import Look
+from .protocol import Confusion, Cure, Quantity
+from .sample_check import LEVEL, RawFinding, Spoil, residual_share
 
 ROWS = 65_536
 

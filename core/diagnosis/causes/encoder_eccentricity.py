@@ -5,17 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsLog
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.causes.shared.sites import revolute_joints
-from core.diagnosis.causes.shared.waves import amplitude_and_angle
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm
-from core.log.model import LogRows
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm
+from ...log.model import LogRows
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from .repairs import MendsLog
+from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.sites import revolute_joints
+from .shared.waves import amplitude_and_angle
 
 LARGEST = 0.3
 

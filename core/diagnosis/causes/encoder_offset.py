@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsRobot
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.causes.shared.sites import revolute_joints
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
-from core.dynamics.terms.kinematic_error import link_of
-from core.robot.model import Link, RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
+from ...dynamics.terms.kinematic_error import link_of
+from ...robot.model import Link, RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsRobot
+from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.sites import revolute_joints
 
 LARGEST = 0.5
 

@@ -5,15 +5,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries, JointVector
-from core.diagnosis.causes.protocol import Confusion, Cure, Quantity
-from core.diagnosis.causes.sample_check import RawFinding, Spoil, disturbance, share_of_residual
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.log.defects.resolution import FEWEST_INCREMENTS, Resolution
-from core.log.defects.stretch import stretches
-from core.log.model import JointLog
-from core.robot.joint_units import joint_unit
+from ...arrays import JointSeries, JointVector
+from ...dynamics.prediction import Prediction
+from ...log.defects.resolution import FEWEST_INCREMENTS, Resolution
+from ...log.defects.stretch import stretches
+from ...log.model import JointLog
+from ...robot.joint_units import joint_unit
+from ..dataset.dataset import Look
+from .protocol import Confusion, Cure, Quantity
+from .sample_check import RawFinding, Spoil, disturbance, share_of_residual
 
 LEAST_SHARE = 0.6
 """Share of a joint's residual that rounding must account for to be named; good encoders make a half."""

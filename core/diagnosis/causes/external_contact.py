@@ -5,16 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, rounded
-from core.diagnosis.causes.shared.events import find_events
-from core.diagnosis.causes.shared.sites import end_links
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.dataset.spikes import spiked
-from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit, precisions
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.contact import WRENCH, Contact, Span, pushed
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.contact import WRENCH, Contact, Span, pushed
+from ..dataset.dataset import Look
+from ..dataset.spikes import spiked
+from ..regression.innovation_covariance import fitted_rows, misfit, precisions
+from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from .shared.common import OwnJointCause, rounded
+from .shared.events import find_events
+from .shared.sites import end_links
 
 SPANS_TRIED = 1200
 """Spans of time that a log of half a minute is searched for."""

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from ..dataset.dataset import Look
+from .protocol import Confusion, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, shown
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.coulomb import Coulomb
+from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
+from ..dataset.dataset import Look
+from .protocol import Confusion, Scalars, Site, Solved
+from .shared.common import OwnJointCause, shown
 
 WORDS = {"delta_viscous": "viscous friction", "delta_coulomb": "Coulomb friction", "delta_offset": "offset"}
 

@@ -6,12 +6,12 @@ Where a fit cannot tell a rotor's inertia from its link's, this friction can: on
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, before_the_gear, motor_inertias, named, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.load_friction import LoadFriction
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.load_friction import LoadFriction
+from ..dataset.dataset import Look
+from .protocol import Confusion, Scalars, Site, Solved
+from .shared.common import OwnJointCause, before_the_gear, motor_inertias, named, shown
 
 
 @dataclass(frozen=True)

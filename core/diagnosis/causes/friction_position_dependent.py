@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
-from core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.position_friction import PositionFriction
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.position_friction import PositionFriction
+from ..dataset.dataset import Look
+from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, shown
+from .shared.harmonics import harmonics, wave_quantities
 
 MOST = 12
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown, spread
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.presliding import Presliding
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.presliding import Presliding
+from ..dataset.dataset import Look
+from .protocol import Confusion, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, shown, spread
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown, spread
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.stribeck import Stribeck
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.stribeck import Stribeck
+from ..dataset.dataset import Look
+from .protocol import Confusion, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, shown, spread
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import NOTHING, OwnJointCause, named, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
+from ..dataset.dataset import Look
+from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from .shared.common import NOTHING, OwnJointCause, named, shown
 
 SHARES = (0.05, 0.12, 0.3, 0.7, 3.0)
 """Time constants of a warm-up, as shares of the time looked at."""

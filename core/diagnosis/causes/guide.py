@@ -8,10 +8,10 @@ import inspect
 import sys
 from collections.abc import Mapping
 
-from core.diagnosis.causes.protocol import Cause, Confusion
-from core.diagnosis.causes.registry import BY_ID, ONLY_CHANGES
-from core.diagnosis.causes.repairs import mends
-from core.diagnosis.causes.sample_check import RawCause
+from .protocol import Cause, Confusion
+from .registry import BY_ID, ONLY_CHANGES
+from .repairs import mends
+from .sample_check import RawCause
 
 OPENING = """\
 # Causes

@@ -6,14 +6,14 @@ from itertools import count
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsRobot
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.robot.model import Coupling, RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.missing_coupling import MissingCoupling
+from ...robot.model import Coupling, RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from .repairs import MendsRobot
+from .shared.common import OwnJointCause, named, shown
 
 FURTHEST = 2
 """Gears couple a joint with the next or the one after it."""

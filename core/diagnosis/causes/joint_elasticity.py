@@ -5,8 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import (
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.elasticity import Elasticity
+from ..dataset.dataset import Look
+from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from .shared.common import (
     OwnJointCause,
     before_the_gear,
     motor_inertias,
@@ -14,10 +18,6 @@ from core.diagnosis.causes.shared.common import (
     shown,
     spread,
 )
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.elasticity import Elasticity
 
 LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
 DAMPING_RATIOS = (0.05, 0.2)

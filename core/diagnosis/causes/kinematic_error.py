@@ -3,15 +3,15 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsRobot
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, with_entry
-from core.dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, with_entry
+from ...dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from .repairs import MendsRobot
+from .shared.common import OwnJointCause, named, rounded, shown
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 LARGEST = 0.3

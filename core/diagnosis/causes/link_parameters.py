@@ -5,16 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.bodies import is_body
-from core.diagnosis.causes.shared.common import OwnJointCause, shown
-from core.diagnosis.causes.shared.sites import links_by_joint
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.link_change import LinkChange
-from core.robot.model import RobotModel
-from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.link_change import LinkChange
+from ...robot.model import RobotModel
+from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from .shared.bodies import is_body
+from .shared.common import OwnJointCause, shown
+from .shared.sites import links_by_joint
 
 TOLD = 3
 """Numbers that a sentence bears."""

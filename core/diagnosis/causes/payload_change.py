@@ -6,16 +6,16 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.bodies import MASS, body_of, is_body
-from core.diagnosis.causes.shared.common import NOTHING, OwnJointCause, named, rounded, shown
-from core.diagnosis.causes.shared.sites import end_links, links_by_joint
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.payload import Payload
-from core.robot.model import RobotModel
-from core.robot.parameters import INERTIAL_SYMBOLS
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.payload import Payload
+from ...robot.model import RobotModel
+from ...robot.parameters import INERTIAL_SYMBOLS
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from .shared.bodies import MASS, body_of, is_body
+from .shared.common import NOTHING, OwnJointCause, named, rounded, shown
+from .shared.sites import end_links, links_by_joint
 
 INSTANTS = 16
 TOLD_APART = 120

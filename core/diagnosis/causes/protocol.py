@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
-from core.arrays import SquareMatrix, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.robot.joint_units import along_slide
-from core.robot.model import RobotModel
+from ...arrays import SquareMatrix, Vector
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...robot.joint_units import along_slide
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
 
 Cure = Literal["term", "signal", "robot"]
 Scalars = Mapping[str, float]

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal
 
-from core.arrays import JointSeries
-from core.diagnosis.causes.protocol import Numbers, Site
-from core.log.model import LogRows
-from core.robot.model import RobotModel
+from ...arrays import JointSeries
+from ...log.model import LogRows
+from ...robot.model import RobotModel
+from .protocol import Numbers, Site
 
 Mends = Literal["robot", "log", "model", "nothing"]
 """What a repair changes: the description, the log, the model (its term is all there is), or nothing."""

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsRobot
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.missing_rotor import MissingRotor
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.missing_rotor import MissingRotor
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsRobot
+from .shared.common import OwnJointCause, named, rounded, shown
 
 
 @dataclass(frozen=True)

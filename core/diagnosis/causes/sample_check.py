@@ -13,17 +13,17 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.signal import oaconvolve
 
-from core.arrays import JointSeries, JointVector
-from core.diagnosis.causes.protocol import Confusion, Cure, Quantity, Site
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.dataset.stretch import Stretch
-from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import step_of
-from core.signals.condition import Motion
-from core.signals.derivative import median
-from core.signals.state import MotionState
-from core.signals.zero_phase import kernel
+from ...arrays import JointSeries, JointVector
+from ...dynamics.prediction import Prediction
+from ...dynamics.terms.effect import step_of
+from ...signals.condition import Motion
+from ...signals.derivative import median
+from ...signals.state import MotionState
+from ...signals.zero_phase import kernel
+from ..dataset.dataset import Look
+from ..dataset.stretch import Stretch
+from ..regression.innovation_covariance import fitted_rows, misfit
+from .protocol import Confusion, Cure, Quantity, Site
 
 LEVEL = 1e-5
 """Chance with which a raw check may see something in samples that have nothing."""

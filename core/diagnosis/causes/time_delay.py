@@ -6,15 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsLog, with_torque
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.delay import Delay
-from core.log.model import LogRows
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.delay import Delay
+from ...log.model import LogRows
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsLog, with_torque
+from .shared.common import OwnJointCause, named, rounded
 
 LONGEST_DELAY = 0.05
 STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)

@@ -13,16 +13,16 @@ import numpy as np
 from scipy.signal import oaconvolve
 from scipy.stats import binom, norm
 
-from core.arrays import JointSeries, Vector
-from core.diagnosis.causes.protocol import Confusion, Cure, Quantity
-from core.diagnosis.causes.sample_check import LEVEL, RawFinding, Spoil, residual_share
-from core.diagnosis.causes.shared.common import rounded
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.log.model import LogRows
-from core.signals.resample import dropped, is_uniform, on_grid
-from core.signals.segment import Segment
-from core.signals.zero_phase import kernel
+from ...arrays import JointSeries, Vector
+from ...dynamics.prediction import Prediction
+from ...log.model import LogRows
+from ...signals.resample import dropped, is_uniform, on_grid
+from ...signals.segment import Segment
+from ...signals.zero_phase import kernel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Cure, Quantity
+from .sample_check import LEVEL, RawFinding, Spoil, residual_share
+from .shared.common import rounded
 
 LOOK_SECONDS = 120.0
 BAND_SHARE = 0.25

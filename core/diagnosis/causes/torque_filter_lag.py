@@ -7,17 +7,17 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.signal import oaconvolve
 
-from core.arrays import InstantSeries, JointSeries, Samples
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsLog, with_torque
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.filter_lag import FilterLag
-from core.log.model import LogRows
-from core.robot.model import RobotModel
-from core.signals.zero_phase import kernel
+from ...arrays import InstantSeries, JointSeries, Samples
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.filter_lag import FilterLag
+from ...log.model import LogRows
+from ...robot.model import RobotModel
+from ...signals.zero_phase import kernel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsLog, with_torque
+from .shared.common import OwnJointCause, named, rounded
 
 SHORTEST, LONGEST = 2e-4, 0.1
 """Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""

@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsLog, with_torque
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.torque_gain import CommonGain
-from core.dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
-from core.log.model import LogRows
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.torque_gain import CommonGain
+from ...dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
+from ...log.model import LogRows
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsLog, with_torque
+from .shared.common import OwnJointCause, named, rounded
 
 LARGEST = 0.9
 

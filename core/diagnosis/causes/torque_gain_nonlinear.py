@@ -4,16 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsLog, with_torque
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.cubic_gain import CubicGain
-from core.log.model import LogRows
-from core.robot.model import RobotModel
+from ...arrays import JointSeries
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.cubic_gain import CubicGain
+from ...log.model import LogRows
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsLog, with_torque
+from .shared.common import OwnJointCause, named, rounded, shown
 
 
 @dataclass(frozen=True)

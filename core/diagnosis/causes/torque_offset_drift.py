@@ -5,16 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Scalars, Site, Solved
-from core.diagnosis.causes.repairs import MendsLog, with_torque
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.drift import Drift, course
-from core.log.model import LogRows
-from core.robot.joint_units import joint_unit
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.drift import Drift, course
+from ...log.model import LogRows
+from ...robot.joint_units import joint_unit
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Scalars, Site, Solved
+from .repairs import MendsLog, with_torque
+from .shared.common import OwnJointCause, named, rounded, shown
 
 SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
 """Time constants of the drift, as shares of the time looked at; the last is an even drift."""

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, shown
-from core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.ripple import Ripple
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.ripple import Ripple
+from ..dataset.dataset import Look
+from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, shown
+from .shared.harmonics import harmonics, wave_quantities
 
 LOWEST = 2.0
 """One wave per turn is what gravity does."""

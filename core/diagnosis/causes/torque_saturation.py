@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause, named, rounded, shown
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.saturation import Saturation
-from core.robot.joint_units import joint_unit
-from core.robot.model import RobotModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.saturation import Saturation
+from ...robot.joint_units import joint_unit
+from ...robot.model import RobotModel
+from ..dataset.dataset import Look
+from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from .shared.common import OwnJointCause, named, rounded, shown
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
 """Limits, as shares of the largest torque that the motion shows."""

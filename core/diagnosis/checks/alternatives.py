@@ -10,16 +10,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.diagnosis.checks.gain import gain
-from core.diagnosis.checks.lack_of_fit import best_stranger, strangers
-from core.diagnosis.result import Gain, Rival
-from core.diagnosis.search.confounding import keeps_beside, left_by_last
-from core.diagnosis.search.entry_test import Key, holds_unseen, with_candidate
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.holdout import unseen_share
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.diagnosis.search.likelihood_ratio import merit, rise
-from core.diagnosis.search.stepwise import Selection, Step
+from ..result import Gain, Rival
+from ..search.confounding import keeps_beside, left_by_last
+from ..search.entry_test import Key, holds_unseen, with_candidate
+from ..search.fitter import Bench
+from ..search.holdout import unseen_share
+from ..search.hypothesis import Candidate, Hypothesis
+from ..search.likelihood_ratio import merit, rise
+from ..search.stepwise import Selection, Step
+from .gain import gain
+from .lack_of_fit import best_stranger, strangers
 
 INDIFFERENCE = 6.0
 OTHER_SHARE = 0.03

@@ -8,9 +8,9 @@ not moved by single spikes, and what is slow and large by itself stays within a 
 import numpy as np
 from scipy.stats import norm
 
-from core.arrays import Indices, JointSeries
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.result import Stranger
+from ...arrays import Indices, JointSeries
+from ..dataset.dataset import Look
+from ..result import Stranger
 
 SECONDS, APART = 0.3, 0.5
 """Length of a stretch, and how far from it `elsewhere` begins, s."""

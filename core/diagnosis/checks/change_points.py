@@ -11,12 +11,12 @@ from itertools import product
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from core.arrays import Indices, JointSeries, Vector
-from core.diagnosis.checks.unnamed_pattern import Unlisted
-from core.diagnosis.dataset.dataset import ROWS_OVER_BAND
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.numerics.chi2_tail import log_chance
+from ...arrays import Indices, JointSeries, Vector
+from ...numerics.chi2_tail import log_chance
+from ..dataset.dataset import ROWS_OVER_BAND
+from ..search.fitter import Bench
+from ..search.hypothesis import Candidate, Hypothesis
+from .unnamed_pattern import Unlisted
 
 SMOOTHED = (3, 5, 9, 15)
 """Rows that are averaged."""

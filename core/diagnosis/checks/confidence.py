@@ -7,7 +7,7 @@ Advances in Large Margin Classifiers (1999), for the logistic form.
 
 import numpy as np
 
-from core.diagnosis.result import Gain
+from ..result import Gain
 
 CERTAIN = 0.99
 

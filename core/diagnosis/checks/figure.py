@@ -8,14 +8,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import Indices, JointSeries, Vector, Weights
-from core.diagnosis.causes.protocol import Site
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.rows import Columns
-from core.diagnosis.residual.coordinates import coordinate
-from core.diagnosis.result import Curve
-from core.diagnosis.search.hypothesis import Hypothesis
-from core.dynamics.prediction import Prediction
+from ...arrays import Indices, JointSeries, Vector, Weights
+from ...dynamics.prediction import Prediction
+from ..causes.protocol import Site
+from ..dataset.dataset import Look
+from ..regression.rows import Columns
+from ..residual.coordinates import coordinate
+from ..result import Curve
+from ..search.hypothesis import Hypothesis
 
 BINS = 36
 TOLD = 0.8

@@ -4,18 +4,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.diagnosis.causes.sample_check import RawCause, RawFinding
-from core.diagnosis.checks.alternatives import Standing
-from core.diagnosis.checks.confidence import confidence
-from core.diagnosis.checks.figure import curve
-from core.diagnosis.checks.gain import gain
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.result import Evidence, Finding
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.holdout import expected_unseen_rise, unseen_rise
-from core.diagnosis.search.hypothesis import Hypothesis
-from core.diagnosis.search.likelihood_ratio import log_p_of
+from ...arrays import JointSeries
+from ..causes.sample_check import RawCause, RawFinding
+from ..dataset.dataset import Look
+from ..result import Evidence, Finding
+from ..search.fitter import Bench
+from ..search.holdout import expected_unseen_rise, unseen_rise
+from ..search.hypothesis import Hypothesis
+from ..search.likelihood_ratio import log_p_of
+from .alternatives import Standing
+from .confidence import confidence
+from .figure import curve
+from .gain import gain
 
 
 def finding(

@@ -6,8 +6,8 @@ Neighbouring rows share noise and motion, so whole blocks are drawn, never rows.
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.diagnosis.result import Gain
+from ...arrays import JointSeries
+from ..result import Gain
 
 DRAWS = 400
 BLOCK_ROWS = 25

@@ -11,12 +11,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Indices, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.prewhitening import white_left
-from core.diagnosis.regression.rows import extended
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Hypothesis
+from ...arrays import Indices, Vector
+from ..dataset.dataset import Look
+from ..regression.prewhitening import white_left
+from ..regression.rows import extended
+from ..search.fitter import Bench
+from ..search.hypothesis import Hypothesis
 
 Explained = tuple[Bench, Hypothesis]
 """A bench and a hypothesis that was fitted on it."""

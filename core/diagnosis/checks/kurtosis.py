@@ -9,10 +9,10 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 from scipy.stats import norm
 
-from core.arrays import Indices, JointSeries, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.residual.blocks import row_blocks
-from core.diagnosis.result import Stranger
+from ...arrays import Indices, JointSeries, Vector
+from ..dataset.dataset import Look
+from ..residual.blocks import row_blocks
+from ..result import Stranger
 
 SMOOTHED = 5
 """Rows that are averaged: noise shrinks, levels stay."""

@@ -6,11 +6,11 @@ is left shows that something is left. Either must be as sure as a named cause ha
 
 from dataclasses import replace
 
-from core.diagnosis.checks.unnamed_pattern import Unlisted
-from core.diagnosis.search.entry_test import clear_enough, holds_unseen
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.diagnosis.search.likelihood_ratio import merit
+from ..search.entry_test import clear_enough, holds_unseen
+from ..search.fitter import Bench
+from ..search.hypothesis import Candidate, Hypothesis
+from ..search.likelihood_ratio import merit
+from .unnamed_pattern import Unlisted
 
 TRIED = 3
 _UNLISTED = Unlisted()

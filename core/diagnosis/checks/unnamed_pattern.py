@@ -11,13 +11,13 @@ from functools import cache
 
 import numpy as np
 
-from core.arrays import Vector
-from core.diagnosis.causes.protocol import Quantity, Scalars, Site, Solved
-from core.diagnosis.causes.shared.common import OwnJointCause
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
+from ...arrays import Vector
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
+from ..causes.protocol import Quantity, Scalars, Site, Solved
+from ..causes.shared.common import OwnJointCause
+from ..dataset.dataset import Look
 
 WAVES = (1.0, 2.0)
 SLOWEST, QUICKEST = 0.15, 1.0

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from core.arrays import (
+from ...arrays import (
     BlockKey,
     Indices,
     JointMask,
@@ -24,19 +24,19 @@ from core.arrays import (
     Series,
     UsableRows,
 )
-from core.diagnosis.dataset.onset_filter import body_rows
-from core.diagnosis.dataset.segments import pieces_of, thinning
-from core.diagnosis.dataset.stretch import Stretch
-from core.dynamics.model import DynamicModel
-from core.dynamics.term import Term
-from core.dynamics.terms.payload import Payload
-from core.errors import ExcitationError
-from core.log.model import JointLog
-from core.regressor.columns import ColumnPlan
-from core.robot.model import RobotModel
-from core.signals.condition import Motion, condition
-from core.signals.recipe import FilterOptions, choose_recipe
-from core.signals.state import MotionState
+from ...dynamics.model import DynamicModel
+from ...dynamics.term import Term
+from ...dynamics.terms.payload import Payload
+from ...errors import ExcitationError
+from ...log.model import JointLog
+from ...regressor.columns import ColumnPlan
+from ...robot.model import RobotModel
+from ...signals.condition import Motion, condition
+from ...signals.recipe import FilterOptions, choose_recipe
+from ...signals.state import MotionState
+from .onset_filter import body_rows
+from .segments import pieces_of, thinning
+from .stretch import Stretch
 
 BAND_OVER_MOTION = 40.0
 RATE_OVER_BAND = 12.0

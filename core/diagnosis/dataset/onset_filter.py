@@ -8,10 +8,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.arrays import KeptSeries, Series
-from core.diagnosis.dataset.stretch import Stretch
-from core.dynamics.terms.payload import Payload
-from core.robot.model import RobotModel
+from ...arrays import KeptSeries, Series
+from ...dynamics.terms.payload import Payload
+from ...robot.model import RobotModel
+from .stretch import Stretch
 
 
 def body_rows(body: Payload, robot: RobotModel, stretch: Stretch) -> KeptSeries:

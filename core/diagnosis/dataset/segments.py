@@ -9,16 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, JointMask, JointSeries
-from core.diagnosis.dataset.spikes import without_spikes
-from core.diagnosis.dataset.stiction import resting, sticking
-from core.diagnosis.dataset.stretch import Stretch
-from core.log.model import Defect, JointLog
-from core.robot.model import RobotModel
-from core.signals.condition import Motion
-from core.signals.parallel import ParallelFilter
-from core.signals.segment import Segment
-from core.signals.state import MotionState
+from ...arrays import Indices, JointMask, JointSeries
+from ...log.model import Defect, JointLog
+from ...robot.model import RobotModel
+from ...signals.condition import Motion
+from ...signals.parallel import ParallelFilter
+from ...signals.segment import Segment
+from ...signals.state import MotionState
+from .spikes import without_spikes
+from .stiction import resting, sticking
+from .stretch import Stretch
 
 STATE_OVER_BAND = 8.0
 """States are thinned to eight times the band: nothing above the position filter is left to alias."""

@@ -6,10 +6,10 @@ Am. Stat. Assoc. 88, 1993, for outliers against a quantile of what surrounds the
 
 import numpy as np
 
-from core.arrays import JointMask, JointSeries
-from core.dynamics.terms.contact import Span
-from core.log.model import JointLog
-from core.signals.derivative import median
+from ...arrays import JointMask, JointSeries
+from ...dynamics.terms.contact import Span
+from ...log.model import JointLog
+from ...signals.derivative import median
 
 ORDER = 5
 """Of the running median that a push passes and a spike does not."""

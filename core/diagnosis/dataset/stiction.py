@@ -11,12 +11,12 @@ from itertools import pairwise
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import JointVector, Series
-from core.diagnosis.dataset.stretch import Stretch
-from core.dynamics.terms.coupling import motor_speed
-from core.dynamics.terms.effect import step_of
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointVector, Series
+from ...dynamics.terms.coupling import motor_speed
+from ...dynamics.terms.effect import step_of
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from .stretch import Stretch
 
 SHAPES = 4.0
 """Polynomials per period of the look's cut-off, twice what an ideal filter would let through."""

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import KeptSeries, Series
-from core.signals.parallel import ParallelFilter
-from core.signals.state import MotionState
+from ...arrays import KeptSeries, Series
+from ...signals.parallel import ParallelFilter
+from ...signals.state import MotionState
 
 
 @dataclass(frozen=True, eq=False)

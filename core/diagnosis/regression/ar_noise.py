@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, Matrix, SquareMatrix, Vector, Weights
-from core.numerics.recursions import innovate, reflect
+from ...arrays import Indices, Matrix, SquareMatrix, Vector, Weights
+from ...numerics.recursions import innovate, reflect
 
 HIGHEST_ORDER = 12
 ROWS_PER_ORDER, ROWS_PER_REFLECTION = 30, 10

@@ -16,11 +16,11 @@ import numpy as np
 from scipy.linalg import cho_factor
 from scipy.linalg.lapack import dpotrs
 
-from core.arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
-from core.diagnosis.regression.ar_noise import JointNoise, learn_noise
-from core.diagnosis.regression.prewhitening import Whitened, whitened
-from core.diagnosis.regression.rows import JointRows
-from core.estimate.gaussian_prior import Belief
+from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
+from ...estimate.gaussian_prior import Belief
+from .ar_noise import JointNoise, learn_noise
+from .prewhitening import Whitened, whitened
+from .rows import JointRows
 
 RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""

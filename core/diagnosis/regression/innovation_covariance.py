@@ -6,10 +6,10 @@ A first look only settles where to search; what counts is judged on the compleme
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import Indices, JointSeries, UsableRows, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.ar_noise import learn_noise, places
-from core.dynamics.prediction import Prediction
+from ...arrays import Indices, JointSeries, UsableRows, Vector
+from ...dynamics.prediction import Prediction
+from ..dataset.dataset import Look
+from .ar_noise import learn_noise, places
 
 MIDDLE = 1.4826
 """Deviation of normal numbers over their median size."""

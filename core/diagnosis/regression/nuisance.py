@@ -14,8 +14,8 @@ from scipy.linalg import cholesky_banded
 from scipy.linalg.lapack import dpbtrs, dpstrf, dtbtrs
 from scipy.sparse import csr_array
 
-from core.arrays import EquationRows, Matrix, Vector, Weights
-from core.numerics.recursions import banded
+from ...arrays import EquationRows, Matrix, Vector, Weights
+from ...numerics.recursions import banded
 
 LEAST = 1e-4
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but

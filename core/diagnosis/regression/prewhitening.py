@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
-from core.diagnosis.regression.ar_noise import JointNoise
-from core.diagnosis.regression.nuisance import Free, free_of
-from core.diagnosis.regression.rows import JointRows
+from ...arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
+from .ar_noise import JointNoise
+from .nuisance import Free, free_of
+from .rows import JointRows
 
 ROUNDING = 1e-12
 """Share of a column's square below which what is left of it beside free columns is rounding."""

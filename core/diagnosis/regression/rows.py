@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import EquationRows, Indices, Matrix, Vector, Weights
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.ar_noise import places
-from core.diagnosis.regression.nuisance import Free, free_of, independent
+from ...arrays import EquationRows, Indices, Matrix, Vector, Weights
+from ..dataset.dataset import Look
+from .ar_noise import places
+from .nuisance import Free, free_of, independent
 
 Columns = Mapping[int, EquationRows]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
-from core.arrays import EquationRows, Indices, Matrix, Weights
-from core.diagnosis.regression.gls import OPEN_SHARE, Fit
-from core.diagnosis.regression.rows import Columns, JointRows
-from core.numerics.recursions import sum_begun
+from ...arrays import EquationRows, Indices, Matrix, Weights
+from ...numerics.recursions import sum_begun
+from .gls import OPEN_SHARE, Fit
+from .rows import Columns, JointRows
 
 
 @dataclass(frozen=True, eq=False)

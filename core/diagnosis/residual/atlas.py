@@ -16,14 +16,14 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.stats import chi2
 
-from core.arrays import Indices, JointSeries, SquareMatrix, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.ar_noise import JointNoise, learn_noise, places
-from core.diagnosis.residual.coordinates import coordinate, coordinate_names
-from core.diagnosis.residual.floor import NoiseFloor, noise_floor
-from core.diagnosis.residual.memory import covariance_of_sums
-from core.diagnosis.residual.spectrum import ResidualSpectrum, residual_spectra
-from core.dynamics.prediction import Prediction
+from ...arrays import Indices, JointSeries, SquareMatrix, Vector
+from ...dynamics.prediction import Prediction
+from ..dataset.dataset import Look
+from ..regression.ar_noise import JointNoise, learn_noise, places
+from .coordinates import coordinate, coordinate_names
+from .floor import NoiseFloor, noise_floor
+from .memory import covariance_of_sums
+from .spectrum import ResidualSpectrum, residual_spectra
 
 BINS = 30
 FEWEST_IN_BIN = 8

@@ -12,8 +12,8 @@ from itertools import pairwise
 import numpy as np
 from scipy.stats import t as student
 
-from core.arrays import Indices, Vector
-from core.diagnosis.dataset.dataset import Look
+from ...arrays import Indices, Vector
+from ..dataset.dataset import Look
 
 BLOCKS = 20
 LEVEL = 0.975

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.errors import OptionError
-from core.robot.joint_units import joint_unit
+from ...arrays import JointSeries, Samples
+from ...dynamics.prediction import Prediction
+from ...errors import OptionError
+from ...robot.joint_units import joint_unit
+from ..dataset.dataset import Look
 
 OTHER_VELOCITY = "velocity_of_joint_"
 

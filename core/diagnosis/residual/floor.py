@@ -13,10 +13,10 @@ from typing import Literal
 import numpy as np
 from scipy.signal import detrend, welch
 
-from core.arrays import JointSeries, JointVector, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.residual.period import Repeats, both_clear, later_by, repeating, repeats
-from core.signals.zero_phase import gain
+from ...arrays import JointSeries, JointVector, Vector
+from ...signals.zero_phase import gain
+from ..dataset.dataset import Look
+from .period import Repeats, both_clear, later_by, repeating, repeats
 
 FloorSource = Literal["repeats", "high_band", "none"]
 HIGH_BAND_OVER_LOOK = 1.5

@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Indices, JointMask, JointSeries, Matrix, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.ar_noise import JointNoise
-from core.diagnosis.residual.blocks import Share, row_blocks, share_on_blocks
-from core.diagnosis.residual.coordinates import coordinate, coordinate_series
-from core.diagnosis.residual.memory import memory
-from core.dynamics.prediction import Prediction
-from core.errors import ExcitationError
+from ...arrays import Indices, JointMask, JointSeries, Matrix, Vector
+from ...dynamics.prediction import Prediction
+from ...errors import ExcitationError
+from ..dataset.dataset import Look
+from ..regression.ar_noise import JointNoise
+from .blocks import Share, row_blocks, share_on_blocks
+from .coordinates import coordinate, coordinate_series
+from .memory import memory
 
 FOLDS = 5
 TREES = 40

@@ -10,8 +10,8 @@ from itertools import pairwise
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from core.arrays import Indices, Matrix, SquareMatrix, Vector
-from core.diagnosis.regression.ar_noise import JointNoise
+from ...arrays import Indices, Matrix, SquareMatrix, Vector
+from ..regression.ar_noise import JointNoise
 
 FORGOTTEN = 0.1
 """A noise has forgotten where its correlation with the past stays below this."""

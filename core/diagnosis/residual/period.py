@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from core.arrays import JointMask, JointSeries, Rows, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.dataset.stretch import Stretch
+from ...arrays import JointMask, JointSeries, Rows, Vector
+from ..dataset.dataset import Look
+from ..dataset.stretch import Stretch
 
 SAME = 0.02
 """A joint is where it was when it misses by less than this share of its RMS swing (and speed)."""

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import welch
 
-from core.arrays import JointSeries, Vector
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.residual.floor import NoiseFloor, passed
+from ...arrays import JointSeries, Vector
+from ..dataset.dataset import Look
+from .floor import NoiseFloor, passed
 
 LONGEST = 256
 SHORTEST = 32

@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from core.diagnosis.causes.protocol import Site
-from core.diagnosis.regression.rows import Columns
-from core.diagnosis.search.candidates import Suspicion
-from core.diagnosis.search.hypothesis import Candidate
+from ..causes.protocol import Site
+from ..regression.rows import Columns
+from .candidates import Suspicion
+from .hypothesis import Candidate
 
 NEAR = 0.01
 """Share of a joint's torque within which two predictions rank candidates of the joint alike."""

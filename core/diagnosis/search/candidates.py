@@ -10,15 +10,15 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.diagnosis.causes.protocol import Cause, Site
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.rows import Columns
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis, Place, Scored
-from core.dynamics.model import DynamicModel
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.simulation.inverse import inverse_dynamics
+from ...arrays import JointVector
+from ...dynamics.model import DynamicModel
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
+from ...simulation.inverse import inverse_dynamics
+from ..causes.protocol import Cause, Site
+from ..dataset.dataset import Look
+from ..regression.rows import Columns
+from .hypothesis import Candidate, Hypothesis, Place, Scored
 
 
 @dataclass(frozen=True, eq=False)

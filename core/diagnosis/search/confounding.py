@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.diagnosis.search.likelihood_ratio import bounded_rise, log_p, rise, rise_by_joint
+from .fitter import Bench
+from .hypothesis import Candidate, Hypothesis
+from .likelihood_ratio import bounded_rise, log_p, rise, rise_by_joint
 
 BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""

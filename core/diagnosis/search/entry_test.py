@@ -8,14 +8,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Site
-from core.diagnosis.search.confounding import left_over
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.holdout import unseen_rise, unseen_share
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis, Scored
-from core.diagnosis.search.likelihood_ratio import bounded_rise, log_p, merit, rise, weight
-from core.diagnosis.search.lr_bound import foreseen
-from core.diagnosis.search.profile_likelihood import refined
+from ..causes.protocol import Site
+from .confounding import left_over
+from .fitter import Bench
+from .holdout import unseen_rise, unseen_share
+from .hypothesis import Candidate, Hypothesis, Scored
+from .likelihood_ratio import bounded_rise, log_p, merit, rise, weight
+from .lr_bound import foreseen
+from .profile_likelihood import refined
 
 Key = tuple[str, Site]
 GivenUp = Mapping[Key, float]

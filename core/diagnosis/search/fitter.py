@@ -11,19 +11,19 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import Indices, JointSeries, JointVector
-from core.diagnosis.causes.protocol import Cause
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.gls import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit
-from core.diagnosis.regression.rows import Columns, extended, joint_rows
-from core.diagnosis.regression.score_test import Panel, Score, score, score_from
-from core.diagnosis.search.candidate_cache import Ranking, ranking_under
-from core.diagnosis.search.candidates import Suspicion, joined_by, nothing_suspected
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
-from core.dynamics.prediction import Prediction
-from core.estimate.gaussian_prior import Belief
-from core.regressor.columns import ColumnPlan
-from core.simulation.inverse import inverse_dynamics
+from ...arrays import Indices, JointSeries, JointVector
+from ...dynamics.prediction import Prediction
+from ...estimate.gaussian_prior import Belief
+from ...regressor.columns import ColumnPlan
+from ...simulation.inverse import inverse_dynamics
+from ..causes.protocol import Cause
+from ..dataset.dataset import Look
+from ..regression.gls import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit
+from ..regression.rows import Columns, extended, joint_rows
+from ..regression.score_test import Panel, Score, score, score_from
+from .candidate_cache import Ranking, ranking_under
+from .candidates import Suspicion, joined_by, nothing_suspected
+from .hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
 
 SCORED_ANEW = 24
 """Best kinds of a scan that are scored anew where columns are of an earlier belief; fewer are ever fitted."""

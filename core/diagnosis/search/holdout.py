@@ -5,10 +5,10 @@ Source: Stone, J. R. Stat. Soc. B 36(2), 1974, on judging by data that the choic
 
 import numpy as np
 
-from core.diagnosis.regression.prewhitening import white_left
-from core.diagnosis.regression.rows import JointRows, extended
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Hypothesis
+from ..regression.prewhitening import white_left
+from ..regression.rows import JointRows, extended
+from .fitter import Bench
+from .hypothesis import Hypothesis
 
 
 def unseen_rise(bench: Bench, now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:

@@ -6,13 +6,13 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import SquareMatrix, Vector
-from core.diagnosis.causes.protocol import Cause, Scalars, Site, Solved
-from core.diagnosis.regression.gls import OPEN_SHARE, Fit
-from core.diagnosis.regression.score_test import Score
-from core.numerics.chi2_tail import log_chance
-from core.robot.joint_units import slides
-from core.robot.model import RobotModel
+from ...arrays import SquareMatrix, Vector
+from ...numerics.chi2_tail import log_chance
+from ...robot.joint_units import slides
+from ...robot.model import RobotModel
+from ..causes.protocol import Cause, Scalars, Site, Solved
+from ..regression.gls import OPEN_SHARE, Fit
+from ..regression.score_test import Score
 
 Place = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: what columns are kept under."""

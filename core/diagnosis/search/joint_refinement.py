@@ -7,10 +7,10 @@ it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on settling nonli
 
 from dataclasses import replace
 
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.diagnosis.search.likelihood_ratio import rise
-from core.diagnosis.search.profile_likelihood import refined, told
+from .fitter import Bench
+from .hypothesis import Candidate, Hypothesis
+from .likelihood_ratio import rise
+from .profile_likelihood import refined, told
 
 SETTLINGS = 8
 """Times that what is believed and what is found are settled on each other at most,"""

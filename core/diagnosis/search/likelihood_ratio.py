@@ -5,9 +5,9 @@ Source: Schwarz, Ann. Stat. 6(2), 1978, for the criterion.
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Hypothesis, Scored
+from ...arrays import JointVector
+from .fitter import Bench
+from .hypothesis import Hypothesis, Scored
 
 MOST_OF_A_ROW = 16.0
 """Squared deviations that a row may count for."""

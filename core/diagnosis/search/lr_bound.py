@@ -10,12 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Weights
-from core.diagnosis.regression.ar_noise import learn_noise
-from core.diagnosis.regression.gls import Fit, degrees_taken
-from core.diagnosis.regression.rows import JointRows, extended
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Hypothesis, Scored
+from ...arrays import Weights
+from ..regression.ar_noise import learn_noise
+from ..regression.gls import Fit, degrees_taken
+from ..regression.rows import JointRows, extended
+from .fitter import Bench
+from .hypothesis import Hypothesis, Scored
 
 Effect = Mapping[int, Weights]
 """Torque per joint (from 0) and row, N m or N."""

@@ -11,12 +11,12 @@ from functools import cache
 import numpy as np
 from scipy.optimize import root_scalar
 
-from core.arrays import Vector
-from core.diagnosis.regression.score_test import Score
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.grid import between, neighbours
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis, allowed
-from core.numerics.chi2_tail import log_chance
+from ...arrays import Vector
+from ...numerics.chi2_tail import log_chance
+from ..regression.score_test import Score
+from .fitter import Bench
+from .grid import between, neighbours
+from .hypothesis import Candidate, Hypothesis, allowed
 
 YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""

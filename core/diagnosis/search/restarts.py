@@ -9,12 +9,12 @@ Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 
 import numpy as np
 
-from core.diagnosis.checks.alternatives import INDIFFERENCE
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Hypothesis
-from core.diagnosis.search.joint_refinement import WORTH_SETTLING
-from core.diagnosis.search.likelihood_ratio import rise
-from core.diagnosis.search.stepwise import Selection, Step, begun_with, continued
+from ..checks.alternatives import INDIFFERENCE
+from .fitter import Bench
+from .hypothesis import Hypothesis
+from .joint_refinement import WORTH_SETTLING
+from .likelihood_ratio import rise
+from .stepwise import Selection, Step, begun_with, continued
 
 SEVERAL = 2
 """Findings that may be one."""

@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.diagnosis.search.confounding import BESIDE_SHARE, left_over
-from core.diagnosis.search.entry_test import Key, best_addition, clear_enough, stays, with_candidate
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.diagnosis.search.joint_refinement import settled
-from core.diagnosis.search.likelihood_ratio import merit, rise
+from .confounding import BESIDE_SHARE, left_over
+from .entry_test import Key, best_addition, clear_enough, stays, with_candidate
+from .fitter import Bench
+from .hypothesis import Candidate, Hypothesis
+from .joint_refinement import settled
+from .likelihood_ratio import merit, rise
 
 Keys = frozenset[Key]
 """The kinds of a hypothesis's members."""

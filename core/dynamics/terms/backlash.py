@@ -12,14 +12,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
-from core.dynamics.gear import Gear
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
-from core.dynamics.terms.elasticity import smoothed
-from core.numerics.recursions import fly
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries, Samples
+from ...numerics.recursions import fly
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..gear import Gear
+from ..prediction import Prediction
+from .effect import AllJointsTerm, Symbol, rates, step_of
+from .elasticity import smoothed
 
 
 @dataclass(frozen=True, eq=False)

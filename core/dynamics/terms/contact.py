@@ -12,12 +12,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples
-from core.dynamics.jacobian import Jacobian, jacobian
-from core.dynamics.terms.effect import AllJointsTerm, Symbol
-from core.dynamics.terms.rounding import without_rounding
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries, Samples
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..jacobian import Jacobian, jacobian
+from .effect import AllJointsTerm, Symbol
+from .rounding import without_rounding
 
 Span = tuple[float, float]
 """Start and end of a contact, s."""

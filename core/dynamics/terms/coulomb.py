@@ -10,12 +10,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Samples, Series
-from core.dynamics.term import Entry
-from core.dynamics.terms.own_joint import own_joint_entries, own_joint_parameters, own_joint_series
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ...arrays import Samples, Series
+from ...robot.model import RobotModel
+from ...robot.parameters import Parameter
+from ...signals.state import MotionState
+from ..term import Entry
+from .own_joint import own_joint_entries, own_joint_parameters, own_joint_series
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Samples, Series
-from core.dynamics.term import Entry
-from core.dynamics.terms.coulomb import direction
-from core.robot.model import Coupling, RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ...arrays import Samples, Series
+from ...robot.model import Coupling, RobotModel
+from ...robot.parameters import Parameter
+from ...signals.state import MotionState
+from ..term import Entry
+from .coulomb import direction
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ gain; Gautier & Briot 2011 on drive gains.
 from dataclasses import dataclass
 from typing import ClassVar
 
-from core.arrays import Samples
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import OneJointTerm, Symbol
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import Samples
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..prediction import Prediction
+from .effect import OneJointTerm, Symbol
 
 
 @dataclass(frozen=True, eq=False)

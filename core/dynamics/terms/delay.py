@@ -11,11 +11,11 @@ from typing import ClassVar
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.arrays import JointSeries
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..prediction import Prediction
+from .effect import AllJointsTerm, Symbol, rates
 
 
 @dataclass(frozen=True, eq=False)

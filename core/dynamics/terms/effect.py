@@ -8,12 +8,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries, Samples, Series
-from core.dynamics.term import Entry
-from core.robot.joint_units import joint_unit
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ...arrays import JointSeries, Samples, Series
+from ...robot.joint_units import joint_unit
+from ...robot.model import RobotModel
+from ...robot.parameters import Parameter
+from ...signals.state import MotionState
+from ..term import Entry
 
 Symbol = tuple[str, str, float | None]
 """Name, SI unit (on a joint that turns), and physical lower bound (None where any sign is possible)."""

@@ -12,15 +12,15 @@ from typing import ClassVar
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
-from core.arrays import JointSeries, Samples, Spectrum
-from core.dynamics.gear import Gear
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, Symbol, rates, step_of
-from core.robot.joint_units import joint_unit
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
-from core.signals.zero_phase import kernel
+from ...arrays import JointSeries, Samples, Spectrum
+from ...robot.joint_units import joint_unit
+from ...robot.model import RobotModel
+from ...robot.parameters import Parameter
+from ...signals.state import MotionState
+from ...signals.zero_phase import kernel
+from ..gear import Gear
+from ..prediction import Prediction
+from .effect import AllJointsTerm, Symbol, rates, step_of
 
 
 @dataclass(frozen=True, eq=False)

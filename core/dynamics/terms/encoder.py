@@ -10,11 +10,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.dynamics.prediction import Prediction, moved
-from core.dynamics.terms.effect import AllJointsTerm, Symbol
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..prediction import Prediction, moved
+from .effect import AllJointsTerm, Symbol
 
 SMALL = 1e-5
 """Size of the finite error, rad: its square is nothing, its rounding neither."""

@@ -7,11 +7,11 @@ column is the change per unit of the entry. Source: Khalil & Dombre (2002), ch. 
 from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
-from core.arrays import JointSeries
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, Symbol
-from core.robot.model import Link, RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries
+from ...robot.model import Link, RobotModel
+from ...signals.state import MotionState
+from ..prediction import Prediction
+from .effect import AllJointsTerm, Symbol
 
 EntryName = Literal["alpha", "d", "r"]
 ENTRY_UNITS: dict[EntryName, str] = {"alpha": "rad", "d": "m", "r": "m"}

@@ -7,12 +7,12 @@ the model's own parameters are known beforehand. Source: Khalil & Dombre (2002),
 from dataclasses import dataclass
 from typing import ClassVar
 
-from core.arrays import JointSeries
-from core.dynamics.terms.effect import AllJointsTerm, Symbol
-from core.dynamics.terms.payload import body_torques
-from core.robot.model import RobotModel
-from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
-from core.signals.state import MotionState
+from ...arrays import JointSeries
+from ...robot.model import RobotModel
+from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ...signals.state import MotionState
+from .effect import AllJointsTerm, Symbol
+from .payload import body_torques
 
 
 @dataclass(frozen=True, eq=False)

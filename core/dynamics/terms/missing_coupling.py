@@ -7,12 +7,12 @@ Gautier, IEEE Trans. Control Syst. Technol. 22(1), 2014.
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from core.arrays import Series
-from core.dynamics.term import Entry
-from core.dynamics.terms.coupling import GearCoupling
-from core.robot.model import Coupling, RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ...arrays import Series
+from ...robot.model import Coupling, RobotModel
+from ...robot.parameters import Parameter
+from ...signals.state import MotionState
+from ..term import Entry
+from .coupling import GearCoupling
 
 
 @dataclass(frozen=True, eq=False)

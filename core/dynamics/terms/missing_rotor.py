@@ -6,10 +6,10 @@ Source: Khalil & Dombre, Modeling, Identification and Control of Robots (2002), 
 from dataclasses import dataclass
 from typing import ClassVar
 
-from core.arrays import Samples
-from core.dynamics.terms.effect import OneJointTerm, Symbol
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import Samples
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from .effect import OneJointTerm, Symbol
 
 
 @dataclass(frozen=True, eq=False)

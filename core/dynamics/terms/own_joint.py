@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import Samples, Series
-from core.dynamics.term import Entry
-from core.robot.joint_units import joint_unit
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
+from ...arrays import Samples, Series
+from ...robot.joint_units import joint_unit
+from ...robot.model import RobotModel
+from ...robot.parameters import Parameter
+from ..term import Entry
 
 
 def own_joint_parameters(

@@ -11,13 +11,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries
-from core.dynamics.newton_euler import unit_torques
-from core.dynamics.terms.effect import AllJointsTerm, Symbol
-from core.dynamics.terms.rounding import without_rounding
-from core.robot.model import RobotModel
-from core.robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
-from core.signals.state import MotionState
+from ...arrays import JointSeries
+from ...robot.model import RobotModel
+from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ...signals.state import MotionState
+from ..newton_euler import unit_torques
+from .effect import AllJointsTerm, Symbol
+from .rounding import without_rounding
 
 
 @dataclass(frozen=True, eq=False)

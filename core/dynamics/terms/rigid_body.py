@@ -10,12 +10,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Series
-from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.term import Entry
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter, inertial_parameters
-from core.signals.state import MotionState
+from ...arrays import Series
+from ...robot.model import RobotModel
+from ...robot.parameters import Parameter, inertial_parameters
+from ...signals.state import MotionState
+from ..newton_euler import inverse_dynamics
+from ..term import Entry
 
 
 @dataclass(frozen=True)

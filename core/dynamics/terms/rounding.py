@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.arrays import JointSeries
+from ...arrays import JointSeries
 
 ROUNDING = 1e-9
 """Share of the largest of some columns below which another one is rounding."""

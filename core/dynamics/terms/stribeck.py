@@ -9,10 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Samples
-from core.dynamics.terms.effect import OneJointTerm, Symbol
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import Samples
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from .effect import OneJointTerm, Symbol
 
 
 @dataclass(frozen=True, eq=False)

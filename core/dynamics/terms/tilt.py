@@ -10,12 +10,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import JointSeries, Vector3
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, Symbol
-from core.dynamics.terms.rounding import without_rounding
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries, Vector3
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..prediction import Prediction
+from .effect import AllJointsTerm, Symbol
+from .rounding import without_rounding
 
 
 @dataclass(frozen=True, eq=False)

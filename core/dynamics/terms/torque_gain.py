@@ -7,11 +7,11 @@ Gautier & Briot, IFAC World Congress 2011.
 from dataclasses import dataclass
 from typing import ClassVar
 
-from core.arrays import JointSeries, Samples
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import AllJointsTerm, OneJointTerm, Symbol
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from ...arrays import JointSeries, Samples
+from ...robot.model import RobotModel
+from ...signals.state import MotionState
+from ..prediction import Prediction
+from .effect import AllJointsTerm, OneJointTerm, Symbol
 
 
 @dataclass(frozen=True, eq=False)

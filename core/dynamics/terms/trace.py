@@ -13,11 +13,11 @@ from typing import ClassVar
 import numpy as np
 from scipy.signal import lfilter
 
-from core.arrays import Samples
-from core.dynamics.terms.effect import OneJointTerm, step_of
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
+from ...arrays import Samples
+from ...robot.model import RobotModel
+from ...robot.parameters import Parameter
+from ...signals.state import MotionState
+from .effect import OneJointTerm, step_of
 
 HARMONICS = 3
 SWING_DAMPING = 0.05

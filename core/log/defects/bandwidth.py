@@ -6,9 +6,9 @@ over windows of the log, says up to which frequency the motion reaches.
 
 import numpy as np
 
-from core.arrays import Series
-from core.log.defects.stretch import Facts, Stretch
-from core.log.model import Defect
+from ...arrays import Series
+from ..model import Defect
+from .stretch import Facts, Stretch
 
 LONGEST_WINDOW = 4096
 SHORTEST_WINDOW = 32

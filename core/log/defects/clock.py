@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import Samples
-from core.log.defects.runs import KEPT, Runs
-from core.log.defects.stretch import Facts, Stretch, counted, sampled_share
-from core.log.model import Defect
+from ...arrays import Samples
+from ..model import Defect
+from .runs import KEPT, Runs
+from .stretch import Facts, Stretch, counted, sampled_share
 
 GAP_STEPS = 3.0
 """A step of more than this many median steps is a gap."""

@@ -8,20 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.log.contract import Contract, check_length
-from core.log.defects.bandwidth import Bandwidth
-from core.log.defects.clock import Clock
-from core.log.defects.plausibility import plausibility_defects
-from core.log.defects.repeats import Repeats, cut
-from core.log.defects.resolution import Resolution
-from core.log.defects.rest import Rest
-from core.log.defects.saturation import Saturation
-from core.log.defects.spikes import Spikes
-from core.log.defects.stretch import Facts, Finder, Stretch, stretches
-from core.log.defects.stuck import Stuck
-from core.log.layout import Layout
-from core.log.model import Defect, LogSource
+from ...arrays import JointVector
+from ..contract import Contract, check_length
+from ..layout import Layout
+from ..model import Defect, LogSource
+from .bandwidth import Bandwidth
+from .clock import Clock
+from .plausibility import plausibility_defects
+from .repeats import Repeats, cut
+from .resolution import Resolution
+from .rest import Rest
+from .saturation import Saturation
+from .spikes import Spikes
+from .stretch import Facts, Finder, Stretch, stretches
+from .stuck import Stuck
 
 
 @dataclass(frozen=True)

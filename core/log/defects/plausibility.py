@@ -6,9 +6,9 @@ decides.
 
 import numpy as np
 
-from core.log.defects.stretch import Facts
-from core.log.model import Defect
-from core.log.units import TORQUE_OR_FORCE
+from ..model import Defect
+from ..units import TORQUE_OR_FORCE
+from .stretch import Facts
 
 LARGEST_SPAN = 13.0
 """A joint that turns from minus one turn to plus one spans 12.6 rad."""

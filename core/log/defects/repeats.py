@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import JointVector
-from core.log.defects.runs import LongRuns, Runs
-from core.log.defects.stretch import Facts, Stretch, counted, repeats_previous
-from core.log.model import Defect
+from ...arrays import JointVector
+from ..model import Defect
+from .runs import LongRuns, Runs
+from .stretch import Facts, Stretch, counted, repeats_previous
 
 NOTICED = 1e-3
 """A smaller share of repeated rows is not worth a word."""

@@ -6,10 +6,10 @@ inherits the step divided by the sample time, which is why a fast log of a coars
 
 import numpy as np
 
-from core.arrays import JointVector, Samples, Series
-from core.log.defects.stretch import Facts, Stretch, sampled_share
-from core.log.model import Defect
-from core.log.units import ANGLE_OR_WAY, TORQUE_OR_FORCE
+from ...arrays import JointVector, Samples, Series
+from ..model import Defect
+from ..units import ANGLE_OR_WAY, TORQUE_OR_FORCE
+from .stretch import Facts, Stretch, sampled_share
 
 SAMPLED_ROWS = 20_000
 SMALL_STEPS = 20

@@ -6,10 +6,10 @@ fit.
 
 import numpy as np
 
-from core.arrays import Indices, SampleMask, Samples, Series
-from core.log.defects.runs import KEPT
-from core.log.defects.stretch import Facts, Stretch, counted
-from core.log.model import Defect
+from ...arrays import Indices, SampleMask, Samples, Series
+from ..model import Defect
+from .runs import KEPT
+from .stretch import Facts, Stretch, counted
 
 BLOCK_SECONDS = 0.1
 MOST_BLOCKS = 100_000

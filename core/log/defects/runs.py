@@ -5,8 +5,8 @@ A log can hold a million runs; the count and total are exact, and only the twent
 
 import numpy as np
 
-from core.arrays import EquationRows, SampleMask, Samples
-from core.log.model import STANDING_ROWS
+from ...arrays import EquationRows, SampleMask, Samples
+from ..model import STANDING_ROWS
 
 KEPT = 20
 

@@ -6,11 +6,11 @@ highest; a limited signal spends all the time at the limit that it would have sp
 
 import numpy as np
 
-from core.arrays import SampleMask, Samples
-from core.log.defects.runs import Runs
-from core.log.defects.stretch import Facts, Stretch
-from core.log.model import Defect
-from core.log.units import TORQUE_OR_FORCE
+from ...arrays import SampleMask, Samples
+from ..model import Defect
+from ..units import TORQUE_OR_FORCE
+from .runs import Runs
+from .stretch import Facts, Stretch
 
 SHORTEST_PLATEAU = 5
 FEWEST_ROWS = 10

@@ -6,11 +6,11 @@ where there is none. The scale is local, because a resting arm is quieter than a
 
 import numpy as np
 
-from core.arrays import Matrix, Samples, Series, Vector
-from core.log.defects.runs import Runs
-from core.log.defects.stretch import Facts, Stretch, counted
-from core.log.model import Defect
-from core.log.units import ANGLE_OR_WAY, TORQUE_OR_FORCE
+from ...arrays import Matrix, Samples, Series, Vector
+from ..model import Defect
+from ..units import ANGLE_OR_WAY, TORQUE_OR_FORCE
+from .runs import Runs
+from .stretch import Facts, Stretch, counted
 
 SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05}
 """Smaller jumps, as a share of the channel's range, are noise to everything that follows."""

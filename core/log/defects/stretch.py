@@ -11,8 +11,8 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Bool
 
-from core.arrays import JointSeries, JointVector, Samples, Series
-from core.log.model import Defect, LogSource
+from ...arrays import JointSeries, JointVector, Samples, Series
+from ..model import Defect, LogSource
 
 Mask = Bool[np.ndarray, " increments"]
 

@@ -9,11 +9,11 @@ from collections import Counter
 
 import numpy as np
 
-from core.arrays import Samples
-from core.log.defects.repeats import JUMP, Repeats, Rows
-from core.log.defects.runs import KEPT, LongRuns
-from core.log.defects.stretch import Facts, Stretch, counted
-from core.log.model import STANDING_ROWS, Defect
+from ...arrays import Samples
+from ..model import STANDING_ROWS, Defect
+from .repeats import JUMP, Repeats, Rows
+from .runs import KEPT, LongRuns
+from .stretch import Facts, Stretch, counted
 
 RARELY, OFTEN = 0.1, 0.05
 """A torque that carries noise repeats the value before in a smaller share of the samples than this, and turns

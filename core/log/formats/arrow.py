@@ -6,7 +6,7 @@ That takes longer than reading a log, and a process that may open nothing any mo
 import numpy as np
 import pyarrow as pa
 
-from core.arrays import Samples
+from ...arrays import Samples
 
 
 def numbers(column: pa.Array) -> Samples:

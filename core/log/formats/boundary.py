@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from core.errors import LogError, VeritorqueError
+from ...errors import LogError, VeritorqueError
 
 
 @contextmanager

@@ -7,7 +7,7 @@ a mistake.
 from dataclasses import dataclass
 from pathlib import Path
 
-from core.errors import LogError
+from ...errors import LogError
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 NO_CLAIM = ("", "application/octet-stream", "binary/octet-stream")

@@ -17,11 +17,11 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.csv as arrow_csv
 
-from core.arrays import Series
-from core.errors import LogError
-from core.log.formats.arrow import numbers
-from core.log.formats.boundary import reading
-from core.log.formats.table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric
+from ...arrays import Series
+from ...errors import LogError
+from .arrow import numbers
+from .boundary import reading
+from .table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric
 
 FORM = "CSV"
 HEAD_BYTES = 1 << 20

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from core.errors import LogError
-from core.log.formats.boundary import reading
-from core.log.formats.table import (
+from ...errors import LogError
+from .boundary import reading
+from .table import (
     MAX_COLUMNS,
     MemoryTable,
     check_columns,

@@ -13,13 +13,13 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from core.arrays import Series
-from core.errors import LogError
-from core.log.formats.arrow import numbers
-from core.log.formats.boundary import reading
-from core.log.formats.table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric
-from core.log.layout import Layout
-from core.log.model import LogRows
+from ...arrays import Series
+from ...errors import LogError
+from ..layout import Layout
+from ..model import LogRows
+from .arrow import numbers
+from .boundary import reading
+from .table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric
 
 FORM = "Parquet"
 BUFFER_BYTES = 1 << 18

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from core.errors import LogError
-from core.log.formats.boundary import reading
-from core.log.formats.table import MemoryTable, check_columns, check_density, check_values
+from ...errors import LogError
+from .boundary import reading
+from .table import MemoryTable, check_columns, check_density, check_values
 
 MCAP_FORM, BAG_FORM = "MCAP", "ROS bag"
 JOINT_STATE = "sensor_msgs/msg/JointState"

@@ -12,8 +12,8 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from core.arrays import Series
-from core.errors import LogError
+from ...arrays import Series
+from ...errors import LogError
 
 MAX_COLUMNS = 512
 LONGEST_NAME = 256

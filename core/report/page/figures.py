@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from core.report.page.markup import Html, tag, together
-from core.report.page.svg import Frame, picture, span
-from core.report.page.words import MINUS, Document, coordinate, percent
+from .markup import Html, tag, together
+from .svg import Frame, picture, span
+from .words import MINUS, Document, coordinate, percent
 
 _WIDE, _HIGH = 450.0, 320.0
 _BARS_WIDE = 480.0

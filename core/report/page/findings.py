@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from core.report.page.figures import finding_figure
-from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.units import unit_of_effort
-from core.report.page.words import (
+from .figures import finding_figure
+from .markup import Html, listing, section, table, tag, together
+from .units import unit_of_effort
+from .words import (
     Document,
     band,
     chance,

@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from core.report.page.figures import joint_bars
-from core.report.page.markup import Html, section, table, tag
-from core.report.page.units import effort, stray
-from core.report.page.words import Document, fit_band, interval, is_real, percent
+from .figures import joint_bars
+from .markup import Html, section, table, tag
+from .units import effort, stray
+from .words import Document, fit_band, interval, is_real, percent
 
 
 def joints_section(document: Document) -> Html | None:

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from core.report.page.markup import Html, tag
-from core.report.page.words import (
+from .markup import Html, tag
+from .words import (
     Document,
     count,
     fit_band,

@@ -6,16 +6,16 @@ is what that sentence rests on.
 
 from collections.abc import Sequence
 
-from core.report.page import overview, robot
-from core.report.page.findings import findings_section
-from core.report.page.joints import joints_section
-from core.report.page.markup import Html, tag, together
-from core.report.page.remainder import not_shown_section, unexplained_section
-from core.report.page.running import Origin, facts, sheets
-from core.report.page.source import data_section, method_section
-from core.report.page.style import STYLE
-from core.report.page.traces import JointTraces, traces_section
-from core.report.page.words import Document
+from . import overview, robot
+from .findings import findings_section
+from .joints import joints_section
+from .markup import Html, tag, together
+from .remainder import not_shown_section, unexplained_section
+from .running import Origin, facts, sheets
+from .source import data_section, method_section
+from .style import STYLE
+from .traces import JointTraces, traces_section
+from .words import Document
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 

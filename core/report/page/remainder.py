@@ -1,9 +1,9 @@
 """Tell what a diagnosis leaves: what is still predictable and where, and what this motion could not show."""
 
-from core.report.page.figures import dependence_figure
-from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.units import effort, unit_of_effort
-from core.report.page.words import Document, band, coordinate, interval, joints, number, series, share
+from .figures import dependence_figure
+from .markup import Html, listing, section, table, tag, together
+from .units import effort, unit_of_effort
+from .words import Document, band, coordinate, interval, joints, number, series, share
 
 _SOURCES = {
     "repeats": "repeats of the motion",

@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from core.report.page.markup import Html, listing, section, table, tag
-from core.report.page.units import effort, unit_of_mass_matrix
-from core.report.page.whisker import whisker
-from core.report.page.words import Document, fit_band, number, percent, uncertain, unit
+from .markup import Html, listing, section, table, tag
+from .units import effort, unit_of_mass_matrix
+from .whisker import whisker
+from .words import Document, fit_band, number, percent, uncertain, unit
 
 _OF_PSEUDO_INERTIA = "in SI units, of entries in kg m², kg m and kg; its sign is what counts"
 

@@ -6,8 +6,8 @@ characters only: a robot's name can be anything. Source: CSS Paged Media, margin
 
 from dataclasses import dataclass
 
-from core.report.page.markup import Html, tag
-from core.report.page.words import Document
+from .markup import Html, tag
+from .words import Document
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,9 @@
 
 import json
 
-from core.report.page.markup import Html, listing, section, table, tag, together
-from core.report.page.units import effort
-from core.report.page.words import Document, number, percent, reference
+from .markup import Html, listing, section, table, tag, together
+from .units import effort
+from .words import Document, number, percent, reference
 
 _IDENTIFY = (
     "Position is differentiated and torque filtered by the same zero-phase filters; the equations of motion "

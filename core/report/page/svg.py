@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, floor, log10
 
-from core.report.page.markup import Html, tag, together
-from core.report.page.words import MINUS
+from .markup import Html, tag, together
+from .words import MINUS
 
 _MOST_TICKS = 6
 _MARGIN_LEFT, _MARGIN_RIGHT, _MARGIN_TOP, _MARGIN_BOTTOM = 62.0, 12.0, 26.0, 44.0

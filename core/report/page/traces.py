@@ -6,9 +6,9 @@ Traces come thinned, as plain lists with None at gaps; a figure never holds a wh
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from core.report.page.markup import Html, section, tag
-from core.report.page.svg import Frame, picture, span
-from core.report.page.words import number, series
+from .markup import Html, section, tag
+from .svg import Frame, picture, span
+from .words import number, series
 
 Trace = Sequence[float | None]
 

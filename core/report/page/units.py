@@ -1,6 +1,6 @@
 """Write numbers of joints with the units that they have on a joint of their kind."""
 
-from core.report.page.words import NOTHING, Document, Number, number
+from .words import NOTHING, Document, Number, number
 
 
 def unit_of_effort(document: Document, joint: int) -> str:

@@ -4,8 +4,8 @@ Every row has a scale of its own, so what can be compared down the column is how
 terms of its own uncertainty, not its size.
 """
 
-from core.report.page.markup import Html, tag
-from core.report.page.words import Document, number, unit
+from .markup import Html, tag
+from .words import Document, number, unit
 
 _WIDE, _HIGH, _MARGIN = 120.0, 16.0, 4.0
 _MIDDLE = _HIGH / 2.0

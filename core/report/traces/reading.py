@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 
-from core.arrays import Instants, InstantSeries, JointSeries, Mask, Samples
-from core.errors import OptionError
-from core.log.preview import rows_between, thin
-from core.report.traces.layout import HELD_OUT, LOG, SIGNALS, TIME, USED, column
+from ...arrays import Instants, InstantSeries, JointSeries, Mask, Samples
+from ...errors import OptionError
+from ...log.preview import rows_between, thin
+from .layout import HELD_OUT, LOG, SIGNALS, TIME, USED, column
 
 GAP_STEPS = 1.5
 """Kept instants further apart than this many steps have a gap between them."""

@@ -15,10 +15,10 @@ import numpy as np
 import pyarrow.parquet as pq
 from scipy.signal import welch
 
-from core.arrays import Mask, Samples, Vector
-from core.errors import ExcitationError
-from core.report.traces.layout import TIME, USED, column
-from core.report.traces.reading import LogOfTraces, stretches
+from ...arrays import Mask, Samples, Vector
+from ...errors import ExcitationError
+from .layout import TIME, USED, column
+from .reading import LogOfTraces, stretches
 
 COORDINATES = ("position", "velocity")
 RESIDUALS = ("residual", "residual_after")

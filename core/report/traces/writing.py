@@ -14,12 +14,14 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from core.arrays import BaseParameters
-from core.extension.result import Diagnosed
-from core.identification.result import Identification
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import compare
-from core.report.traces.layout import (
+from ...arrays import BaseParameters
+from ...extension.result import Diagnosed
+from ...identification.result import Identification
+from ...regressor.columns import ColumnPlan
+from ...regressor.observe import compare
+from ...robot.model import RobotModel
+from ...signals.tile import Tile
+from .layout import (
     EXTENDED,
     HELD_OUT,
     LOG,
@@ -30,8 +32,6 @@ from core.report.traces.layout import (
     column,
     unit,
 )
-from core.robot.model import RobotModel
-from core.signals.tile import Tile
 
 TILES_TOGETHER = 32
 """Tiles of one group of rows: 16384 rows at most."""

@@ -2,11 +2,11 @@
 
 import pytest
 
-from app.store.keys import KeyStore
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import StubExecutor
 from tests.app.test_contract import PROMISED
+from veritorque.app.store.keys import KeyStore
 
 CSV = {"Content-Type": "text/csv"}
 NAMES = {"robot_id": "yumi", "log_id": "none", "job_id": "none", "artifact": "parameters.csv"}

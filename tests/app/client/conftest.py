@@ -1,8 +1,8 @@
 import pytest
 
-from app.client.client import Client
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
+from veritorque.app.client.client import Client
 
 
 @pytest.fixture(scope="module")

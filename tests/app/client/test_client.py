@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from app.client.client import Client
-from app.client.errors import NoAnswerError, NoResultError, RefusedError
-from core.errors import LogError, OptionError, RobotError
 from tests.app.http.test_server import listening_service
 from tests.app.planar_arm import columns, csv_log, description
 from tests.app.stubs import RESULT, StubExecutor, failing
+from veritorque.app.client.client import Client
+from veritorque.app.client.errors import NoAnswerError, NoResultError, RefusedError
+from veritorque.core.errors import LogError, OptionError, RobotError
 
 
 @pytest.fixture(scope="module")

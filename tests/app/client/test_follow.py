@@ -2,9 +2,9 @@
 
 import pytest
 
-from app.client import follow
-from app.client.errors import NoAnswerError, RefusedError
-from app.client.follow import Follower
+from veritorque.app.client import follow
+from veritorque.app.client.errors import NoAnswerError, RefusedError
+from veritorque.app.client.follow import Follower
 
 
 def job(fraction, state="running"):

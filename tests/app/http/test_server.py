@@ -15,15 +15,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app import logging as journal
-from app.http import connection
-from app.http import server as listening
-from app.http.body.chunks import Pieces
-from app.http.server import Server
-from app.main import create_app
-from app.settings import Settings
 from tests.app.planar_arm import description
 from tests.app.stubs import StubExecutor
+from veritorque.app import logging as journal
+from veritorque.app.http import connection
+from veritorque.app.http import server as listening
+from veritorque.app.http.body.chunks import Pieces
+from veritorque.app.http.server import Server
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings
 
 POLL = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
 LAST_POLL = POLL[:-2] + b"Connection: close\r\n\r\n"

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from starlette.requests import Request
 
-from app.http.body.uploads import AHEAD, PIECE, receive_body
-from app.problems import Problem
-from app.store.blobs import BlobStore
-from app.store.errors import Unavailable
+from veritorque.app.http.body.uploads import AHEAD, PIECE, receive_body
+from veritorque.app.problems import Problem
+from veritorque.app.store.blobs import BlobStore
+from veritorque.app.store.errors import Unavailable
 
 SCOPE = {"type": "http", "method": "POST", "path": "/v1/logs", "headers": []}
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs.computation import Computation, Died, Failed, Finished, Stopped
-from app.jobs.executor import ProcessExecutor
 from tests.app import work
+from veritorque.app.jobs.computation import Computation, Died, Failed, Finished, Stopped
+from veritorque.app.jobs.executor import ProcessExecutor
 
 ROOT = Path(__file__).parents[3]
 COMPUTATION = Computation(kind="identify", robot={"name": "arm"}, logs=(), options={"essential": True})
@@ -75,7 +75,8 @@ def test_an_error_of_the_science_keeps_its_evidence():
 def test_a_computation_does_not_outlive_the_service():
     """Kill a service the hard way: the process that computes for it notices and ends."""
     script = (
-        "import threading; from app.jobs.executor import ProcessExecutor; from tests.app import work; "
+        "import threading; from veritorque.app.jobs.executor import ProcessExecutor\n"
+        "from tests.app import work; "
         "from tests.app.jobs.test_executor import COMPUTATION\n"
         "def tell(stage, fraction): print(stage, flush=True)\n"
         "if __name__ == '__main__':\n"

@@ -3,12 +3,12 @@ import time
 
 import pytest
 
-from app.json_text import json_bytes
-from app.schemas.jobs import Job
-from app.store.sweep import Sweep
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import description
 from tests.app.stubs import RESULT, StubExecutor, failing
+from veritorque.app.json_text import json_bytes
+from veritorque.app.schemas.jobs import Job
+from veritorque.app.store.sweep import Sweep
 
 
 @pytest.fixture

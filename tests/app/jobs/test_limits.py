@@ -6,12 +6,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.jobs import limits
-from app.jobs.computation import Failed, Stopped
-from app.jobs.executor import ProcessExecutor
-from app.jobs.limits import Limits
 from tests.app import work
 from tests.app.jobs.test_executor import COMPUTATION
+from veritorque.app.jobs import limits
+from veritorque.app.jobs.computation import Failed, Stopped
+from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.jobs.limits import Limits
 
 SMALL = Limits(memory_bytes=512 * 1024**2)
 
@@ -27,7 +27,7 @@ def test_a_computation_that_takes_too_much_memory_fails_with_the_limit_as_eviden
 
 def test_a_computation_whose_worker_is_frozen_ends_when_its_cpu_time_is_up(monkeypatch):
     """The worker looks at its clock; this one does not, and the system ends the process all the same."""
-    monkeypatch.setattr("app.jobs.executor.time", SimpleNamespace(monotonic=lambda: 0.0))
+    monkeypatch.setattr("veritorque.app.jobs.executor.time", SimpleNamespace(monotonic=lambda: 0.0))
     executor = ProcessExecutor(work.spin, limits=SMALL)
     outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=0.5)
     assert isinstance(outcome, Failed)

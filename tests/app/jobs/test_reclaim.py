@@ -5,16 +5,16 @@ import sys
 
 import pytest
 
-from app.jobs.liveness import Presence
-from app.jobs.reclaim import LEASE_S, Lives
-from app.store.records import JobRequestRecord
-from app.store.store import Store
-from app.store.work import MOST_ATTEMPTS
+from veritorque.app.jobs.liveness import Presence
+from veritorque.app.jobs.reclaim import LEASE_S, Lives
+from veritorque.app.store.records import JobRequestRecord
+from veritorque.app.store.store import Store
+from veritorque.app.store.work import MOST_ATTEMPTS
 
 HOLDS = """
 import sys, time
 from pathlib import Path
-from app.jobs.liveness import Presence
+from veritorque.app.jobs.liveness import Presence
 
 print(Presence(Path(sys.argv[1])).name, flush=True)
 time.sleep(60)

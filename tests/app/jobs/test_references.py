@@ -6,10 +6,10 @@ import sys
 import numpy as np
 import pytest
 
-from app.schemas.results import ResultDocument
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import TRUTH, columns, description
 from tests.app.stubs import InlineExecutor, StubExecutor, failing
+from veritorque.app.schemas.results import ResultDocument
 
 CSV = {"Content-Type": "text/csv"}
 WAIT = {"Prefer": "wait=60"}
@@ -128,7 +128,7 @@ def test_a_job_that_failed_is_no_reference(tmp_path):
 
 def test_whoever_compares_with_nothing_does_not_wait_for_the_solver_to_be_loaded():
     code = (
-        "import sys; from app.jobs import science; science.read_options('diagnose', {}); "
+        "import sys; from veritorque.app.jobs import science; science.read_options('diagnose', {}); "
         "science.check_reference({}, {}, None); sys.exit('numba' in sys.modules or 'clarabel' in sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

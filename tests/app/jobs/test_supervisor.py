@@ -7,9 +7,9 @@ import time
 
 import pytest
 
-from app.jobs import supervisor as module
-from app.jobs.supervisor import Supervisor
-from app.settings import Settings
+from veritorque.app.jobs import supervisor as module
+from veritorque.app.jobs.supervisor import Supervisor
+from veritorque.app.settings import Settings
 
 SPEAKS = "import sys, time\nwhile True: print('ready', flush=True); time.sleep(0.05)"
 ENDS_WITH_ITS_INPUT = f"""

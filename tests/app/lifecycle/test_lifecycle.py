@@ -9,19 +9,19 @@ import pytest
 from sqlalchemy import update
 from typer.testing import CliRunner
 
-from app.lifecycle.backup import NOTE, NoBackup, back_up, restore
-from app.lifecycle.doctor import examine
-from app.lifecycle.retention import expire
-from app.settings import Settings
-from app.store.errors import Damaged
-from app.store.records import JobRequestRecord
-from app.store.store import Store
-from app.store.tables import JOBS, LOGS, REPEATS, written
-from app.terminal.main import COMMANDS
 from tests.app.conftest import service
 from tests.app.jobs.test_jobs import another, asked
 from tests.app.postgres import cluster, new_database
 from tests.app.stubs import StubExecutor
+from veritorque.app.lifecycle.backup import NOTE, NoBackup, back_up, restore
+from veritorque.app.lifecycle.doctor import examine
+from veritorque.app.lifecycle.retention import expire
+from veritorque.app.settings import Settings
+from veritorque.app.store.errors import Damaged
+from veritorque.app.store.records import JobRequestRecord
+from veritorque.app.store.store import Store
+from veritorque.app.store.tables import JOBS, LOGS, REPEATS, written
+from veritorque.app.terminal.main import COMMANDS
 
 
 @pytest.fixture

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs.computation import Finished
-from app.jobs.executor import ProcessExecutor
-from app.processes.fork_server import Child, Standby, fork_server
 from tests.app import work
 from tests.app.jobs.test_executor import COMPUTATION
+from veritorque.app.jobs.computation import Finished
+from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.processes.fork_server import Child, Standby, fork_server
 
 CONTEXT = fork_server()
 ROOT = Path(__file__).parents[3]
@@ -138,7 +138,7 @@ time.sleep(300.0)
 
 STOPPED_EARLY = """
 import threading
-from app.jobs.executor import ProcessExecutor
+from veritorque.app.jobs.executor import ProcessExecutor
 from tests.app import work
 from tests.app.jobs.test_executor import COMPUTATION
 

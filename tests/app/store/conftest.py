@@ -1,7 +1,7 @@
 import pytest
 
-from app.store.store import Store
 from tests.app.postgres import cluster, new_database
+from veritorque.app.store.store import Store
 
 
 @pytest.fixture(scope="session")

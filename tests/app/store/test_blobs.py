@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.store.blobs import BlobStore
+from veritorque.app.store.blobs import BlobStore
 
 
 @pytest.fixture

@@ -2,8 +2,8 @@
 
 import pytest
 
-from app.store.errors import KeyReused
-from app.store.records import JobRequestRecord
+from veritorque.app.store.errors import KeyReused
+from veritorque.app.store.records import JobRequestRecord
 
 
 def request(number=0):

@@ -3,9 +3,9 @@
 import pytest
 from sqlalchemy import create_engine, inspect
 
-from app.store.database import Database
-from app.store.migrations.upgrade import LATEST, revision, step, upgrade
 from tests.app.postgres import new_database
+from veritorque.app.store.database import Database
+from veritorque.app.store.migrations.upgrade import LATEST, revision, step, upgrade
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])

@@ -3,11 +3,11 @@
 from sqlalchemy import event
 from sqlalchemy.exc import DataError, IntegrityError
 
-from app.store import queueing
-from app.store.errors import KeyReused, OverQuota
-from app.store.queueing import Asked
-from app.store.records import JobRequestRecord, Quota
-from app.store.store import Store
+from veritorque.app.store import queueing
+from veritorque.app.store.errors import KeyReused, OverQuota
+from veritorque.app.store.queueing import Asked
+from veritorque.app.store.records import JobRequestRecord, Quota
+from veritorque.app.store.store import Store
 
 
 def asked(number=0, key=None):

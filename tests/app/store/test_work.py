@@ -4,8 +4,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from app.store.records import JobRequestRecord
-from app.store.work import MOST_ATTEMPTS
+from veritorque.app.store.records import JobRequestRecord
+from veritorque.app.store.work import MOST_ATTEMPTS
 
 MINE, OTHER = "worker-1", "worker-2"
 PROBLEM = {"cause": "crashed"}

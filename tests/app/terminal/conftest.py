@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from app.terminal.main import COMMANDS
+from veritorque.app.terminal.main import COMMANDS
 
 ROOT = Path(__file__).parents[3]
 

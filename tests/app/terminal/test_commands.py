@@ -12,16 +12,16 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 
-from app.client.client import Client
-from app.jobs import computations as science
-from app.problems import KINDS
-from app.terminal.output.exit_codes import NO_RESULT, NO_SERVICE, Exit
-from core.errors import ExcitationError, LogError, SolverError
 from tests.app.http.test_server import listening_service
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import InlineExecutor, StubExecutor, failing
 from tests.app.terminal.conftest import ROOT, run
 from tests.core.report.documents import diagnosed, nothing_found
+from veritorque.app.client.client import Client
+from veritorque.app.jobs import computations as science
+from veritorque.app.problems import KINDS
+from veritorque.app.terminal.output.exit_codes import NO_RESULT, NO_SERVICE, Exit
+from veritorque.core.errors import ExcitationError, LogError, SolverError
 
 QUICK = ("--set", "bootstrap.draws=0")
 
@@ -55,7 +55,7 @@ def test_files_and_a_service_give_the_same_document_byte_for_byte(planar, tmp_pa
 
 def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
     monkeypatch.setattr(
-        "app.terminal.backend.local.LocalBench.run", lambda *_: identified.read_bytes()
+        "veritorque.app.terminal.backend.local.LocalBench.run", lambda *_: identified.read_bytes()
     )  # the same document, printed
     ended = run("identify", "yumi-left", "examples/yumi/log.csv", COLUMNS="40")
     rows = [line.split() for line in ended.stdout.splitlines()]
@@ -72,7 +72,7 @@ def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
 @pytest.mark.parametrize(("document", "code"), [(diagnosed(), Exit.FOUND), (nothing_found(), Exit.DONE)])
 def test_a_diagnosis_fails_on_findings_only_where_that_is_asked_for(desk, monkeypatch, document, code):
     content = json.dumps(document).encode()
-    monkeypatch.setattr("app.terminal.backend.local.LocalBench.run", lambda *_: content)
+    monkeypatch.setattr("veritorque.app.terminal.backend.local.LocalBench.run", lambda *_: content)
     command = ("diagnose", "yumi-left", "examples/yumi/log.csv")
     assert run(*command).exit_code == Exit.DONE
     failing_run = run(*command, "--fail-on-findings", "--json")
@@ -241,7 +241,7 @@ def test_interrupting_the_command_dismisses_the_job(planar, tmp_path_factory, to
     executor = StubExecutor()
     with listening_service(tmp_path_factory.mktemp("data"), executor) as (_, port):
         url = f"http://127.0.0.1:{port}"
-        command = [sys.executable, "-m", "app", "identify", "arm.json", "swing.csv", "--url", url]
+        command = [sys.executable, "-m", "veritorque", "identify", "arm.json", "swing.csv", "--url", url]
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         # Whoever runs the tests in the background has told their children to be deaf to Ctrl-C.
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -288,7 +288,7 @@ def test_what_is_rarely_meant_is_told_and_fails_only_where_that_is_asked_for(pla
 
 
 def test_a_urdf_is_a_robot_and_becomes_a_description(desk):
-    from app.schemas.examples import PENDULUM_URDF
+    from veritorque.app.schemas.examples import PENDULUM_URDF
 
     (desk / "pendulum.urdf").write_text(PENDULUM_URDF)
     shown = json.loads(run("robots", "show", "pendulum.urdf", "--gravity=0,-9.81,0", "--json").stdout)
@@ -300,7 +300,7 @@ def test_shells_complete_commands_without_a_network(shell):
     script = run("--show-completion", shell, SHELL=shell)
     asked = {"_VERITORQUE_COMPLETE": f"complete_{shell}", "COMP_WORDS": "veritorque ide", "COMP_CWORD": "1"}
     asked |= {"_TYPER_COMPLETE_ARGS": "veritorque ide", "_TYPER_COMPLETE_FISH_ACTION": "get-args"}
-    called = "import sys; sys.argv[0] = 'veritorque'; from app.terminal.main import main; main()"
+    called = "import sys; sys.argv[0] = 'veritorque'; from veritorque.app.terminal.main import main; main()"
     command = [sys.executable, "-c", called]
     ended = subprocess.run(
         command, env={**os.environ, **asked}, capture_output=True, text=True, cwd=ROOT, check=True
@@ -321,7 +321,7 @@ def test_the_script_that_is_installed_is_the_command_line():
 def as_a_shell_does(*arguments, stdout, **environment):
     """Run a command in a process of its own; give how it ended and what stands on standard error."""
     ended = subprocess.run(
-        [sys.executable, "-m", "app", *arguments],
+        [sys.executable, "-m", "veritorque", *arguments],
         cwd=ROOT,
         env=os.environ | environment,
         stdout=stdout,
@@ -354,7 +354,7 @@ def test_a_full_disk_is_told_as_what_it_is():
 def closed(number, *arguments):
     """Run a command one of whose streams was closed by whoever called it, as ``>&-`` does in a shell."""
     script = f"import os, sys; os.close({number}); os.execv(sys.executable, [sys.executable, *sys.argv[1:]])"
-    command = [sys.executable, "-c", script, "-m", "app", *arguments]
+    command = [sys.executable, "-c", script, "-m", "veritorque", *arguments]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     return ended.returncode, ended.stdout, ended.stderr
@@ -383,12 +383,12 @@ def test_a_command_whose_errors_nobody_reads_works_and_ends_as_ever():
 @pytest.mark.parametrize(
     "loaded",
     [
-        "app.terminal.interruption",
-        "app.terminal.main",
+        "veritorque.app.terminal.interruption",
+        "veritorque.app.terminal.main",
         "typer",
-        "app.terminal.guard",
-        "app.terminal.commands.robots",
-        "app.terminal.backend.local",
+        "veritorque.app.terminal.guard",
+        "veritorque.app.terminal.commands.robots",
+        "veritorque.app.terminal.backend.local",
     ],
 )
 def test_an_interruption_while_the_command_is_being_loaded_ends_as_any_other(loaded):
@@ -400,7 +400,7 @@ def test_an_interruption_while_the_command_is_being_loaded_ends_as_any_other(loa
         f"        if name == {loaded!r}: os.kill(os.getpid(), signal.SIGINT)\n"
         "sys.meta_path.insert(0, Interrupting())\n"
         "sys.argv = ['veritorque', 'robots', 'list']\n"
-        "from app.terminal.start import main\n"
+        "from veritorque.app.terminal.start import main\n"
         "main()\n"
     )
     command = [sys.executable, "-c", script]

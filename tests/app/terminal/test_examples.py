@@ -9,17 +9,17 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from app.jobs import worker_process as process
-from app.jobs.computation import Finished
-from app.json_text import json_bytes
-from app.terminal.backend.local import LocalBench
-from app.terminal.commands import serve
-from app.terminal.main import COMMANDS
-from app.terminal.output.exit_codes import Exit
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT, run
 from tests.core.report.documents import diagnosed
+from veritorque.app.jobs import worker_process as process
+from veritorque.app.jobs.computation import Finished
+from veritorque.app.json_text import json_bytes
+from veritorque.app.terminal.backend.local import LocalBench
+from veritorque.app.terminal.commands import serve
+from veritorque.app.terminal.main import COMMANDS
+from veritorque.app.terminal.output.exit_codes import Exit
 
 
 def walk(command, path=()):
@@ -116,7 +116,7 @@ def test_a_study_leaves_it_to_the_tests_what_a_request_to_end_them_means():
 @pytest.mark.usefixtures("prepared")
 def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_is_closed(capsys):
     assert run("work").exit_code == 0
-    logging.getLogger("app.jobs.worker").warning("computed")
+    logging.getLogger("veritorque.app.jobs.worker").warning("computed")
     assert "Logging error" not in capsys.readouterr().err
 
 

@@ -5,15 +5,15 @@ import re
 
 import pytest
 
-from app.json_text import json_bytes
-from app.terminal.backend.local import LocalBench
-from app.terminal.main import HOMES
-from app.terminal.output.exit_codes import Exit
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT
 from tests.app.terminal.test_examples import called
 from tests.core.report.documents import diagnosed
+from veritorque.app.json_text import json_bytes
+from veritorque.app.terminal.backend.local import LocalBench
+from veritorque.app.terminal.main import HOMES
+from veritorque.app.terminal.output.exit_codes import Exit
 
 GUIDE = (ROOT / "docs" / "terminal.md").read_text(encoding="utf-8")
 LINES = [

@@ -7,9 +7,9 @@ import sys
 import numpy as np
 import pytest
 
-from app.terminal.output.exit_codes import Exit
 from tests.app.planar_arm import columns
 from tests.app.terminal.conftest import ROOT, run
+from veritorque.app.terminal.output.exit_codes import Exit
 
 
 def written(path, names, *, time_factor=1.0, angle_factor=1.0, change=lambda table: table):
@@ -105,7 +105,7 @@ def test_a_look_loads_no_solver_and_no_service(tmp_path):
     """What is loaded decides how long it takes: the rest is reading the file."""
     path = written(tmp_path / "clean.csv", DEFAULT)
     script = (
-        "import sys; from typer.testing import CliRunner; from app.terminal.main import COMMANDS\n"
+        "import sys; from typer.testing import CliRunner; from veritorque.app.terminal.main import COMMANDS\n"
         f"assert CliRunner().invoke(COMMANDS, ['logs', 'check', {path!r}]).exit_code == 0\n"
         "print(*sys.modules)"
     )

@@ -5,12 +5,12 @@ import sys
 
 import pytest
 
-from app.main import create_app
-from app.settings import Settings, reaches_other_machines
-from app.store.lock import DirectoryLock
-from app.terminal.commands import serve
-from app.version import VERSION
 from tests.app.terminal.conftest import run
+from veritorque.app.main import create_app
+from veritorque.app.settings import Settings, reaches_other_machines
+from veritorque.app.store.lock import DirectoryLock
+from veritorque.app.terminal.commands import serve
+from veritorque.app.version import VERSION
 
 
 @pytest.fixture
@@ -103,7 +103,7 @@ def test_linear_algebra_is_told_to_use_one_thread_before_it_is_loaded(listened, 
     run("serve", "--data-dir", str(tmp_path))
     chosen = [os.environ[name] for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")]
     assert chosen == ["1", "1", "3"]
-    loaded = "import sys, app.terminal.commands.serve; sys.exit('numpy' in sys.modules)"
+    loaded = "import sys, veritorque.app.terminal.commands.serve; sys.exit('numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", loaded], check=False).returncode == 0
 
 

@@ -4,13 +4,13 @@ import json
 
 import pytest
 
-from app.jobs import computations as science
-from app.terminal.output.exit_codes import Exit
 from tests.app.http.test_server import listening_service
 from tests.app.planar_arm import GRAVITY, LENGTH, csv_log, description
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import run
 from tests.core.report.documents import diagnosed, identified
+from veritorque.app.jobs import computations as science
+from veritorque.app.terminal.output.exit_codes import Exit
 
 MEANT = ("--base-link", "wall", "--tip-link", "fore", f"--gravity=0,{-GRAVITY},0")
 CELL = f"""<robot name="planar arm in a cell">

@@ -5,16 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Samples
-from core.diagnosis.causes.protocol import Cause, Scalars
-from core.diagnosis.causes.shared.common import NOTHING, OwnJointCause
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.dynamics.terms.effect import OneJointTerm
-from core.robot.model import RobotModel
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import Effect
+from veritorque.core.arrays import Samples
+from veritorque.core.diagnosis.causes.protocol import Cause, Scalars
+from veritorque.core.diagnosis.causes.shared.common import NOTHING, OwnJointCause
+from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from veritorque.core.dynamics.terms.effect import OneJointTerm
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.parameters import Parameter
+from veritorque.core.signals.state import MotionState
 
 JOINT = 2
 

@@ -5,7 +5,7 @@ from scipy.linalg import solve_toeplitz, toeplitz
 from scipy.signal import lfilter
 from scipy.stats import chi2
 
-from core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.ar_noise import JointNoise
 
 WHITE: tuple[float, ...] = ()
 SLOW = (0.9,)

@@ -7,21 +7,21 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from core.diagnosis.causes.protocol import Cause, Scalars, Site
-from core.diagnosis.dataset.dataset import Look, look_at
-from core.diagnosis.search.fitter import Bench
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.estimate.gaussian_prior import Belief
-from core.log.reader import log_from_arrays
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from tests.tools import Motion, pinocchio_torque, random_bodies
+from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, Site
+from veritorque.core.diagnosis.dataset.dataset import Look, look_at
+from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.estimate.gaussian_prior import Belief
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 UNTOUCHED = 0.1
 """Columns that change by less than this share of themselves hold no measured torque."""

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from core.diagnosis.bandwidth import beyond_cubics, few_off
-from core.dynamics.model import standard_model
-from core.log.reader import log_from_arrays
-from core.study import IdentifyRequest, diagnose
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, skew_arm
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
+from veritorque.core.diagnosis.bandwidth import beyond_cubics, few_off
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.study import IdentifyRequest, diagnose
 
 SCATTER = 6e-5
 """Of the stamps, s."""

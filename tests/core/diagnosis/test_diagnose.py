@@ -5,14 +5,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.diagnosis.diagnose import Question, diagnose
-from core.diagnosis.result import Diagnosis
-from core.extension.cure import cures, extended_base, taken_along
-from core.log.reader import read_log
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
+from veritorque.core.diagnosis.diagnose import Question, diagnose
+from veritorque.core.diagnosis.result import Diagnosis
+from veritorque.core.extension.cure import cures, extended_base, taken_along
+from veritorque.core.log.reader import read_log
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
 
 UNEVEN = 0.15
 """Half the difference of viscous friction between the directions of joint 2, N m s/rad."""

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.diagnose import diagnose
 from tests.core.diagnosis.scenes import look_at_arm, measured_arm
 from tests.core.diagnosis.test_diagnose import asked
+from veritorque.core.diagnosis.diagnose import diagnose
 
 STIFFNESS = 1.5
 """Of the spring, N m/rad."""

@@ -13,15 +13,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.protocol import Cause, Solved
-from core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, RAW_CAUSES
-from core.diagnosis.causes.repairs import MendsLog, MendsRobot, mends
-from core.diagnosis.causes.sample_check import RawCause
-from core.diagnosis.checks.figure import STAND_IN
-from core.diagnosis.residual.coordinates import coordinate, coordinate_names
-from core.log.model import whole_rows
-from core.robot.differences import differences
-from core.robot.inertia import from_mass_properties
 from tests.core.diagnosis.scenes import (
     UNTOUCHED,
     Scene,
@@ -32,6 +23,15 @@ from tests.core.diagnosis.scenes import (
     scene_of,
     spoilt_scenes,
 )
+from veritorque.core.diagnosis.causes.protocol import Cause, Solved
+from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, RAW_CAUSES
+from veritorque.core.diagnosis.causes.repairs import MendsLog, MendsRobot, mends
+from veritorque.core.diagnosis.causes.sample_check import RawCause
+from veritorque.core.diagnosis.checks.figure import STAND_IN
+from veritorque.core.diagnosis.residual.coordinates import coordinate, coordinate_names
+from veritorque.core.log.model import whole_rows
+from veritorque.core.robot.differences import differences
+from veritorque.core.robot.inertia import from_mass_properties
 
 FOLDER = Path(__file__).parents[3] / "core" / "diagnosis" / "causes"
 SHARED_PARTS = {"__init__", "guide", "protocol", "registry", "repairs", "sample_check"}
@@ -93,7 +93,7 @@ def base_name(name: str) -> str:
 
 
 def causes_of_file(stem: str) -> list[type]:
-    module = import_module(f"core.diagnosis.causes.{stem}")
+    module = import_module(f"veritorque.core.diagnosis.causes.{stem}")
     return [
         one
         for _, one in inspect.getmembers(module, inspect.isclass)

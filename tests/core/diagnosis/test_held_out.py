@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.protocol import Cause
-from core.diagnosis.causes.registry import CAUSES
-from core.diagnosis.regression.gls import Fit
 from tests.core.diagnosis.scenes import Scene, bench_of, eventful_scene, measured_arm
+from veritorque.core.diagnosis.causes.protocol import Cause
+from veritorque.core.diagnosis.causes.registry import CAUSES
+from veritorque.core.diagnosis.regression.gls import Fit
 
 
 def with_garbage(scene: Scene) -> Scene:

@@ -7,21 +7,21 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array, identity
 
-from core.diagnosis.causes import external_contact
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.causes.torque_gain import TorqueGain
-from core.diagnosis.regression.ar_noise import JointNoise
-from core.diagnosis.regression.gls import refit
-from core.diagnosis.regression.prewhitening import Whitened
-from core.diagnosis.regression.rows import joint_rows
-from core.diagnosis.search import stepwise as selection
-from core.dynamics.terms.effect import OneJointTerm
 from tests.core.diagnosis import test_every_cause, test_held_out
 from tests.core.diagnosis.processes import SLOW
 from tests.core.diagnosis.regression import gls_world, test_ar_noise, test_gls, test_score_test
 from tests.core.diagnosis.regression.gls_world import Equations
 from tests.core.diagnosis.scenes import eventful_scene
 from tests.core.diagnosis.search import test_stepwise
+from veritorque.core.diagnosis.causes import external_contact
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
+from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.gls import refit
+from veritorque.core.diagnosis.regression.prewhitening import Whitened
+from veritorque.core.diagnosis.regression.rows import joint_rows
+from veritorque.core.diagnosis.search import stepwise as selection
+from veritorque.core.dynamics.terms.effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)

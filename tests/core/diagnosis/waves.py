@@ -6,13 +6,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Samples
-from core.diagnosis.causes.protocol import Confusion
-from core.diagnosis.causes.shared.common import OwnJointCause
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.effect import OneJointTerm
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
+from veritorque.core.arrays import Samples
+from veritorque.core.diagnosis.causes.protocol import Confusion
+from veritorque.core.diagnosis.causes.shared.common import OwnJointCause
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.effect import OneJointTerm
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 JOINT = 2
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from core.document.bodies import body_rows, solid_ellipsoid
-from core.dynamics.model import standard_model
-from core.robot.frames import rotation_rpy
-from core.robot.inertia import from_mass_properties, mass_properties, moved
 from tests.core.estimate.worlds import planar_robot, true_parameters
 from tests.tools import random_bodies
+from veritorque.core.document.bodies import body_rows, solid_ellipsoid
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.inertia import from_mass_properties, mass_properties, moved
 
 BODIES = random_bodies(np.random.default_rng(5), 20)
 

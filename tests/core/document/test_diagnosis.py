@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from pydantic import BaseModel
 
-from app.schemas.results import ResultDocument
-from core.document.model_file import read_model
-from core.document.reading import identified_model, identified_robot
-from core.export.formats import FORMATS
-from core.log.reader import log_from_arrays
-from core.report.page.page import compose_page
-from core.robot.description import robot_from_description
-from core.study import IdentifyRequest, diagnose
 from tests.app.planar_arm import columns, description
 from tests.core.report.page.test_page import Page
+from veritorque.app.schemas.results import ResultDocument
+from veritorque.core.document.model_file import read_model
+from veritorque.core.document.reading import identified_model, identified_robot
+from veritorque.core.export.formats import FORMATS
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.report.page.page import compose_page
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.study import IdentifyRequest, diagnose
 
 AMPLITUDE, HARMONIC = 0.3, 7.0
 

@@ -5,13 +5,13 @@ import json
 import numpy as np
 import pytest
 
-from app.schemas.diagnosis import Finding as FindingSchema
-from app.schemas.diagnosis import NotIdentifiable as NotIdentifiableSchema
-from core.diagnosis.causes.protocol import Quantity
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.result import Curve, Evidence, Finding, Gain, NotIdentifiable, Rival
-from core.document.finding import finding_row, not_identifiable_row, title_of
-from core.document.numbers import plain
+from veritorque.app.schemas.diagnosis import Finding as FindingSchema
+from veritorque.app.schemas.diagnosis import NotIdentifiable as NotIdentifiableSchema
+from veritorque.core.diagnosis.causes.protocol import Quantity
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.result import Curve, Evidence, Finding, Gain, NotIdentifiable, Rival
+from veritorque.core.document.finding import finding_row, not_identifiable_row, title_of
+from veritorque.core.document.numbers import plain
 
 
 def finding(**changes):

@@ -8,24 +8,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.document.identified import IdentifiedRobot
-from core.document.model_file import read_model, write_model
-from core.document.terms import known_terms
-from core.dynamics.model import DynamicModel, standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.delay import Delay
-from core.dynamics.terms.load_friction import LoadFriction
-from core.dynamics.terms.payload import Payload
-from core.dynamics.terms.torque_gain import TorqueGain
-from core.errors import RobotError
-from core.robot.model import RobotModel
-from core.robot.writing import to_description
 from tests.core.diagnosis.scenes import eventful_scene
 from tests.core.dynamics.every_term import FILES, cures, traces
 from tests.core.export.robots import ROBOTS, brisk, identified
 from tests.tools import random_bodies, random_robot
+from veritorque.core.document.identified import IdentifiedRobot
+from veritorque.core.document.model_file import read_model, write_model
+from veritorque.core.document.terms import known_terms
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.term import Term
+from veritorque.core.dynamics.terms.coulomb import Coulomb
+from veritorque.core.dynamics.terms.delay import Delay
+from veritorque.core.dynamics.terms.load_friction import LoadFriction
+from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.torque_gain import TorqueGain
+from veritorque.core.errors import RobotError
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.writing import to_description
 
 
 def made_of(model: DynamicModel, seed: int = 0) -> IdentifiedRobot:

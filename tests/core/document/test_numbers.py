@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.document.numbers import DIGITS, plain
+from veritorque.core.document.numbers import DIGITS, plain
 
 
 @dataclass(frozen=True)

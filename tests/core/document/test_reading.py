@@ -6,31 +6,31 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.encoder_offset import EncoderOffset as EncoderOffsetCause
-from core.document.identified import IdentifiedRobot
-from core.document.model_file import model_document, read_model
-from core.document.numbers import plain
-from core.document.reading import identified_model, identified_robot
-from core.dynamics.model import DynamicModel, standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.encoder import EncoderOffset
-from core.dynamics.terms.friction_change import FrictionChange
-from core.dynamics.terms.link_change import LinkChange
-from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.dynamics.terms.missing_rotor import MissingRotor
-from core.dynamics.terms.stribeck import Stribeck
-from core.export.formats import FORMATS
-from core.export.mjcf import write_mjcf
-from core.log.reader import log_from_arrays
-from core.robot.description import robot_from_description
-from core.robot.model import Coupling
-from core.robot.writing import to_description
-from core.study import IdentifyRequest, identify
 from tests.app.planar_arm import columns, description
 from tests.core.diagnosis.scenes import bodies_of_skew_arm, skew_arm
 from tests.core.export import engines
 from tests.core.export.robots import ROBOTS, brisk, identified
+from veritorque.core.diagnosis.causes.encoder_offset import EncoderOffset as EncoderOffsetCause
+from veritorque.core.document.identified import IdentifiedRobot
+from veritorque.core.document.model_file import model_document, read_model
+from veritorque.core.document.numbers import plain
+from veritorque.core.document.reading import identified_model, identified_robot
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.coulomb import Coulomb
+from veritorque.core.dynamics.terms.encoder import EncoderOffset
+from veritorque.core.dynamics.terms.friction_change import FrictionChange
+from veritorque.core.dynamics.terms.link_change import LinkChange
+from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
+from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
+from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.export.formats import FORMATS
+from veritorque.core.export.mjcf import write_mjcf
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import Coupling
+from veritorque.core.robot.writing import to_description
+from veritorque.core.study import IdentifyRequest, identify
 
 QUICK = {"bootstrap": {"draws": 0}}
 MOTOR = Coupling("found", 3, (2, 3), (1.0, 1.0))

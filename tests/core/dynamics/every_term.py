@@ -6,16 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Cause
-from core.diagnosis.causes.registry import AGAINST_REFERENCE
-from core.diagnosis.checks.unnamed_pattern import Unlisted
-from core.dynamics.model import STANDARD_TERMS
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.trace import Trace
-from core.robot.model import RobotModel
-from core.simulation.inverse import inverse_dynamics
 from tests.core.diagnosis.scenes import eventful_scene
+from veritorque.core.diagnosis.causes.protocol import Cause
+from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE
+from veritorque.core.diagnosis.checks.unnamed_pattern import Unlisted
+from veritorque.core.dynamics.model import STANDARD_TERMS
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.term import Term
+from veritorque.core.dynamics.terms.trace import Trace
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.simulation.inverse import inverse_dynamics
 
 FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
 SHARED_PARTS = {"__init__", "effect", "own_joint", "rounding"}

@@ -5,19 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.dynamics.gear import Gear
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.backlash import Backlash
-from core.dynamics.terms.elasticity import Elasticity
-from core.dynamics.terms.load_friction import LoadFriction
-from core.dynamics.terms.payload import Payload
-from core.dynamics.terms.spring import Spring
-from core.dynamics.terms.viscous import Viscous
-from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import skew_arm
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
+from veritorque.core.dynamics.gear import Gear
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.backlash import Backlash
+from veritorque.core.dynamics.terms.elasticity import Elasticity
+from veritorque.core.dynamics.terms.load_friction import LoadFriction
+from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.spring import Spring
+from veritorque.core.dynamics.terms.viscous import Viscous
+from veritorque.core.signals.state import MotionState
 
 ROTOR = 0.7
 TERMS = {

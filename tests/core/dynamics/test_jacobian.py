@@ -3,8 +3,8 @@
 import numpy as np
 import pinocchio as pin
 
-from core.dynamics.jacobian import jacobian
 from tests.tools import pinocchio_model, random_bodies, random_motion, random_robot
+from veritorque.core.dynamics.jacobian import jacobian
 
 
 def test_the_jacobian_of_any_link_is_pinocchios():

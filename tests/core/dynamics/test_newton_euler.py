@@ -9,10 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.dynamics.newton_euler import inverse_dynamics, unit_torques
-from core.robot.inertia import pseudo_inertia
-from core.robot.model import Link, RobotModel
-from core.signals.state import MotionState
 from tests.tools import (
     ENGINES,
     Engine,
@@ -23,6 +19,10 @@ from tests.tools import (
     relative_difference,
     with_mimics,
 )
+from veritorque.core.dynamics.newton_euler import inverse_dynamics, unit_torques
+from veritorque.core.robot.inertia import pseudo_inertia
+from veritorque.core.robot.model import Link, RobotModel
+from veritorque.core.signals.state import MotionState
 
 TOLERANCE = 1e-10
 

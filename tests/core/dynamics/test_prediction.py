@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.arrays import JointSeries, LinkTable
-from core.dynamics.model import standard_model
-from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.prediction import Prediction, moved
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.beliefs import motion_of
 from tests.tools import random_robot
+from veritorque.core.arrays import JointSeries, LinkTable
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.newton_euler import inverse_dynamics
+from veritorque.core.dynamics.prediction import Prediction, moved
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 
 def believed_with_friction(seed: int) -> Prediction:

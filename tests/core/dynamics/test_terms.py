@@ -9,17 +9,17 @@ import ast
 import numpy as np
 import pytest
 
-from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
-from core.dynamics.term import Term
-from core.dynamics.terms.coulomb import Coulomb, direction
-from core.dynamics.terms.trace import PATTERNS
-from core.errors import OptionError
-from core.regressor.columns import all_columns
-from core.robot.model import Coupling, RobotModel
-from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import eventful_scene
 from tests.core.dynamics.every_term import FILES, FOLDER, SEARCHED, cures, file_of, searched, traces
 from tests.tools import random_robot
+from veritorque.core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
+from veritorque.core.dynamics.term import Term
+from veritorque.core.dynamics.terms.coulomb import Coulomb, direction
+from veritorque.core.dynamics.terms.trace import PATTERNS
+from veritorque.core.errors import OptionError
+from veritorque.core.regressor.columns import all_columns
+from veritorque.core.robot.model import Coupling, RobotModel
+from veritorque.core.signals.state import MotionState
 
 TERMS = sorted(STANDARD_TERMS)
 

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.estimate.body import nearest_body
-from core.robot.inertia import from_mass_properties, pseudo_inertia
 from tests.tools import random_bodies
+from veritorque.core.estimate.body import nearest_body
+from veritorque.core.robot.inertia import from_mass_properties, pseudo_inertia
 
 NOISE = 1e-3
 

@@ -5,12 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.errors import SolverError
-from core.estimate import feasibility as module
-from core.estimate.feasibility import active_constraints, feasibility
-from core.robot.inertia import from_mass_properties
 from tests.core.estimate.worlds import World, planar_robot, world_of
 from tests.tools import random_robot
+from veritorque.core.errors import SolverError
+from veritorque.core.estimate import feasibility as module
+from veritorque.core.estimate.feasibility import active_constraints, feasibility
+from veritorque.core.robot.inertia import from_mass_properties
 
 
 @settings(max_examples=10)

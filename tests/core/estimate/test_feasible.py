@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.errors import OptionError, SolverError
-from core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid, congruence, link_columns
-from core.estimate.estimate import Estimate, estimate
-from core.estimate.options import PULL, EstimateOptions
-from core.estimate.system import stacked
-from core.robot.inertia import pseudo_inertia
-from core.robot.model import RobotModel
 from tests.core.estimate.worlds import World, planar_robot, world_of, wrist_robot
 from tests.tools import random_robot
+from veritorque.core.errors import OptionError, SolverError
+from veritorque.core.estimate.constraints import Bounds, CentreBox, CentreEllipsoid, congruence, link_columns
+from veritorque.core.estimate.estimate import Estimate, estimate
+from veritorque.core.estimate.options import PULL, EstimateOptions
+from veritorque.core.estimate.system import stacked
+from veritorque.core.robot.inertia import pseudo_inertia
+from veritorque.core.robot.model import RobotModel
 
 SOLVER_GAP = 5e-8
 """Both solvers close the gap to 1e-8, relative to an objective near one half; two of them, and room."""

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from scipy.linalg import null_space
 
-from core.errors import OptionError
-from core.estimate.constraints import Bounds, Prior, link_columns
-from core.estimate.estimate import estimate
-from core.estimate.options import EstimateOptions
-from core.robot.frames import rotation_rpy
-from core.robot.inertia import moved, pseudo_inertia
-from core.robot.model import Joint, Link, RobotModel
 from tests.core.estimate.worlds import World, planar_robot, true_parameters, world_of
 from tests.tools import random_bodies, random_robot
+from veritorque.core.errors import OptionError
+from veritorque.core.estimate.constraints import Bounds, Prior, link_columns
+from veritorque.core.estimate.estimate import estimate
+from veritorque.core.estimate.options import EstimateOptions
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.inertia import moved, pseudo_inertia
+from veritorque.core.robot.model import Joint, Link, RobotModel
 
 
 def _believing(world: World, centre: np.ndarray) -> World:

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from core.estimate.constraints import Bounds, congruence, link_columns, lower_bounds
-from core.estimate.estimate import estimate
-from core.estimate.options import PULL, EstimateOptions
-from core.robot.inertia import pseudo_inertia
 from tests.core.estimate.worlds import World, planar_robot, true_parameters, world_of
+from veritorque.core.estimate.constraints import Bounds, congruence, link_columns, lower_bounds
+from veritorque.core.estimate.estimate import estimate
+from veritorque.core.estimate.options import PULL, EstimateOptions
+from veritorque.core.robot.inertia import pseudo_inertia
 
 SOLVER_GAP = 2e-8
 EVALUATIONS = 6000

@@ -7,13 +7,13 @@ import cvxpy
 import numpy as np
 import pytest
 
-from core.errors import SolverError
-from core.estimate import with_clarabel, with_cvxpy
-from core.estimate.constraints import Bounds
-from core.estimate.programme import Programme, refusal
-from core.estimate.with_clarabel import solve_with_clarabel
-from core.estimate.with_cvxpy import solve_with_cvxpy
 from tests.core.estimate.worlds import planar_robot, world_of
+from veritorque.core.errors import SolverError
+from veritorque.core.estimate import with_clarabel, with_cvxpy
+from veritorque.core.estimate.constraints import Bounds
+from veritorque.core.estimate.programme import Programme, refusal
+from veritorque.core.estimate.with_clarabel import solve_with_clarabel
+from veritorque.core.estimate.with_cvxpy import solve_with_cvxpy
 
 CLARABEL = sorted(name for name in dir(clarabel.SolverStatus) if name[0].isupper())
 CVXPY = sorted(

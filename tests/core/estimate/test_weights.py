@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.dynamics.terms.coulomb import Coulomb
-from core.errors import ExcitationError
-from core.estimate.smoothing import SHARES
-from core.estimate.system import joint_noise, ordinary, stacked, weighted
-from core.log.model import whole_rows
-from core.log.reader import log_from_arrays
-from core.regressor.factor import Factor
-from core.study import IdentifyRequest, identify_in_full
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters, world_of
 from tests.tools import random_robot
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.terms.coulomb import Coulomb
+from veritorque.core.errors import ExcitationError
+from veritorque.core.estimate.smoothing import SHARES
+from veritorque.core.estimate.system import joint_noise, ordinary, stacked, weighted
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.regressor.factor import Factor
+from veritorque.core.study import IdentifyRequest, identify_in_full
 
 
 def test_weighing_joints_by_their_noise_beats_not_weighing_them_when_they_differ():

@@ -8,18 +8,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.estimate.constraints import Prior, default_prior
-from core.estimate.system import System, weighted
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.reduction.base import BaseModel, base_model
-from core.regressor.columns import ColumnPlan, dense
-from core.regressor.factor import Factor
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
 from tests.tools import random_bodies, random_motion
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.estimate.constraints import Prior, default_prior
+from veritorque.core.estimate.system import System, weighted
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.reduction.base import BaseModel, base_model
+from veritorque.core.regressor.columns import ColumnPlan, dense
+from veritorque.core.regressor.factor import Factor
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 FRICTION = {"IA": 0.05, "FV": 0.6, "FC": 0.8, "OFF": 0.2, "IAM": 0.04, "FVM": 0.5, "FCM": 0.7}
 

@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
-from core.robot.frames import rotation_rpy
-from core.signals.state import MotionState
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.signals.state import MotionState
 
 Mimics = dict[str, tuple[str, float, float]]
 """Per mimicking joint its master, ratio and offset."""

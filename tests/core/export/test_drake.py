@@ -7,10 +7,10 @@ them. Tolerance as in `test_engines`.
 import numpy as np
 import pytest
 
-from core.export.sdf import write_sdf
 from tests.core.export import engines
 from tests.core.export.robots import ROBOTS, brisk, identified
 from tests.core.export.test_engines import TOLERANCE, of_terms
+from veritorque.core.export.sdf import write_sdf
 
 REASON = "Drake is not installed: nobody but our own reader reads the SDFormat here (pip install drake)"
 parsing = pytest.importorskip("pydrake.multibody.parsing", reason=REASON)

@@ -7,12 +7,12 @@ left is the rounding of another order of summation, about 1e-12.
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.export.mjcf import write_mjcf
-from core.export.sdf import write_sdf
-from core.export.urdf import write_urdf
 from tests.core.export import engines
 from tests.core.export.robots import ROBOTS, brisk, identified
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.export.mjcf import write_mjcf
+from veritorque.core.export.sdf import write_sdf
+from veritorque.core.export.urdf import write_urdf
 
 TOLERANCE = 1e-9
 

@@ -11,17 +11,17 @@ import pytest
 from ruamel.yaml import YAML
 from scipy.io import loadmat
 
-from core.document.identified import IdentifiedRobot
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.coupling import GearCoupling
-from core.export.c_header import c_name, write_c_header
-from core.export.content import content
-from core.export.formats import FORMATS
-from core.export.matlab import write_matlab
-from core.export.yaml import write_yaml
-from core.robot.parameters import INERTIAL_SYMBOLS
 from tests.core.export.robots import ROBOTS, brisk, identified
 from tests.core.report.documents import identified as result
+from veritorque.core.document.identified import IdentifiedRobot
+from veritorque.core.dynamics.terms.coulomb import Coulomb
+from veritorque.core.dynamics.terms.coupling import GearCoupling
+from veritorque.core.export.c_header import c_name, write_c_header
+from veritorque.core.export.content import content
+from veritorque.core.export.formats import FORMATS
+from veritorque.core.export.matlab import write_matlab
+from veritorque.core.export.yaml import write_yaml
+from veritorque.core.robot.parameters import INERTIAL_SYMBOLS
 
 
 @pytest.fixture(params=ROBOTS, scope="module")

@@ -10,22 +10,22 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from core.document.caveats import REPRESENTATIVE
-from core.document.identified import IdentifiedRobot
-from core.document.model_file import write_model
-from core.dynamics.model import standard_model
-from core.errors import OptionError, RobotError
-from core.export.c_header import write_c_header
-from core.export.matlab import write_matlab
-from core.export.mjcf import write_mjcf
-from core.export.sdf import write_sdf
-from core.export.urdf import write_urdf
-from core.export.yaml import write_yaml
-from core.reduction.base import base_model
-from core.robot.builtin import builtin_robot
-from core.robot.inertia import from_mass_properties
-from core.robot.model import Link, RobotModel
 from tests.core.export.robots import ROBOTS, identified
+from veritorque.core.document.caveats import REPRESENTATIVE
+from veritorque.core.document.identified import IdentifiedRobot
+from veritorque.core.document.model_file import write_model
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import OptionError, RobotError
+from veritorque.core.export.c_header import write_c_header
+from veritorque.core.export.matlab import write_matlab
+from veritorque.core.export.mjcf import write_mjcf
+from veritorque.core.export.sdf import write_sdf
+from veritorque.core.export.urdf import write_urdf
+from veritorque.core.export.yaml import write_yaml
+from veritorque.core.reduction.base import base_model
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.inertia import from_mass_properties
+from veritorque.core.robot.model import Link, RobotModel
 
 
 def write_mat_as_text(found):

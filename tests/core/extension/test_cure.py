@@ -5,21 +5,21 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.term import Term
-from core.dynamics.terms.delay import Delay
-from core.dynamics.terms.stribeck import Stribeck
-from core.dynamics.terms.torque_gain import TorqueGain
-from core.extension.cure import extended_base
-from core.extension.gain import JointGain, gains
-from core.log.model import JointLog
-from core.reduction.base import BaseModel, base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import Observation, observe
-from core.signals.condition import condition
-from core.signals.recipe import FilterOptions
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.term import Term
+from veritorque.core.dynamics.terms.delay import Delay
+from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.dynamics.terms.torque_gain import TorqueGain
+from veritorque.core.extension.cure import extended_base
+from veritorque.core.extension.gain import JointGain, gains
+from veritorque.core.log.model import JointLog
+from veritorque.core.reduction.base import BaseModel, base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.regressor.observe import Observation, observe
+from veritorque.core.signals.condition import condition
+from veritorque.core.signals.recipe import FilterOptions
 
 BLOCKS, HELD = 10, (6, 7, 8, 9)
 SIZE, VELOCITY, NOISE = 1.5, 0.4, 0.05

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
-from core.dynamics.terms.friction_change import FrictionChange
-from core.dynamics.terms.link_change import LinkChange
-from core.dynamics.terms.payload import Payload
-from core.extension.fold import folded
-from core.robot.description import robot_from_description
-from core.robot.writing import to_description
 from tests.core.diagnosis.scenes import skew_arm
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from veritorque.core.dynamics.terms.friction_change import FrictionChange
+from veritorque.core.dynamics.terms.link_change import LinkChange
+from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.extension.fold import folded
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.writing import to_description
 
 CHANGES = (Payload(3, 3, -np.inf), LinkChange(2, 2), FrictionChange(1))
 

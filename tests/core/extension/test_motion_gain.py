@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from core.extension.motion_gain import motion_intervals
-from core.simulation.multistep import Comparison, MultiStep
+from veritorque.core.extension.motion_gain import motion_intervals
+from veritorque.core.simulation.multistep import Comparison, MultiStep
 
 HORIZONS = (0.05, 0.2)
 

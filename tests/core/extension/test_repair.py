@@ -5,21 +5,21 @@ import json
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.causes.repairs import mends
-from core.document.numbers import plain
-from core.document.repairs import read_repairs, repaired_description
-from core.dynamics.model import standard_model
-from core.dynamics.newton_euler import inverse_dynamics
-from core.extension.repair import Repair, repaired_robot
-from core.robot.description import robot_from_description
-from core.robot.differences import differences
-from core.robot.model import RobotModel
-from core.robot.writing import to_description
-from core.signals.state import MotionState
 from tests.core.diagnosis.scenes import skew_arm
 from tests.core.estimate.worlds import wrist_robot
 from tests.tools import random_bodies, random_motion
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.causes.repairs import mends
+from veritorque.core.document.numbers import plain
+from veritorque.core.document.repairs import read_repairs, repaired_description
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.newton_euler import inverse_dynamics
+from veritorque.core.extension.repair import Repair, repaired_robot
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.differences import differences
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.writing import to_description
+from veritorque.core.signals.state import MotionState
 
 LARGE = 0.3
 

@@ -7,16 +7,16 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.causes.repairs import mends
-from core.errors import LogError
-from core.extension.repair import Repair
-from core.extension.repaired_log import repaired_log
-from core.log.model import ArraySource, JointLog, whole_rows
-from core.log.reader import log_from_arrays
-from core.robot.model import RobotModel
-from core.signals.resample import dropped
 from tests.core.estimate.worlds import planar_robot
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.causes.repairs import mends
+from veritorque.core.errors import LogError
+from veritorque.core.extension.repair import Repair
+from veritorque.core.extension.repaired_log import repaired_log
+from veritorque.core.log.model import ArraySource, JointLog, whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.resample import dropped
 
 RATE_HZ, SECONDS, JOINT = 250.0, 8.0, 2
 ANGULAR = 2.0 * np.pi * np.array([0.4, 1.1, 2.3])

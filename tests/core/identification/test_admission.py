@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-from core.dynamics.model import standard_model
-from core.errors import LogError, OptionError
-from core.identification.admission import KnownLog, admit
-from core.identification.options import parse_diagnose_options, parse_options
 from tests.core.estimate.worlds import planar_robot
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import LogError, OptionError
+from veritorque.core.identification.admission import KnownLog, admit
+from veritorque.core.identification.options import parse_diagnose_options, parse_options
 
 ROBOT = planar_robot()
 LOG = KnownLog("swing.csv", ("position", "torque"), rate_hz=250.0, duration=20.0, samples=5001)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.log.model import whole_rows
-from core.log.reader import log_from_arrays
-from core.study import IdentifyRequest, identify
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.study import IdentifyRequest, identify
 
 
 @pytest.fixture(scope="module")

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.errors import OptionError
-from core.estimate.constraints import CentreBox, CentreEllipsoid
-from core.identification.options import parse_diagnose_options, parse_options
+from veritorque.core.errors import OptionError
+from veritorque.core.estimate.constraints import CentreBox, CentreEllipsoid
+from veritorque.core.identification.options import parse_diagnose_options, parse_options
 
 SECTIONS = ("filter", "validation", "bootstrap", "bounds", "prior")
 

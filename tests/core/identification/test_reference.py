@@ -7,17 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.diagnosis.regression.gls import fit, refit
-from core.diagnosis.regression.score_test import score
-from core.dynamics.model import standard_model
-from core.errors import RobotError
-from core.estimate.gaussian_prior import Belief
-from core.estimate.system import System
-from core.identification.reference import PRIOR_DEVIATION, doubted, reference_from_prior
-from core.reduction.base import base_model
-from core.robot.inertia import pseudo_inertia
 from tests.core.diagnosis.regression.gls_world import BASE, NOISE, Equations, smooth
 from tests.core.diagnosis.scenes import bodies_of_skew_arm, skew_arm
+from veritorque.core.diagnosis.regression.gls import fit, refit
+from veritorque.core.diagnosis.regression.score_test import score
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import RobotError
+from veritorque.core.estimate.gaussian_prior import Belief
+from veritorque.core.estimate.system import System
+from veritorque.core.identification.reference import PRIOR_DEVIATION, doubted, reference_from_prior
+from veritorque.core.reduction.base import base_model
+from veritorque.core.robot.inertia import pseudo_inertia
 
 EXACT = Belief(1e6 * np.eye(len(BASE)), 1e6 * BASE)
 

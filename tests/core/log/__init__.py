@@ -1,1 +1,1 @@
-"""The claims of core.log, from formats to defects."""
+"""The claims of veritorque.core.log, from formats to defects."""

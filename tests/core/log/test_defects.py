@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.log.defects.runs import Runs
-from core.log.defects.spikes import median_of_five
-from core.log.defects.stretch import STRETCH_ROWS
-from core.log.reader import log_from_arrays
 from tests.core.log.writers import swing
+from veritorque.core.log.defects.runs import Runs
+from veritorque.core.log.defects.spikes import median_of_five
+from veritorque.core.log.defects.stretch import STRETCH_ROWS
+from veritorque.core.log.reader import log_from_arrays
 
 
 def healthy(seconds=20.0, rate_hz=250.0, joints=2, seed=0):

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.errors import LogError
-from core.log.mapping import parse_mapping
-from core.log.model import whole_rows
-from core.log.plausible_units import plausible_readings
-from core.log.reader import read_log
-from core.log.units import UNITS
 from tests.core.log.writers import swing, write_parquet
+from veritorque.core.errors import LogError
+from veritorque.core.log.mapping import parse_mapping
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.plausible_units import plausible_readings
+from veritorque.core.log.reader import read_log
+from veritorque.core.log.units import UNITS
 
 
 def renamed(names, **scales):

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.log import preview as module
-from core.log.preview import FEWEST_POINTS, preview, thin, thin_arrays
-from core.log.reader import log_from_arrays
+from veritorque.core.log import preview as module
+from veritorque.core.log.preview import FEWEST_POINTS, preview, thin, thin_arrays
+from veritorque.core.log.reader import log_from_arrays
 
 
 def walk(rows, traces=3, seed=1):

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from core.errors import LogError
-from core.log.model import whole_rows
-from core.log.profiles import PROFILES, fill_in
-from core.log.reader import read_log
 from tests.core.log.writers import swing, write_csv, write_parquet
+from veritorque.core.errors import LogError
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.profiles import PROFILES, fill_in
+from veritorque.core.log.reader import read_log
 
 COLUMNS = swing()
 COLUMNS |= {f"qd_{joint}": np.gradient(COLUMNS[f"q_{joint}"], COLUMNS["time"]) for joint in (1, 2, 3)}

@@ -9,8 +9,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from core.log.model import whole_rows
-from core.log.reader import read_log
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
 
 DATA = Path(__file__).parents[3].parent / "shared" / "data"
 pytestmark = pytest.mark.skipif(

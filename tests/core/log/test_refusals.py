@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from core.errors import LogError
-from core.log.reader import log_from_arrays, read_log
 from tests.core.log.writers import WRITERS, swing, write_csv, write_parquet
+from veritorque.core.errors import LogError
+from veritorque.core.log.reader import log_from_arrays, read_log
 
 
 def spoiled(change):
@@ -169,7 +169,7 @@ def test_numbers_without_a_header_are_refused(tmp_path):
 
 
 def test_more_rows_than_can_be_studied_are_refused_from_the_footer(tmp_path, monkeypatch):
-    monkeypatch.setattr("core.log.formats.table.MAX_ROWS", 2999)
+    monkeypatch.setattr("veritorque.core.log.formats.table.MAX_ROWS", 2999)
     assert refusal(swing(), tmp_path).evidence == {"rows": 3000, "at_most": 2999}
 
 

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.log.model import whole_rows
-from core.log.reader import log_from_arrays, read_log
 from tests.core.log.writers import swing, write_csv, write_parquet
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import log_from_arrays, read_log
 
 ROWS = 75_000
 
@@ -84,7 +84,7 @@ def test_defects_do_not_depend_on_whether_the_log_lies_on_disk_or_in_memory(tmp_
 MEASURE = """
 import re, sys
 from pathlib import Path
-from core.log.reader import read_log
+from veritorque.core.log.reader import read_log
 log = read_log(Path(sys.argv[1]))
 for start in range(0, log.samples, 20_000):
     log.source.rows(max(start - 100, 0), start + 20_100)

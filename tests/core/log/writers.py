@@ -1,4 +1,4 @@
-"""Make a healthy log, spoil it, and write it in every format: the test side of core.log."""
+"""Make a healthy log, spoil it, and write it in every format: the test side of veritorque.core.log."""
 
 import io
 from collections.abc import Callable

@@ -6,7 +6,7 @@ from math import factorial
 import numpy as np
 import pytest
 
-from core.numerics.chi2_tail import FAR, log_chance
+from veritorque.core.numerics.chi2_tail import FAR, log_chance
 
 EXACT = 1e-9
 """Of a logarithm: eight terms of the tail's series for up to a dozen parameters, and rounding."""

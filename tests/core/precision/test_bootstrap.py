@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.errors import SolverError
-from core.estimate.system import weighted
-from core.precision.bootstrap import bootstrap, intervals
-from core.precision.covariance import assess
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import Observation, observe
-from core.signals.condition import condition
-from core.signals.recipe import FilterOptions
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import SolverError
+from veritorque.core.estimate.system import weighted
+from veritorque.core.precision.bootstrap import bootstrap, intervals
+from veritorque.core.precision.covariance import assess
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.regressor.observe import Observation, observe
+from veritorque.core.signals.condition import condition
+from veritorque.core.signals.recipe import FilterOptions
 
 
 @pytest.fixture(scope="module")

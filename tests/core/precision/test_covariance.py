@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from core.document.numbers import plain
-from core.dynamics.model import standard_model
-from core.estimate.system import weighted
-from core.precision.covariance import Precision, assess, relative_deviation_percent
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import observe
-from core.signals.condition import condition
-from core.signals.recipe import FilterOptions
-from core.study import IdentifyRequest, identify
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.document.numbers import plain
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.estimate.system import weighted
+from veritorque.core.precision.covariance import Precision, assess, relative_deviation_percent
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.regressor.observe import observe
+from veritorque.core.signals.condition import condition
+from veritorque.core.signals.recipe import FilterOptions
+from veritorque.core.study import IdentifyRequest, identify
 
 DRAWS = 60
 """Sixty draws tell one deviation to 9 %, and the mean over thirteen to about 4 %."""

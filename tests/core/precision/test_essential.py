@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.estimate.system import System
-from core.precision.covariance import INTERVAL_95, Precision
-from core.precision.essential import Essential, essential_parameters
 from tests.core.estimate.worlds import planar_robot, world_of
+from veritorque.core.estimate.system import System
+from veritorque.core.precision.covariance import INTERVAL_95, Precision
+from veritorque.core.precision.essential import Essential, essential_parameters
 
 
 def _white(system: System) -> Precision:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from core.document.reference import read_factor, written_factor
-from core.precision.covariance import Precision
+from veritorque.core.document.reference import read_factor, written_factor
+from veritorque.core.precision.covariance import Precision
 
 
 def precision(columns: int, *, excited: int) -> Precision:

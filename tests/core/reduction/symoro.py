@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from core.robot.model import Joint, Link, RobotModel
-from core.robot.modified_dh import ModifiedDHRow
+from veritorque.core.robot.model import Joint, Link, RobotModel
+from veritorque.core.robot.modified_dh import ModifiedDHRow
 
 GOLDEN = Path(__file__).parents[2] / "golden" / "symoro.json"
 LEVEL, TILTED = (0.0, 0.0, -9.81), (-5.307, -6.843, -4.609)

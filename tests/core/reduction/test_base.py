@@ -6,14 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.reduction.base import BaseModel, base_model
-from core.regressor.columns import ColumnPlan, all_columns, dense
-from core.robot.builtin import builtin_robot
-from core.robot.frames import rotation_rpy
-from core.robot.model import Joint, Link, RobotModel
-from core.signals.state import MotionState
 from tests.tools import pinocchio_model, random_bodies, random_motion, random_robot, with_mimics
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.reduction.base import BaseModel, base_model
+from veritorque.core.regressor.columns import ColumnPlan, all_columns, dense
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.model import Joint, Link, RobotModel
+from veritorque.core.signals.state import MotionState
 
 INERTIAL = ("rigid_body", "rotor_inertia")
 LEVEL, SIDEWAYS = (0.0, 0.0, -9.81), (0.0, -9.81, 0.0)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.reduction.base import BaseModel, base_model
-from core.robot.model import RobotModel
 from tests.core.reduction.symoro import golden, golden_table, printed
 from tests.tools import shared
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.reduction.base import BaseModel, base_model
+from veritorque.core.robot.model import RobotModel
 
 ROBOTS = golden()
 COUNTS = {"rx90": 40, "tx40": 40, "puma560": 40, "kukalwr": 48, "yumi": 48, "yumi_tilted": 50}

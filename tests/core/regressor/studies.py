@@ -6,12 +6,12 @@ import numpy as np
 import pinocchio as pin
 from scipy import signal
 
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.robot.builtin import builtin_robot
-from core.robot.model import RobotModel
 from tests.core.signals.motions import Multisine
 from tests.tools import Motion, pinocchio_model, pinocchio_torque, random_bodies
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.model import RobotModel
 
 RATE_HZ = 250.0
 ORDER = 5

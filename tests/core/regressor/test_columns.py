@@ -8,12 +8,6 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.regressor.columns import ColumnPlan, all_columns, dense
-from core.regressor.kernel import BLOCK
-from core.robot.builtin import builtin_robot
-from core.robot.model import Coupling, RobotModel
-from core.signals.state import MotionState
 from tests.tools import (
     pinocchio_model,
     pinocchio_torque,
@@ -23,6 +17,12 @@ from tests.tools import (
     relative_difference,
     with_mimics,
 )
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.regressor.columns import ColumnPlan, all_columns, dense
+from veritorque.core.regressor.kernel import BLOCK
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.model import Coupling, RobotModel
+from veritorque.core.signals.state import MotionState
 
 TOLERANCE = 1e-10
 PINOCCHIO_OF_KHALIL = [9, 6, 7, 8, 0, 1, 3, 2, 4, 5]

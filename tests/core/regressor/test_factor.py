@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.regressor.factor import Factor
+from veritorque.core.regressor.factor import Factor
 
 COLUMNS = 5
 

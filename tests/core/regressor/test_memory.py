@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.regressor.memory import LaggedProducts
+from veritorque.core.regressor.memory import LaggedProducts
 
 LAGS = LaggedProducts.LAGS
 

@@ -7,17 +7,6 @@ another way than we do. Tolerance 1e-8 relative: each chain rounds to 1e-13, tim
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.log.model import JointLog, whole_rows
-from core.log.reader import log_from_arrays
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.memory import LaggedProducts
-from core.regressor.observe import Observation, equations, observe, residuals, torque_scales
-from core.signals import condition as conditioning
-from core.signals.condition import Motion, condition
-from core.signals.recipe import FilterOptions
-from core.signals.tile import Tile
 from tests.core.regressor.studies import (
     CUTOFF_HZ,
     DECIMATION,
@@ -27,6 +16,17 @@ from tests.core.regressor.studies import (
     observation_by_scipy,
     recorded,
 )
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.model import JointLog, whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.regressor.memory import LaggedProducts
+from veritorque.core.regressor.observe import Observation, equations, observe, residuals, torque_scales
+from veritorque.core.signals import condition as conditioning
+from veritorque.core.signals.condition import Motion, condition
+from veritorque.core.signals.recipe import FilterOptions
+from veritorque.core.signals.tile import Tile
 
 BLOCKS = 12
 INSIDE = range(2, 10)

@@ -8,14 +8,14 @@ STUDY = """
 import re
 from pathlib import Path
 import numpy as np
-from core.dynamics.model import standard_model
-from core.log.model import JointLog, LogRows
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.regressor.observe import observe
-from core.robot.builtin import builtin_robot
-from core.signals.condition import condition
-from core.signals.recipe import FilterOptions
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.model import JointLog, LogRows
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.regressor.observe import observe
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.signals.condition import condition
+from veritorque.core.signals.recipe import FilterOptions
 
 class Generated:
     samples = {samples}

@@ -5,13 +5,13 @@ import copy
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from core.errors import RobotError
-from core.robot.builtin import builtin_description
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
-from core.robot.urdf import robot_from_urdf
-from core.robot.writing import to_description
 from tests.core.robot.urdf_makers import joint, link, robot
+from veritorque.core.errors import RobotError
+from veritorque.core.robot.builtin import builtin_description
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.writing import to_description
 
 JUNK = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),

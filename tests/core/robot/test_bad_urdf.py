@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from core.errors import RobotError
-from core.robot.inertia import from_mass_properties
-from core.robot.plausibility import suspicions
-from core.robot.urdf import robot_from_urdf
 from tests.core.robot.urdf_makers import joint, link, robot
+from veritorque.core.errors import RobotError
+from veritorque.core.robot.inertia import from_mass_properties
+from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.urdf import robot_from_urdf
 
 PAIR = link("base") + link("tip")
 HINGE = joint("a", "revolute", "base", "tip")

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from core.errors import RobotError
-from core.robot.builtin import builtin_description, builtin_robot, builtin_robots
-from core.robot.plausibility import suspicions
-from core.robot.writing import to_description
 from tests.tools import Motion, pinocchio_model, pinocchio_torque, random_bodies, random_motion
+from veritorque.core.errors import RobotError
+from veritorque.core.robot.builtin import builtin_description, builtin_robot, builtin_robots
+from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.writing import to_description
 
 # Gravity in the frames of the tilted arm bases, m/s2, given to three decimals with the mounts' rpy.
 TILTED = {"yumi-left": (-5.307, -6.843, -4.609), "yumi-right": (-5.279, 6.865, -4.609)}

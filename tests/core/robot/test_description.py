@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.errors import RobotError
-from core.robot.builtin import builtin_description
-from core.robot.description import robot_from_description
-from core.robot.inertia import mass_properties
-from core.robot.model import Joint, Link, RobotModel
-from core.robot.urdf import robot_from_urdf
-from core.robot.writing import to_description
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_robot, shared, with_mimics
+from veritorque.core.errors import RobotError
+from veritorque.core.robot.builtin import builtin_description
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.inertia import mass_properties
+from veritorque.core.robot.model import Joint, Link, RobotModel
+from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.writing import to_description
 
 ROW = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.1, "theta_offset": 0.0}
 

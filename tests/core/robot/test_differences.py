@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.robot.description import robot_from_description
-from core.robot.differences import differences
-from core.robot.model import Coupling, Limits
-from core.robot.writing import to_description
 from tests.core.diagnosis.scenes import bodies_of_skew_arm, skew_arm
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.differences import differences
+from veritorque.core.robot.model import Coupling, Limits
+from veritorque.core.robot.writing import to_description
 
 ARM = skew_arm()
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from core.robot.frames import cross_matrix, rotation_rpy, rotation_to
-from core.robot.modified_dh import ModifiedDHRow, row_of_placement
+from veritorque.core.robot.frames import cross_matrix, rotation_rpy, rotation_to
+from veritorque.core.robot.modified_dh import ModifiedDHRow, row_of_placement
 
 ANGLES = st.one_of(st.sampled_from([0.0, np.pi / 2, -np.pi / 2, np.pi, -np.pi]), st.floats(-7.0, 7.0))
 LENGTHS = st.one_of(st.just(0.0), st.floats(-2.0, 2.0))

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.robot.frames import rotation_rpy
-from core.robot.inertia import (
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.inertia import (
     from_mass_properties,
     inertia_about_origin,
     link_parameters,
@@ -17,7 +17,7 @@ from core.robot.inertia import (
     moved,
     pseudo_inertia,
 )
-from core.robot.parameters import INERTIAL_SYMBOLS
+from veritorque.core.robot.parameters import INERTIAL_SYMBOLS
 
 SEEDS = st.integers(0, 2**32 - 1)
 

@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from core.robot.description import robot_from_description
-from core.robot.plausibility import suspicions
-from core.robot.urdf import robot_from_urdf
 from tests.tools import shared
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.urdf import robot_from_urdf
 
 # KUKA-like proportions in Khalil's convention.
 ROWS = [(0.0, 0.0, 0.34, 0.0), (-1.5708, 0.0, 0.0, 0.0), (1.5708, 0.05, 0.4, 3.1416)]

@@ -13,13 +13,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.robot.description import robot_from_description
-from core.robot.inertia import from_mass_properties, mass_properties
-from core.robot.model import RobotModel
-from core.robot.urdf import robot_from_urdf
-from core.robot.writing import to_description
 from tests.core.robot.urdf_makers import joint, link, random_urdf, robot
 from tests.tools import Motion, pinocchio_torque, random_motion, shared
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.inertia import from_mass_properties, mass_properties
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.writing import to_description
 
 BODY = from_mass_properties(2.0, np.array([0.1, 0.0, 0.0]), np.diag([0.02, 0.03, 0.04]))
 ARM = robot(

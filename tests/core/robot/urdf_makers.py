@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from core.robot.frames import rotation_rpy
-from core.robot.inertia import mass_properties
 from tests.tools import random_bodies
+from veritorque.core.robot.frames import rotation_rpy
+from veritorque.core.robot.inertia import mass_properties
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed")
 

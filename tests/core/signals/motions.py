@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.robot.model import Joint, Link, RobotModel
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.model import Joint, Link, RobotModel
 
 
 @dataclass(frozen=True, eq=False)

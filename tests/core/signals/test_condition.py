@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from core.errors import LogError
-from core.log.model import JointLog
-from core.signals import condition as conditioning
-from core.signals.condition import Motion, condition, without_standstill_mask
-from core.signals.recipe import FilterOptions
 from tests.core.signals.motions import Multisine, jittered, log_of, turntables
+from veritorque.core.errors import LogError
+from veritorque.core.log.model import JointLog
+from veritorque.core.signals import condition as conditioning
+from veritorque.core.signals.condition import Motion, condition, without_standstill_mask
+from veritorque.core.signals.recipe import FilterOptions
 
 RATE_HZ = 250.0
 PLAIN = FilterOptions(cutoff_hz=10.0, position_cutoff_hz=40.0, decimation=10)

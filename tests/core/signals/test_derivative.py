@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import signal
 
-from core.signals.derivative import centred_difference, median
+from veritorque.core.signals.derivative import centred_difference, median
 
 
 @given(*(st.floats(-10.0, 10.0) for _ in range(3)), st.floats(10.0, 5000.0))

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from core.errors import OptionError
-from core.signals.recipe import FilterOptions, Recipe, choose_recipe
 from tests.core.signals.motions import Multisine, log_of
+from veritorque.core.errors import OptionError
+from veritorque.core.signals.recipe import FilterOptions, Recipe, choose_recipe
 
 RATE_HZ = 500.0
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from core.log.model import LogRows
-from core.signals.resample import is_uniform, on_grid, uniform
 from tests.core.signals.motions import jittered
+from veritorque.core.log.model import LogRows
+from veritorque.core.signals.resample import is_uniform, on_grid, uniform
 
 
 def test_samples_on_a_uniform_clock_are_not_touched():

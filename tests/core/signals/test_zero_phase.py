@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from core.errors import OptionError
-from core.signals.parallel import ParallelFilter
-from core.signals.zero_phase import gain, kernel, reach_of
+from veritorque.core.errors import OptionError
+from veritorque.core.signals.parallel import ParallelFilter
+from veritorque.core.signals.zero_phase import gain, kernel, reach_of
 
 CASES = [
     (10.0, 250.0, 5),

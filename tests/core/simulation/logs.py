@@ -4,12 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.log.model import ArraySource, JointLog, LogRows
-from core.robot.model import RobotModel
-from core.signals.condition import Motion, condition
-from core.signals.state import MotionState
 from tests.tools import Motion as Samples
 from tests.tools import pinocchio_torque
+from veritorque.core.log.model import ArraySource, JointLog, LogRows
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.condition import Motion, condition
+from veritorque.core.signals.state import MotionState
 
 RATE_HZ = 500.0
 

@@ -11,20 +11,20 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
-from core.dynamics.term import Term
-from core.log.reader import log_from_arrays
-from core.robot.model import RobotModel
-from core.signals.condition import Motion, condition
-from core.signals.state import MotionState
-from core.simulation.mechanism import Mechanism, mechanism_of
-from core.simulation.multistep import MultiStepOptions, predict_motion
-from core.simulation.stage import accelerations
 from tests.core.diagnosis.scenes import skew_arm
 from tests.core.dynamics.every_term import FILES, SEARCHED, cures_by_cause, searched
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from tests.tools import random_robot
+from veritorque.core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
+from veritorque.core.dynamics.term import Term
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.condition import Motion, condition
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
+from veritorque.core.simulation.multistep import MultiStepOptions, predict_motion
+from veritorque.core.simulation.stage import accelerations
 
 WINDOWS = MultiStepOptions(horizons=(0.05, 0.1, 0.2), every=0.5)
 LATER = frozenset((0, block) for block in range(1, 6))

@@ -9,12 +9,6 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.errors import OptionError
-from core.robot.model import Coupling, RobotModel
-from core.signals.state import MotionState
-from core.simulation.mechanism import mechanism_of
-from core.simulation.stage import accelerations
 from tests.core.simulation.worlds import mechanism
 from tests.tools import (
     Motion,
@@ -26,6 +20,12 @@ from tests.tools import (
     relative_difference,
     with_mimics,
 )
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.errors import OptionError
+from veritorque.core.robot.model import Coupling, RobotModel
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.mechanism import mechanism_of
+from veritorque.core.simulation.stage import accelerations
 
 TOLERANCE = 1e-9
 SAMPLES = 5

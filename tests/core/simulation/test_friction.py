@@ -4,13 +4,13 @@ import mujoco
 import numpy as np
 import pytest
 
-from core.robot.model import Coupling, RobotModel
-from core.signals.state import MotionState
-from core.simulation.drive import Drive, Feedback
-from core.simulation.rollout import rollout
-from core.simulation.stage import States, accelerations
 from tests.core.simulation.worlds import block, mechanism, pendulum, play, slope
 from tests.tools import mujoco_model, random_bodies, random_robot
+from veritorque.core.robot.model import Coupling, RobotModel
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.drive import Drive, Feedback
+from veritorque.core.simulation.rollout import rollout
+from veritorque.core.simulation.stage import States, accelerations
 
 
 def test_a_body_on_a_slope_below_its_coulomb_level_does_not_move_at_all():

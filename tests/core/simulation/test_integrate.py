@@ -5,11 +5,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from core.dynamics.newton_euler import inverse_dynamics
-from core.errors import SolverError
-from core.signals.state import MotionState
 from tests.core.simulation.worlds import block, mechanism, pendulum, play
 from tests.tools import random_bodies, random_robot
+from veritorque.core.dynamics.newton_euler import inverse_dynamics
+from veritorque.core.errors import SolverError
+from veritorque.core.signals.state import MotionState
 
 
 def _arm(**drives):

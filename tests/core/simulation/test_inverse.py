@@ -7,10 +7,10 @@ thirty links.
 import numpy as np
 import pytest
 
-from core.dynamics.newton_euler import inverse_dynamics as plain
-from core.signals.state import MotionState
-from core.simulation.inverse import inverse_dynamics
 from tests.tools import random_bodies, random_motion, random_robot, relative_difference, with_mimics
+from veritorque.core.dynamics.newton_euler import inverse_dynamics as plain
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.inverse import inverse_dynamics
 
 TOLERANCE = 1e-12
 

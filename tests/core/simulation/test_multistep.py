@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from core.errors import LogError, OptionError
-from core.simulation.multistep import MultiStepOptions, compare, predict_motion
-from core.simulation.windows import windows
 from tests.core.simulation.logs import RATE_HZ, logged
 from tests.core.simulation.worlds import mechanism
+from veritorque.core.errors import LogError, OptionError
+from veritorque.core.simulation.multistep import MultiStepOptions, compare, predict_motion
+from veritorque.core.simulation.windows import windows
 
 
 def test_the_true_model_strays_a_hundredth_of_what_no_model_does(arm, motion):

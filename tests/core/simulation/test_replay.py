@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.delay import Delay
-from core.dynamics.terms.presliding import Presliding
-from core.dynamics.terms.torque_gain import CommonGain
-from core.errors import OptionError
-from core.signals.state import MotionState
-from core.simulation.inverse import inverse_dynamics
-from core.simulation.mechanism import mechanism_of
-from core.simulation.replay import Gains, ReplayOptions, default_gains, fitted_gains, replay
-from core.simulation.share import share_of
 from tests.core.simulation.logs import logged
 from tests.core.simulation.worlds import block, mechanism
 from tests.tools import random_motion
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.delay import Delay
+from veritorque.core.dynamics.terms.presliding import Presliding
+from veritorque.core.dynamics.terms.torque_gain import CommonGain
+from veritorque.core.errors import OptionError
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.inverse import inverse_dynamics
+from veritorque.core.simulation.mechanism import mechanism_of
+from veritorque.core.simulation.replay import Gains, ReplayOptions, default_gains, fitted_gains, replay
+from veritorque.core.simulation.share import share_of
 
 
 @pytest.mark.parametrize("feed_forward", ["measured", "model"])

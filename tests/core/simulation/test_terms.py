@@ -6,18 +6,18 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
-from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.dynamics.terms.missing_rotor import MissingRotor
-from core.dynamics.terms.payload import Payload
-from core.robot.model import Coupling
-from core.robot.parameters import Parameter
-from core.signals.state import MotionState
-from core.simulation.mechanism import mechanism_of
-from core.simulation.stage import accelerations
 from tests.core.simulation.worlds import block, mechanism, play
 from tests.tools import random_bodies, random_robot
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
+from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
+from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.robot.model import Coupling
+from veritorque.core.robot.parameters import Parameter
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.mechanism import mechanism_of
+from veritorque.core.simulation.stage import accelerations
 
 PLAIN = 28
 """Parameters of two links with their drives."""

@@ -4,13 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.dynamics.model import standard_model
-from core.robot.model import Joint, Link, RobotModel
-from core.signals.state import MotionState
-from core.simulation.drive import Drive
-from core.simulation.mechanism import Mechanism, mechanism_of
-from core.simulation.rollout import Trajectory, rollout
-from core.simulation.stage import States
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.robot.model import Joint, Link, RobotModel
+from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.drive import Drive
+from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
+from veritorque.core.simulation.rollout import Trajectory, rollout
+from veritorque.core.simulation.stage import States
 
 
 def mechanism(robot: RobotModel, bodies: np.ndarray, **drives: float) -> Mechanism:

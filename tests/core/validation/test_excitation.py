@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.validation.excitation import excitation
+from veritorque.core.validation.excitation import excitation
 
 
 @given(seed=st.integers(0, 1000), columns=st.integers(2, 9))

@@ -7,16 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.document.identification import Identification
-from core.dynamics.model import standard_model
-from core.errors import OptionError
-from core.log.model import JointLog, whole_rows
-from core.log.reader import log_from_arrays
-from core.regressor.observe import residuals
-from core.study import IdentifyRequest, identify_in_full
-from core.validation.holdout import HoldOut
-from core.validation.scores import JointScore, scores, total_percent
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.document.identification import Identification
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import OptionError
+from veritorque.core.log.model import JointLog, whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.regressor.observe import residuals
+from veritorque.core.study import IdentifyRequest, identify_in_full
+from veritorque.core.validation.holdout import HoldOut
+from veritorque.core.validation.scores import JointScore, scores, total_percent
 
 MODEL = standard_model(planar_robot())
 

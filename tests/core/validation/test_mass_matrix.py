@@ -6,16 +6,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.dynamics.model import standard_model
-from core.robot.builtin import builtin_robot
-from core.validation.mass_matrix import (
+from tests.core.estimate.worlds import planar_robot, true_parameters, wrist_robot
+from tests.tools import pinocchio_model, random_robot
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.validation.mass_matrix import (
     check_mass_matrix,
     mass_matrices,
     pseudo_inertia_eigenvalues,
     workspace,
 )
-from tests.core.estimate.worlds import planar_robot, true_parameters, wrist_robot
-from tests.tools import pinocchio_model, random_robot
 
 
 @settings(max_examples=10)

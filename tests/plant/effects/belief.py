@@ -5,11 +5,11 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from core.robot.frames import rotation_x, rotation_y
-from core.robot.model import Link, RobotModel
 from tests.plant.controller import Steering
 from tests.plant.effects.effect import Effect, Hidden
 from tests.plant.robots import Arm
+from veritorque.core.robot.frames import rotation_x, rotation_y
+from veritorque.core.robot.model import Link, RobotModel
 
 REACH = {"alpha": 0.25, "d": 0.15, "r": 0.15}
 """Largest error of an entry, rad or m."""

@@ -10,8 +10,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from core.robot.model import RobotModel
 from tests.plant.robots import Arm
+from veritorque.core.robot.model import RobotModel
 
 
 @dataclass(frozen=True)

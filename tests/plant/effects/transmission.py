@@ -5,11 +5,11 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from core.robot.model import Coupling, RobotModel
 from tests.plant.controller import BANDWIDTH, Steering
 from tests.plant.effects.effect import Effect, Hidden
 from tests.plant.effects.friction import any_joint
 from tests.plant.robots import Arm
+from veritorque.core.robot.model import Coupling, RobotModel
 
 
 @dataclass(frozen=True)

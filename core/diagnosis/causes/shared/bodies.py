@@ -4,9 +4,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.arrays import LinkParameters, SquareMatrix
-from core.estimate.body import nearest_body
-from core.robot.parameters import INERTIAL_SYMBOLS
+from ....arrays import LinkParameters, SquareMatrix
+from ....estimate.body import nearest_body
+from ....robot.parameters import INERTIAL_SYMBOLS
 
 TENABLE, TENABLE_SHARE = 30.0, 0.03
 """Squared distance from a body, in deviations, that luck or a share of the whole effect accounts for."""

@@ -7,10 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.diagnosis.causes.protocol import Confusion, Cure, Numbers, Quantity, Scalars, Site, Solved
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.prediction import Prediction
-from core.robot.model import RobotModel
+from ....dynamics.prediction import Prediction
+from ....robot.model import RobotModel
+from ...dataset.dataset import Look
+from ..protocol import Confusion, Cure, Numbers, Quantity, Scalars, Site, Solved
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.sparse import csr_array
 
-from core.arrays import JointSeries, Samples, Vector
-from core.dynamics.terms.contact import Span, swell
-from core.numerics.chi2_tail import log_chance
+from ....arrays import JointSeries, Samples, Vector
+from ....dynamics.terms.contact import Span, swell
+from ....numerics.chi2_tail import log_chance
 
 SHORTEST, LONGEST = 0.2, 3.2
 """Lengths in s: shorter events are outliers, longer ones last."""

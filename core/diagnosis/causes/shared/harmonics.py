@@ -8,9 +8,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.arrays import Samples
-from core.diagnosis.causes.protocol import Quantity, Scalars, Solved
-from core.diagnosis.causes.shared.waves import amplitude_and_angle
+from ....arrays import Samples
+from ..protocol import Quantity, Scalars, Solved
+from .waves import amplitude_and_angle
 
 DISTINCT = 1.6
 """Two waves whose phases drift apart by this many radians over the range are nine tenths alike."""

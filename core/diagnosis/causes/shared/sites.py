@@ -1,6 +1,6 @@
 """Find the joints and links of a robot at which a cause makes sense."""
 
-from core.robot.model import RobotModel
+from ....robot.model import RobotModel
 
 
 def revolute_joints(robot: RobotModel) -> tuple[int, ...]:

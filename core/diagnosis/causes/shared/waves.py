@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.arrays import SquareMatrix, Vector
+from ....arrays import SquareMatrix, Vector
 
 Estimate = tuple[float, float]
 """Value and standard deviation."""

@@ -7,11 +7,11 @@ import re
 import pytest
 from rich.console import Console
 
-from app.json_text import json_bytes
-from app.terminal.output.columns import Column, print_table
-from app.terminal.output.tables import effort_column
 from tests.app.terminal.conftest import run
 from tests.core.report.documents import diagnosed
+from veritorque.app.json_text import json_bytes
+from veritorque.app.terminal.output.columns import Column, print_table
+from veritorque.app.terminal.output.tables import effort_column
 
 COMMANDS = {
     "identify yumi-left examples/yumi/log.csv": "identify",
@@ -25,11 +25,11 @@ def printed(desk, identified, monkeypatch):
     """Print what a command prints in a terminal of some width."""
     documents = {"identify": identified.read_bytes(), "diagnose": json_bytes(diagnosed())}
     monkeypatch.setattr(
-        "app.terminal.backend.local.LocalBench.run", lambda _, study, *__: documents[study.kind]
+        "veritorque.app.terminal.backend.local.LocalBench.run", lambda _, study, *__: documents[study.kind]
     )
 
     def at(width, command):
-        monkeypatch.setattr("app.terminal.output.streams.PIPED_WIDTH", width)
+        monkeypatch.setattr("veritorque.app.terminal.output.streams.PIPED_WIDTH", width)
         ended = run(*command.split())
         assert ended.exit_code == 0, ended.output
         return ended.stdout

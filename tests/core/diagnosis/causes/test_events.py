@@ -4,10 +4,6 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array, diags_array
 
-from core.diagnosis.causes.shared.events import find_events
-from core.diagnosis.regression.ar_noise import places
-from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit, precisions
-from core.dynamics.terms.contact import swell
 from tests.core.diagnosis.processes import (
     SLOW,
     WAVY,
@@ -18,6 +14,10 @@ from tests.core.diagnosis.processes import (
     exact_noise,
 )
 from tests.core.diagnosis.scenes import SHOVE, eventful_scene
+from veritorque.core.diagnosis.causes.shared.events import find_events
+from veritorque.core.diagnosis.regression.ar_noise import places
+from veritorque.core.diagnosis.regression.innovation_covariance import fitted_rows, misfit, precisions
+from veritorque.core.dynamics.terms.contact import swell
 
 TIME = np.arange(0.0, 30.0, 0.02)
 PLACE = np.arange(len(TIME))

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
-from core.diagnosis.diagnose import diagnose
-from core.diagnosis.search.grid import neighbours
-from core.diagnosis.search.hypothesis import Candidate
-from core.diagnosis.search.profile_likelihood import refined
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
+from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
+from veritorque.core.diagnosis.diagnose import diagnose
+from veritorque.core.diagnosis.search.grid import neighbours
+from veritorque.core.diagnosis.search.hypothesis import Candidate
+from veritorque.core.diagnosis.search.profile_likelihood import refined
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
 
 ROTOR, SHARE = 1.5, 0.15
 """Inertia of the rotor that the skew arm's description leaves out, kg m2, and friction per torque."""

@@ -5,12 +5,12 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.signal import lfilter
 
-from core.diagnosis.diagnose import diagnose
-from core.dynamics.model import standard_model
-from core.dynamics.terms.filter_lag import low_passed
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
+from veritorque.core.diagnosis.diagnose import diagnose
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.terms.filter_lag import low_passed
 
 NEARLY_A_WALK = 0.995
 """How much of a sample's noise is left in the next one."""

@@ -7,31 +7,31 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.diagnosis.causes.cable_force import CableForce
-from core.diagnosis.causes.friction_asymmetric import FrictionAsymmetric
-from core.diagnosis.causes.friction_position_dependent import FrictionPositionDependent
-from core.diagnosis.causes.friction_presliding import FrictionPresliding
-from core.diagnosis.causes.friction_temperature import FrictionTemperature
-from core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
-from core.diagnosis.causes.joint_coupling import JointCoupling
-from core.diagnosis.causes.protocol import Cause, Solved
-from core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
-from core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
-from core.diagnosis.causes.spring_compensator import SpringCompensator
-from core.diagnosis.causes.torque_gain_nonlinear import TorqueGainNonlinear
-from core.diagnosis.causes.torque_offset_drift import TorqueOffsetDrift
-from core.diagnosis.causes.torque_ripple import TorqueRipple
-from core.diagnosis.causes.torque_saturation import TorqueSaturation
-from core.diagnosis.dataset.dataset import Look, look_at
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.offset import Offset
-from core.dynamics.terms.viscous import Viscous
-from core.log.reader import log_from_arrays
-from core.robot.model import Coupling
 from tests.core.dynamics.terms.motions import swinging
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_robot
+from veritorque.core.diagnosis.causes.cable_force import CableForce
+from veritorque.core.diagnosis.causes.friction_asymmetric import FrictionAsymmetric
+from veritorque.core.diagnosis.causes.friction_position_dependent import FrictionPositionDependent
+from veritorque.core.diagnosis.causes.friction_presliding import FrictionPresliding
+from veritorque.core.diagnosis.causes.friction_temperature import FrictionTemperature
+from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
+from veritorque.core.diagnosis.causes.joint_coupling import JointCoupling
+from veritorque.core.diagnosis.causes.protocol import Cause, Solved
+from veritorque.core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
+from veritorque.core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
+from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
+from veritorque.core.diagnosis.causes.torque_gain_nonlinear import TorqueGainNonlinear
+from veritorque.core.diagnosis.causes.torque_offset_drift import TorqueOffsetDrift
+from veritorque.core.diagnosis.causes.torque_ripple import TorqueRipple
+from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
+from veritorque.core.diagnosis.dataset.dataset import Look, look_at
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.coulomb import Coulomb
+from veritorque.core.dynamics.terms.offset import Offset
+from veritorque.core.dynamics.terms.viscous import Viscous
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.model import Coupling
 
 CAUSES: tuple[Cause, ...] = (
     CableForce(),

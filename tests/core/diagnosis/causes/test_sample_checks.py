@@ -5,17 +5,17 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.dropped_samples import DroppedSamples
-from core.diagnosis.causes.encoder_quantization import EncoderQuantization
-from core.diagnosis.causes.sample_check import RawCause, RawFinding
-from core.diagnosis.causes.timestamp_jitter import TimestampJitter
-from core.diagnosis.dataset.dataset import Look, look_at
-from core.diagnosis.regression.innovation_covariance import fitted_rows, misfit
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.log.model import JointLog
-from core.log.reader import log_from_arrays
-from core.robot.model import Joint, Link, RobotModel
+from veritorque.core.diagnosis.causes.dropped_samples import DroppedSamples
+from veritorque.core.diagnosis.causes.encoder_quantization import EncoderQuantization
+from veritorque.core.diagnosis.causes.sample_check import RawCause, RawFinding
+from veritorque.core.diagnosis.causes.timestamp_jitter import TimestampJitter
+from veritorque.core.diagnosis.dataset.dataset import Look, look_at
+from veritorque.core.diagnosis.regression.innovation_covariance import fitted_rows, misfit
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.model import Joint, Link, RobotModel
 
 CHECKS: dict[str, RawCause] = {
     one.id: one for one in (TimestampJitter(), DroppedSamples(), EncoderQuantization())

@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.backlash import Backlash
-from core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
-from core.diagnosis.causes.external_contact import ExternalContact
-from core.diagnosis.causes.gravity_misalignment import GravityMisalignment
-from core.diagnosis.causes.kinematic_error import KinematicError
-from core.diagnosis.causes.payload_change import PayloadChange
-from core.diagnosis.causes.protocol import Solved
-from core.diagnosis.causes.shared.sites import end_links, revolute_joints
-from core.diagnosis.causes.shared.waves import amplitude_and_angle
-from core.dynamics.terms.contact import WRENCH
 from tests.tools import random_robot
+from veritorque.core.diagnosis.causes.backlash import Backlash
+from veritorque.core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
+from veritorque.core.diagnosis.causes.external_contact import ExternalContact
+from veritorque.core.diagnosis.causes.gravity_misalignment import GravityMisalignment
+from veritorque.core.diagnosis.causes.kinematic_error import KinematicError
+from veritorque.core.diagnosis.causes.payload_change import PayloadChange
+from veritorque.core.diagnosis.causes.protocol import Solved
+from veritorque.core.diagnosis.causes.shared.sites import end_links, revolute_joints
+from veritorque.core.diagnosis.causes.shared.waves import amplitude_and_angle
+from veritorque.core.dynamics.terms.contact import WRENCH
 
 SPANS = {"start_1": 3.0, "end_1": 3.5, "start_2": 8.0, "end_2": 8.4}
 

@@ -5,13 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.diagnosis.checks.alternatives import Standing, weighed
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from core.diagnosis.search.stepwise import Selection
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
+from veritorque.core.diagnosis.checks.alternatives import Standing, weighed
+from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from veritorque.core.diagnosis.search.stepwise import Selection
 
 QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
 """Waves per radian: none of them is gravity."""

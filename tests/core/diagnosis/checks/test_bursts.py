@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.checks.bursts import burst
 from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
 from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, drawn
 from tests.core.diagnosis.scenes import bench_of, measured_arm
+from veritorque.core.diagnosis.checks.bursts import burst
 
 BEGIN, END = 6.0, 6.8
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.checks.gain import gain
 from tests.core.diagnosis.processes import SLOW, drawn
 from tests.core.diagnosis.regression.gls_world import smooth
+from veritorque.core.diagnosis.checks.gain import gain
 
 ROWS, UNSEEN = 4000, 1000
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.checks.holdout_outliers import Explained, surprised, turned, unsurprising
-from core.diagnosis.dataset.dataset import Look
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
+from veritorque.core.diagnosis.checks.holdout_outliers import Explained, surprised, turned, unsurprising
+from veritorque.core.diagnosis.dataset.dataset import Look
 
 PUSH = 3.0
 """N m, on one joint for as long as a block."""

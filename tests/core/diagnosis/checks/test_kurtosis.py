@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.checks.change_points import switchings
-from core.diagnosis.checks.kurtosis import kurtosis, level_keeper
-from core.diagnosis.checks.lack_of_fit import best_stranger
 from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
+from veritorque.core.diagnosis.checks.change_points import switchings
+from veritorque.core.diagnosis.checks.kurtosis import kurtosis, level_keeper
+from veritorque.core.diagnosis.checks.lack_of_fit import best_stranger
 
 SIZE = 0.2
 """Of the switching torque, N m."""

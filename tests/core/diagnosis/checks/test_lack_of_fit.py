@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from core.diagnosis.checks.lack_of_fit import best_stranger, strangers
-from core.diagnosis.search.hypothesis import Hypothesis
 from tests.core.diagnosis.made_up import JOINT, candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from veritorque.core.diagnosis.checks.lack_of_fit import best_stranger, strangers
+from veritorque.core.diagnosis.search.hypothesis import Hypothesis
 
 RHYTHM = 0.4
 """Repetitions of something beside the robot, Hz."""

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from core.diagnosis.dataset.dataset import Look
-from core.log.model import whole_rows
-from core.signals.recipe import FilterOptions
 from tests.core.diagnosis.scenes import Scene, bench_of, look_at_arm, measured_arm
+from veritorque.core.diagnosis.dataset.dataset import Look
+from veritorque.core.log.model import whole_rows
+from veritorque.core.signals.recipe import FilterOptions
 
 NEGLIGIBLE = 5e-4
 """RMS of what filters may leave of a torque without noise, N m: a hundredth of the noise of most scenes."""

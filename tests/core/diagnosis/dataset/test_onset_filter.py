@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from core.diagnosis.dataset.dataset import Look
-from core.dynamics.terms.payload import Payload
 from tests.core.diagnosis.scenes import recording, scene_of
+from veritorque.core.diagnosis.dataset.dataset import Look
+from veritorque.core.dynamics.terms.payload import Payload
 
 GAP = (5.0, 7.0)
 """Seconds that were not recorded."""

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.dataset.spikes import spiked, without_spikes
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, look_at_arm, measured_arm
+from veritorque.core.diagnosis.dataset.spikes import spiked, without_spikes
 
 SPAN = (6.0, 6.8)
 

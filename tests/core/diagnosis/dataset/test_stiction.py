@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.nuisance import free_of, independent
 from tests.core.diagnosis.scenes import look_at_arm
 from tests.core.dynamics.terms.motions import swinging
+from veritorque.core.diagnosis.dataset.dataset import Look
+from veritorque.core.diagnosis.regression.nuisance import free_of, independent
 
 PARKED, MOVING = 1, 0
 

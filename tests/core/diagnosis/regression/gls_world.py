@@ -6,11 +6,11 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.sparse import csr_array, hstack
 
-from core.diagnosis.dataset.dataset import Look
-from core.diagnosis.regression.ar_noise import JointNoise
-from core.diagnosis.regression.rows import Columns, JointRows, extended, joint_rows
 from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, dense_covariance, drawn, exact_noise
 from tests.core.diagnosis.scenes import eventful_scene
+from veritorque.core.diagnosis.dataset.dataset import Look
+from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.rows import Columns, JointRows, extended, joint_rows
 
 PROCESSES = (WHITE, SLOW, WAVY)
 NOISE: tuple[JointNoise, ...] = tuple(exact_noise(weights) for weights in PROCESSES)

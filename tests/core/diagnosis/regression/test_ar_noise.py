@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from core.diagnosis.regression.ar_noise import HIGHEST_ORDER, JointNoise, learn_noise, places
 from tests.core.diagnosis.processes import (
     SLOW,
     WAVY,
@@ -14,6 +13,7 @@ from tests.core.diagnosis.processes import (
     exact_noise,
     ljung_box,
 )
+from veritorque.core.diagnosis.regression.ar_noise import HIGHEST_ORDER, JointNoise, learn_noise, places
 
 every_process = pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY], ids=["white", "slow", "wavy"])
 GAPS = np.array([True] * 25 + [False] + [True] * 4 + [False] * 2 + [True, False] + [True] * 26)

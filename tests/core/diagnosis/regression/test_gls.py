@@ -7,9 +7,9 @@ import pytest
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
 
-from core.diagnosis.regression.gls import fit, leaves_too_much, refit
-from core.diagnosis.regression.rows import joint_rows
 from tests.core.diagnosis.regression.gls_world import BASE, FREE, NOISE, Equations, smooth
+from veritorque.core.diagnosis.regression.gls import fit, leaves_too_much, refit
+from veritorque.core.diagnosis.regression.rows import joint_rows
 
 CLOSE = 1e-6
 """The ridge of 1e-10 of a column's own square, times the condition of the columns."""

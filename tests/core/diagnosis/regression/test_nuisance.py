@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from core.diagnosis.regression.ar_noise import places
-from core.diagnosis.regression.nuisance import free_of, independent
 from tests.core.diagnosis.processes import SLOW, exact_noise
+from veritorque.core.diagnosis.regression.ar_noise import places
+from veritorque.core.diagnosis.regression.nuisance import free_of, independent
 
 ROWS = 300
 

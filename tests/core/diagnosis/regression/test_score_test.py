@@ -7,11 +7,11 @@ import pytest
 from scipy.sparse import csr_array
 from scipy.stats import binom, chi2, kstest
 
-from core.diagnosis.regression.gls import fit
-from core.diagnosis.regression.nuisance import free_of, independent
-from core.diagnosis.regression.rows import Columns, JointRows, extended
-from core.diagnosis.regression.score_test import score, score_from
 from tests.core.diagnosis.regression.gls_world import NOISE, Equations, smooth
+from veritorque.core.diagnosis.regression.gls import fit
+from veritorque.core.diagnosis.regression.nuisance import free_of, independent
+from veritorque.core.diagnosis.regression.rows import Columns, JointRows, extended
+from veritorque.core.diagnosis.regression.score_test import score, score_from
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from core.diagnosis.residual.atlas import BINS, atlas
 from tests.core.diagnosis.residual.worlds import NOISES, on_joint, world
+from veritorque.core.diagnosis.residual.atlas import BINS, atlas
 
 
 @pytest.mark.parametrize("kind", NOISES)

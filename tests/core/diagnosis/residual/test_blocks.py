@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.diagnosis.residual.blocks import BLOCKS, row_blocks, share_on_blocks
 from tests.core.diagnosis.residual.worlds import world
+from veritorque.core.diagnosis.residual.blocks import BLOCKS, row_blocks, share_on_blocks
 
 ROWS = 2000
 BLOCK = np.arange(ROWS) // (ROWS // BLOCKS)

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.diagnosis.residual.coordinates import coordinate, coordinate_names, travel
-from core.errors import OptionError
 from tests.core.diagnosis.residual.worlds import world
+from veritorque.core.diagnosis.residual.coordinates import coordinate, coordinate_names, travel
+from veritorque.core.errors import OptionError
 
 
 def test_every_coordinate_has_a_finite_value_and_a_unit_at_every_row():

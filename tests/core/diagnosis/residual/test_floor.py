@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.dataset.dataset import Look, look_at
-from core.diagnosis.residual.floor import noise_floor
-from core.diagnosis.residual.period import later_by, repeats
-from core.dynamics.model import standard_model
-from core.log.reader import log_from_arrays
 from tests.core.diagnosis.residual.worlds import RATE_HZ, drawn, on_joint, world
 from tests.core.estimate.worlds import planar_robot
+from veritorque.core.diagnosis.dataset.dataset import Look, look_at
+from veritorque.core.diagnosis.residual.floor import noise_floor
+from veritorque.core.diagnosis.residual.period import later_by, repeats
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.reader import log_from_arrays
 
 MODEL = standard_model(planar_robot())
 TIME = np.arange(int(24.0 * RATE_HZ)) / RATE_HZ

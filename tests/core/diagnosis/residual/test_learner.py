@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.residual import blocks, learner
-from core.diagnosis.residual.learner import predictable_share
-from core.errors import ExcitationError
 from tests.core.diagnosis.residual.worlds import NOISES, on_joint, world
+from veritorque.core.diagnosis.residual import blocks, learner
+from veritorque.core.diagnosis.residual.learner import predictable_share
+from veritorque.core.errors import ExcitationError
 
 
 @pytest.mark.parametrize("kind", NOISES)
@@ -90,5 +90,5 @@ def test_a_joint_that_hardly_moves_is_not_judged_while_the_others_are():
 
 
 def test_the_trees_are_loaded_only_where_they_are_grown():
-    code = "import sys, core.diagnosis.residual.learner; sys.exit('sklearn' in sys.modules)"
+    code = "import sys, veritorque.core.diagnosis.residual.learner; sys.exit('sklearn' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

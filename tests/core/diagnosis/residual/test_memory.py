@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import toeplitz
 
-from core.diagnosis.regression.ar_noise import JointNoise
-from core.diagnosis.residual.memory import covariance_of_sums, memory, spectrum
+from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.residual.memory import covariance_of_sums, memory, spectrum
 
 
 def _first_order(weight: float, deviation: float = 1.0) -> JointNoise:

@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import lfilter
 
-from core.diagnosis.dataset.dataset import Look, look_at
-from core.diagnosis.regression.ar_noise import JointNoise
-from core.diagnosis.regression.gls import fit
-from core.diagnosis.regression.rows import joint_rows
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.log.reader import read_log
-from core.reduction.base import base_model
-from core.regressor.columns import ColumnPlan
-from core.robot.builtin import builtin_robot
+from veritorque.core.diagnosis.dataset.dataset import Look, look_at
+from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.gls import fit
+from veritorque.core.diagnosis.regression.rows import joint_rows
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.log.reader import read_log
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
+from veritorque.core.robot.builtin import builtin_robot
 
 EXAMPLE = Path(__file__).parents[4] / "examples" / "yumi" / "log.csv"
 NOISES = ("white", "ar_0.8", "ar_0.98", "student_3", "hum")

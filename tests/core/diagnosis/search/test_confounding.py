@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.search.confounding import left_over
-from core.diagnosis.search.likelihood_ratio import rise
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
+from veritorque.core.diagnosis.search.confounding import left_over
+from veritorque.core.diagnosis.search.likelihood_ratio import rise
 
 
 def waves(state):

@@ -6,13 +6,13 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.payload_change import PayloadChange
-from core.diagnosis.causes.registry import BY_ID
-from core.diagnosis.checks.holdout_outliers import turned
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.hypothesis import Hypothesis, Scored
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
+from veritorque.core.diagnosis.causes.payload_change import PayloadChange
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.checks.holdout_outliers import turned
+from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.search.hypothesis import Hypothesis, Scored
 
 TRUE, NEAR = 7.0, 6.5
 """Waves per radian: what is there, and what resembles it."""

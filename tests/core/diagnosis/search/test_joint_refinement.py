@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.search.joint_refinement import settled
-from core.diagnosis.search.likelihood_ratio import rise
-from core.diagnosis.search.stepwise import select
 from tests.core.diagnosis.made_up import candidate, nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
+from veritorque.core.diagnosis.search.joint_refinement import settled
+from veritorque.core.diagnosis.search.likelihood_ratio import rise
+from veritorque.core.diagnosis.search.stepwise import select
 
 QUICK, QUICKER, SLOW, OTHER = 7.0, 11.0, 4.5, 4.0
 

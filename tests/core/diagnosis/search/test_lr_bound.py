@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
-from core.diagnosis.search.entry_test import RAISED, with_candidate
-from core.diagnosis.search.fitter import Bench
-from core.diagnosis.search.likelihood_ratio import rise
-from core.diagnosis.search.lr_bound import foreseen
-from core.estimate.gaussian_prior import Belief
-from core.reduction.base import base_model
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
+from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
+from veritorque.core.diagnosis.search.entry_test import RAISED, with_candidate
+from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.search.likelihood_ratio import rise
+from veritorque.core.diagnosis.search.lr_bound import foreseen
+from veritorque.core.estimate.gaussian_prior import Belief
+from veritorque.core.reduction.base import base_model
 
 RATE = 7.0
 DRIFT: Effect = lambda state: 5.0 * np.exp(-state.time / 8.0)[:, None] * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)

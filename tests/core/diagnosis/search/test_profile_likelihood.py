@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from core.diagnosis.search.profile_likelihood import refined, told
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
+from veritorque.core.diagnosis.search.profile_likelihood import refined, told
 
 TRUE = 7.0
 """Waves per radian."""

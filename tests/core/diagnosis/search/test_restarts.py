@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from core.diagnosis.checks.alternatives import INDIFFERENCE
-from core.diagnosis.search.restarts import consolidated, criterion, reconsidered
-from core.diagnosis.search.stepwise import Selection, select
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
+from veritorque.core.diagnosis.checks.alternatives import INDIFFERENCE
+from veritorque.core.diagnosis.search.restarts import consolidated, criterion, reconsidered
+from veritorque.core.diagnosis.search.stepwise import Selection, select
 
 PARTS = ("first", "second", "third")
 RATES = (7.0, 11.0, 4.0)

@@ -7,17 +7,25 @@ from itertools import cycle
 import numpy as np
 import pytest
 
-from core.diagnosis.causes.protocol import Confusion
-from core.diagnosis.causes.registry import BY_ID, CAUSES
-from core.diagnosis.checks.alternatives import standing, weighed
-from core.diagnosis.search import stepwise as search
-from core.diagnosis.search.entry_test import BESIDES, FURTHER_LEVEL, LEVEL, RAISED, clear_enough, stays
-from core.diagnosis.search.likelihood_ratio import log_p, merit, rise
-from core.diagnosis.search.lr_bound import foreseen
-from core.diagnosis.search.stepwise import Selection, confirmed, select
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
+from veritorque.core.diagnosis.causes.protocol import Confusion
+from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
+from veritorque.core.diagnosis.checks.alternatives import standing, weighed
+from veritorque.core.diagnosis.search import fitter
+from veritorque.core.diagnosis.search import stepwise as search
+from veritorque.core.diagnosis.search.entry_test import (
+    BESIDES,
+    FURTHER_LEVEL,
+    LEVEL,
+    RAISED,
+    clear_enough,
+    stays,
+)
+from veritorque.core.diagnosis.search.likelihood_ratio import log_p, merit, rise
+from veritorque.core.diagnosis.search.lr_bound import foreseen
+from veritorque.core.diagnosis.search.stepwise import Selection, confirmed, select
 
 QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -314,7 +322,7 @@ def wave_of(*rates):
 
 def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
     bench = bench_of(measured_arm(BOTH, seed=5), CAUSES)
-    monkeypatch.setattr("core.diagnosis.search.fitter.leaves_too_much", lambda *_rows_and_fit: True)
+    monkeypatch.setattr(fitter, "leaves_too_much", lambda *_rows_and_fit: True)
     assert bench.needs_ordinary_noise(nothing_found(bench))
     other = bench.with_ordinary_noise()
     assert names(select(other)) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]

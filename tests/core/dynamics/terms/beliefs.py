@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from core.dynamics.model import DynamicModel, standard_model
-from core.dynamics.prediction import Prediction
-from core.robot.model import RobotModel
-from core.signals.state import MotionState
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_motion, random_robot
+from veritorque.core.dynamics.model import DynamicModel, standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.signals.state import MotionState
 
 JOINTS = 4
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.signals.state import MotionState
+from veritorque.core.signals.state import MotionState
 
 
 def swinging(joints: int = 2, seconds: float = 10.0, rate_hz: float = 250.0, seed: int = 0) -> MotionState:

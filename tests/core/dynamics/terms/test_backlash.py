@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from core.dynamics.terms.backlash import Backlash, twist_of
-from core.dynamics.terms.encoder import EncoderOffset
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain
+from veritorque.core.dynamics.terms.backlash import Backlash, twist_of
+from veritorque.core.dynamics.terms.encoder import EncoderOffset
+from veritorque.core.signals.state import MotionState
 
 
 @pytest.mark.parametrize("half_width", [1e-4, 1e-2])

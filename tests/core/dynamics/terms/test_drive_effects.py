@@ -5,24 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.cable import Cable
-from core.dynamics.terms.coupling import GearCoupling
-from core.dynamics.terms.cubic_gain import CubicGain
-from core.dynamics.terms.drift import Drift
-from core.dynamics.terms.effect import OneJointTerm
-from core.dynamics.terms.missing_coupling import MissingCoupling
-from core.dynamics.terms.missing_rotor import MissingRotor
-from core.dynamics.terms.ripple import Ripple
-from core.dynamics.terms.rotor_inertia import RotorInertia
-from core.dynamics.terms.saturation import Saturation
-from core.dynamics.terms.spring import Spring
-from core.robot.inertia import from_mass_properties
-from core.robot.model import Coupling
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.motions import cycle, swinging
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_robot
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.cable import Cable
+from veritorque.core.dynamics.terms.coupling import GearCoupling
+from veritorque.core.dynamics.terms.cubic_gain import CubicGain
+from veritorque.core.dynamics.terms.drift import Drift
+from veritorque.core.dynamics.terms.effect import OneJointTerm
+from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
+from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
+from veritorque.core.dynamics.terms.ripple import Ripple
+from veritorque.core.dynamics.terms.rotor_inertia import RotorInertia
+from veritorque.core.dynamics.terms.saturation import Saturation
+from veritorque.core.dynamics.terms.spring import Spring
+from veritorque.core.robot.inertia import from_mass_properties
+from veritorque.core.robot.model import Coupling
+from veritorque.core.signals.state import MotionState
 
 ROBOT = random_robot(np.random.default_rng(3), 3, prismatic=0.0)
 STATE = swinging(3)

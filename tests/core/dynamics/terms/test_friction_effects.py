@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
-from core.dynamics.terms.coulomb import Coulomb
-from core.dynamics.terms.effect import OneJointTerm
-from core.dynamics.terms.nonlinear_viscous import NonlinearViscous
-from core.dynamics.terms.position_friction import PositionFriction
-from core.dynamics.terms.presliding import Presliding, dahl
-from core.dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
-from core.dynamics.terms.viscous import Viscous
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.motions import cycle, swinging
 from tests.tools import random_robot
+from veritorque.core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from veritorque.core.dynamics.terms.coulomb import Coulomb
+from veritorque.core.dynamics.terms.effect import OneJointTerm
+from veritorque.core.dynamics.terms.nonlinear_viscous import NonlinearViscous
+from veritorque.core.dynamics.terms.position_friction import PositionFriction
+from veritorque.core.dynamics.terms.presliding import Presliding, dahl
+from veritorque.core.dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
+from veritorque.core.dynamics.terms.viscous import Viscous
+from veritorque.core.signals.state import MotionState
 
 ROBOT = random_robot(np.random.default_rng(0), 2, prismatic=0.0)
 STATE = swinging()

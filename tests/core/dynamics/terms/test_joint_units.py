@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.elasticity import Elasticity
-from core.dynamics.terms.spring import Spring
-from core.dynamics.terms.stribeck import Stribeck
-from core.robot.description import robot_from_description
-from core.robot.model import RobotModel
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.elasticity import Elasticity
+from veritorque.core.dynamics.terms.spring import Spring
+from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
 
 ROW = {"alpha": 0.0, "d": 0.1, "r": 0.0, "theta_offset": 0.0}
 

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.dynamics.prediction import moved
-from core.dynamics.terms.delay import Delay
-from core.dynamics.terms.encoder import EncoderEccentricity, EncoderOffset
-from core.dynamics.terms.filter_lag import FilterLag
-from core.dynamics.terms.torque_gain import CommonGain, TorqueGain
-from core.dynamics.terms.viscous import Viscous
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain, exact, motion_of, one_viscous_joint
+from veritorque.core.dynamics.prediction import moved
+from veritorque.core.dynamics.terms.delay import Delay
+from veritorque.core.dynamics.terms.encoder import EncoderEccentricity, EncoderOffset
+from veritorque.core.dynamics.terms.filter_lag import FilterLag
+from veritorque.core.dynamics.terms.torque_gain import CommonGain, TorqueGain
+from veritorque.core.dynamics.terms.viscous import Viscous
+from veritorque.core.signals.state import MotionState
 
 FIRST_ORDER = 1e-3
 """Errors of 1e-4 rad leave second-order remainders of about 1e-4 of the column."""

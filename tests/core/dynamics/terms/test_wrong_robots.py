@@ -5,19 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.dynamics.model import standard_model
-from core.dynamics.newton_euler import inverse_dynamics
-from core.dynamics.prediction import Prediction
-from core.dynamics.terms.contact import WRENCH, Contact
-from core.dynamics.terms.kinematic_error import ENTRY_UNITS, KinematicError
-from core.dynamics.terms.payload import Payload
-from core.dynamics.terms.tilt import Tilt, at_rest
-from core.robot.builtin import builtin_description
-from core.robot.description import robot_from_description
-from core.robot.frames import rotation_x, rotation_y
-from core.signals.state import MotionState
 from tests.core.dynamics.terms.beliefs import believed_chain, exact, motion_of
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_motion
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.newton_euler import inverse_dynamics
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.dynamics.terms.contact import WRENCH, Contact
+from veritorque.core.dynamics.terms.kinematic_error import ENTRY_UNITS, KinematicError
+from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.tilt import Tilt, at_rest
+from veritorque.core.robot.builtin import builtin_description
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.frames import rotation_x, rotation_y
+from veritorque.core.signals.state import MotionState
 
 ERROR = 1e-4
 FIRST_ORDER = 2e-3

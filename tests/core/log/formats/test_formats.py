@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from core.errors import LogError
-from core.log.model import whole_rows
-from core.log.reader import read_log
 from tests.core.log.writers import WRITERS, swing, write_csv, write_mat7, write_npz, write_parquet
+from veritorque.core.errors import LogError
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
 
 COLUMNS = swing()
 FORMS = pytest.mark.parametrize("form", WRITERS)
@@ -143,7 +143,7 @@ def test_a_pickled_object_in_an_archive_is_never_loaded(tmp_path):
 
 @pytest.mark.parametrize("form", ["CSV", "NPZ", "MATLAB v5", "MATLAB v7.3"])
 def test_a_file_that_needs_more_memory_than_allowed_is_refused_unread(form, tmp_path, monkeypatch):
-    monkeypatch.setattr("core.log.formats.table.MAX_VALUES_IN_MEMORY", 20_000)
+    monkeypatch.setattr("veritorque.core.log.formats.table.MAX_VALUES_IN_MEMORY", 20_000)
     name, write = WRITERS[form]
     with pytest.raises(LogError, match="too large for a format that must be held in memory") as caught:
         read_log(write(tmp_path / name, COLUMNS))

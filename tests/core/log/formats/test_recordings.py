@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from core.errors import LogError
-from core.log.model import whole_rows
-from core.log.reader import read_log
 from tests.core.log.writers import swing
+from veritorque.core.errors import LogError
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
 
 pytest.importorskip("rosbags", reason="ROS recordings need the extra 'ros'")
 from tests.core.log.recordings import write_bag, write_mcap

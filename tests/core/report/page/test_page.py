@@ -5,7 +5,6 @@ from html.parser import HTMLParser
 
 import pytest
 
-from core.report.page.page import compose_page
 from tests.core.report.documents import (
     curve,
     dependence,
@@ -15,6 +14,7 @@ from tests.core.report.documents import (
     nothing_found,
     rival,
 )
+from veritorque.core.report.page.page import compose_page
 
 VOID = {"meta"}
 EVIL = '<script>alert("1")</script>&\'"><img src=x onerror=alert(2)>'

@@ -8,10 +8,10 @@ from html import escape, unescape
 
 import pytest
 
-from core.report.page.page import compose_page
-from core.report.page.running import Origin
 from tests.core.report.documents import diagnosed, identified, parameter
 from tests.core.report.page.worlds import traces
+from veritorque.core.report.page.page import compose_page
+from veritorque.core.report.page.running import Origin
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="SKIPPED FOR WANT OF A BROWSER: no chromium here")

@@ -5,13 +5,13 @@ import re
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.report.page.page import compose_page
-from core.report.page.running import Origin, css_string
-from core.report.page.whisker import whisker
-from core.report.page.words import MINUS
 from tests.core.report.documents import diagnosed, identified
 from tests.core.report.page.test_page import Page
 from tests.core.report.page.worlds import traces
+from veritorque.core.report.page.page import compose_page
+from veritorque.core.report.page.running import Origin, css_string
+from veritorque.core.report.page.whisker import whisker
+from veritorque.core.report.page.words import MINUS
 
 ORIGIN = Origin("job-1", "2026-01-31T12:34:56.000+00:00")
 

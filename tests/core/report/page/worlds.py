@@ -2,7 +2,7 @@
 
 from math import cos, sin
 
-from core.report.page.traces import EXTENDED, FILTERED, MEASURED, MOTION, PLAIN, JointTraces
+from veritorque.core.report.page.traces import EXTENDED, FILTERED, MEASURED, MOTION, PLAIN, JointTraces
 
 UNITS = {"position": "rad", "velocity": "rad/s"}
 

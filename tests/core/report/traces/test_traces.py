@@ -6,13 +6,13 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from core.dynamics.model import standard_model
-from core.errors import OptionError
-from core.log.model import ArraySource, whole_rows
-from core.report.traces.layout import SIGNALS, column
-from core.report.traces.reading import View, read_traces
-from core.study import IdentifyRequest, identify
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import OptionError
+from veritorque.core.log.model import ArraySource, whole_rows
+from veritorque.core.report.traces.layout import SIGNALS, column
+from veritorque.core.report.traces.reading import View, read_traces
+from veritorque.core.study import IdentifyRequest, identify
 
 MODEL = standard_model(planar_robot())
 NOISE = 0.05

@@ -5,8 +5,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from core.errors import ExcitationError
-from core.report.traces.views import read_views
+from veritorque.core.errors import ExcitationError
+from veritorque.core.report.traces.views import read_views
 
 ROWS, RATE_HZ = 4000, 20.0
 TIME = np.arange(ROWS) / RATE_HZ

@@ -1,4 +1,4 @@
-"""Hold the public names of core: they exist, are explained, and load no more than they need."""
+"""Hold the public names: they exist, are explained, and load no more than they need."""
 
 import subprocess
 import sys
@@ -6,25 +6,25 @@ from importlib import import_module
 
 import pytest
 
-import core
+import veritorque
 
 
-@pytest.mark.parametrize("name", sorted(core.__all__))
+@pytest.mark.parametrize("name", sorted(veritorque.__all__))
 def test_a_public_name_is_there_and_explained(name):
-    assert getattr(core, name).__doc__
+    assert getattr(veritorque, name).__doc__
 
 
 def test_an_unknown_name_is_refused_with_the_list_of_known_ones():
     with pytest.raises(AttributeError, match="read_log"):
-        core.identfy  # noqa: B018  (the look is the test)
+        veritorque.identfy  # noqa: B018  (the look is the test)
 
 
 def test_reading_an_error_class_loads_neither_solver_nor_compiler():
     heavy = "{'numba', 'cvxpy', 'clarabel', 'scipy'}"
-    code = f"import sys, core.errors; print(sorted({heavy} & set(sys.modules)))"
+    code = f"import sys, veritorque.core.errors; print(sorted({heavy} & set(sys.modules)))"
     answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert answer.stdout.strip() == "[]"
 
 
 def test_the_study_uses_the_same_objects_that_are_public():
-    assert core.identify is import_module("core.study").identify
+    assert veritorque.identify is import_module("veritorque.core.study").identify
