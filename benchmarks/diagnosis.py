@@ -11,7 +11,7 @@ import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
 from tests.plant.cases import Case, draw, draw_clean
-from veritorque.core.diagnosis.diagnose import Question, diagnose
+from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan
@@ -71,7 +71,7 @@ def _cost(case: Case) -> tuple[float, int]:
     """Give the processor time of a diagnosis, s, and how many rows it looked at."""
     model = standard_model(case.believed)
     plan = ColumnPlan(model, base_model(model).kept)
-    question = Question(plan, (case.log,), HoldOut(0.25, BLOCKS).chosen(1), BLOCKS)
+    question = DiagnosisProblem(plan, (case.log,), HoldOut(0.25, BLOCKS).chosen(1), BLOCKS)
     rows: list[int] = []
     spent = processor_seconds(lambda: rows.append(len(diagnose(question).look.time)), repeats=1, least=0.0)
     return spent, rows[-1]

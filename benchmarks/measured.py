@@ -98,8 +98,10 @@ def _gained(finding: Finding) -> str:
     if finding.gain is None:
         return ""
     error = f"{finding.gain.total_percent:.0f} % gained on unseen motion"
-    weighed = [one.value for one in finding.evidence if one.statistic == "unseen likelihood ratio"]
-    return "; ".join([error, *(f"likelihood ratio {one:.0f} there" for one in weighed)])
+    compare_alternatives = [
+        one.value for one in finding.evidence if one.statistic == "unseen likelihood ratio"
+    ]
+    return "; ".join([error, *(f"likelihood ratio {one:.0f} there" for one in compare_alternatives)])
 
 
 def _errors(found: Diagnosed) -> tuple[np.ndarray, np.ndarray]:

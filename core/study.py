@@ -10,7 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from .arrays import Parameters
-from .diagnosis.diagnose import Question
+from .diagnosis.diagnose import DiagnosisProblem
 from .diagnosis.diagnose import diagnose as find_causes
 from .diagnosis.result import Diagnosis
 from .document.diagnosis import diagnosis_document
@@ -150,7 +150,7 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     if options.reference == PRIOR:
         reference = reference_from_prior(base)
     before = identified(request.logs, options, Fitting(data, base), _within(tell, 0.0, 0.3))
-    question = Question(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
+    question = DiagnosisProblem(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
     found = find_causes(question, _within(tell, 0.3, 0.5))
     plain = Fitting(data, base, belief=None if reference is None else reference.belief)
     found, proof = _proven(found, options, plain, tell)

@@ -16,8 +16,8 @@ from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from ..dynamics.prediction import Prediction
 from ..robot.parameters import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
-from .dataset.dataset import BAND_OVER_MOTION, Look
-from .regression.ar_noise import JointNoise, places
+from .dataset.dataset import BAND_OVER_MOTION, Dataset
+from .regression.ar_noise import ARNoise, places
 
 LARGEST_SHARE = 0.05
 """Share of a joint's mean square residual that the positions' noise may have."""
@@ -32,38 +32,38 @@ LEAST_OFF = 1e-3
 """Share of the time from stamp to stamp below which none is off."""
 _LOOKS = 4
 
-Fitted = tuple[Look, Prediction, tuple[JointNoise, ...]]
+Fitted = tuple[Dataset, Prediction, tuple[ARNoise, ...]]
 
 
-def narrowed(look_again: Callable[[float], Fitted]) -> Fitted:
+def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     """Narrow a look until the noise of the positions has little share in any joint's residual.
 
     Parameters
     ----------
-    look_again
+    dataset_at
         Gives the look of a width (band over the motion's band), what a plain fit then believes, and the noise
         it leaves.
     """
     width = BAND_OVER_MOTION
-    fitted = look_again(width)
+    fitted = dataset_at(width)
     even, even_shares = position_noise_torque(fitted, over_stamps=False)
     for _ in range(_LOOKS):
-        look, share = fitted[0], float(np.max(even_shares))
+        dataset, share = fitted[0], float(np.max(even_shares))
         if share <= LARGEST_SHARE or width <= NARROWEST:
             break
-        actual = look.band_hz / look.motion_band_hz
+        actual = dataset.band_hz / dataset.motion_band_hz
         width = max(NARROWEST, min(width, actual) * float(np.clip((LARGEST_SHARE / share) ** 0.2, 0.5, 0.85)))
-        fitted = look_again(width)
+        fitted = dataset_at(width)
         even, even_shares = position_noise_torque(fitted, over_stamps=False)
     # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
     scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)
-    look, believed, noise = fitted
-    look = replace(
-        look,
+    dataset, operating_point, noise = fitted
+    dataset = replace(
+        dataset,
         position_share=np.maximum(even_shares, scattered_shares),
         position_torque=np.where(scattered_shares > even_shares, scattered, even),
     )
-    return look, believed, noise
+    return dataset, operating_point, noise
 
 
 def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:
@@ -76,37 +76,40 @@ def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSe
     over_stamps
         Whether stamps that scatter though the samples do not count as noise of the positions.
     """
-    look, believed, noise = fitted
-    size = position_noise(look, over_stamps=over_stamps)
+    dataset, operating_point, noise = fitted
+    size = position_noise(dataset, over_stamps=over_stamps)
 
     def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
         return size * rng.normal(size=position.shape)
 
-    place = places(~look.starts)
-    torque = disturbance(look, _frictionless(believed), spoil)
+    place = places(~dataset.starts)
+    torque = disturbance(dataset, _frictionless(operating_point), spoil)
     shares = []
     for joint, one in enumerate(noise):
-        white = one.whitened(torque[:, [joint]], place)[look.usable[:, joint]]
+        white = one.whitened(torque[:, [joint]], place)[dataset.usable[:, joint]]
         shares.append(float(np.sum(white**2)) / max(len(white), 1))
     return torque, np.array(shares)
 
 
-def _frictionless(believed: Prediction) -> Prediction:
+def _frictionless(operating_point: Prediction) -> Prediction:
     """Leave out what jumps with the sign of velocity: there rows stand for themselves."""
     kept = np.array(
-        [one.symbol in {*INERTIAL_SYMBOLS, "IA", "IAM"} for one in believed.model.parameters], dtype=bool
+        [one.symbol in {*INERTIAL_SYMBOLS, "IA", "IAM"} for one in operating_point.model.parameters],
+        dtype=bool,
     )
-    return Prediction(believed.model, np.where(kept, believed.standard, 0.0), believed.newton_euler)
+    return Prediction(
+        operating_point.model, np.where(kept, operating_point.standard, 0.0), operating_point.newton_euler
+    )
 
 
-def position_noise(look: Look, *, over_stamps: bool) -> JointVector:
+def position_noise(dataset: Dataset, *, over_stamps: bool) -> JointVector:
     """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has.
 
     Over the stamps that is without the samples beside stamps that are off, where these are few.
     """
     found = []
-    for motion in look.motions:
+    for motion in dataset.motions:
         start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
         rows = motion.log.source.rows(start, min(stop, start + 65536))
         time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)

@@ -15,24 +15,24 @@ from ..dynamics.model import DynamicModel
 from ..identification.reference import Reference
 from ..log.model import JointLog
 from ..regressor.columns import ColumnPlan
-from .bandwidth import Fitted, narrowed
-from .causes.registry import AGAINST_REFERENCE, CAUSES, RAW_CAUSES
-from .checks.alternatives import Standing, weighed
+from .bandwidth import Fitted, limit_bandwidth
+from .causes.registry import AGAINST_REFERENCE, CAUSES, SAMPLE_CHECKS
+from .checks.alternatives import Comparison, compare_alternatives
 from .checks.bursts import burst
-from .checks.change_points import switchings
-from .checks.findings import finding, raw_finding
-from .checks.holdout_outliers import Explained, surprised, turned, unsurprising
-from .checks.kurtosis import level_keeper
-from .checks.lack_of_fit import best_stranger, strangers
-from .dataset.dataset import Look, look_at
+from .checks.change_points import switching_candidates
+from .checks.findings import finding, sample_finding
+from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
+from .checks.kurtosis import bounded_residual
+from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
+from .dataset.dataset import Dataset, build_dataset
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share, refuse_too_little
-from .result import Diagnosis, Finding, NotIdentifiable, Stranger, Verdict
-from .search.fitter import Bench
+from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
+from .search.fitter import HypothesisFitter
 from .search.hypothesis import Candidate
-from .search.likelihood_ratio import log_p, rise
-from .search.restarts import consolidated, reconsidered
-from .search.stepwise import Selection, confirmed, continued, select
+from .search.likelihood_ratio import likelihood_ratio, log_p
+from .search.restarts import restart_at_operating_point, restart_from_common_cause
+from .search.stepwise import Selection, confirm, continue_search, search_stepwise
 
 Progress = Callable[[str, float], None]
 OPEN = 1e-3
@@ -42,7 +42,7 @@ UNEXPLAINED_SHARE = 0.03
 
 
 @dataclass(frozen=True, eq=False)
-class Question:
+class DiagnosisProblem:
     """Ask what is missing from a model, or what has changed since a reference.
 
     Attributes
@@ -67,7 +67,7 @@ class Question:
         return self.plan.model
 
 
-def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
+def diagnose(question: DiagnosisProblem, progress: Progress | None = None) -> Diagnosis:
     """Name what the model does not explain.
 
     Raises
@@ -76,135 +76,143 @@ def diagnose(question: Question, progress: Progress | None = None) -> Diagnosis:
         If the logs are too short to hold anything out.
     """
     tell = progress or _say_nothing
-    raw, look = _looked(question)
-    refuse_too_little(look.clear)
-    bench, searched = _searched(question, look, tell)
-    look = bench.look
+    raw, dataset = _looked(question)
+    refuse_too_little(dataset.clear)
+    fitter, searched = _searched(question, dataset, tell)
+    dataset = fitter.dataset
     tell("weigh rivals", 0.6)
-    selection, standings = _weighed(bench, searched)
+    selection, comparisons = _weighed(fitter, searched)
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
-    after = bench.residual(chosen)
-    before = bench.residual(selection.none) if bench.belief is None else bench.residual(chosen, everyone)
-    stranger = _stranger(bench, selection, after)
-    unnamed = 0.0 if stranger is None else stranger.statistic
-    stranger = _clearer(stranger, burst(look, after))
-    found = [finding(bench, chosen, place, one, after, unnamed) for place, one in enumerate(standings)] + raw
-    most = max((one.statistic for one in standings), default=0.0)
+    after = fitter.residual(chosen)
+    before = fitter.residual(selection.none) if fitter.belief is None else fitter.residual(chosen, everyone)
+    unnamed_pattern = _stranger(fitter, selection, after)
+    unnamed = 0.0 if unnamed_pattern is None else unnamed_pattern.statistic
+    unnamed_pattern = _clearer(unnamed_pattern, burst(dataset, after))
+    found = [
+        finding(fitter, chosen, place, one, after, unnamed) for place, one in enumerate(comparisons)
+    ] + raw
+    most = max((one.statistic for one in comparisons), default=0.0)
     tell("learn what is left", 0.8)
     noise = tuple(one.noise for one in chosen.fit.joints)
-    predictable = predictable_share(look, after, bench.believed, noise)
+    predictable = predictable_share(dataset, after, fitter.operating_point, noise)
     tell("lay out", 0.95)
     return Diagnosis(
-        verdict=_verdict(found, predictable, stranger, most),
+        verdict=_verdict(found, predictable, unnamed_pattern, most),
         findings=tuple(sorted(found, key=lambda one: one.p_value)),
-        not_identifiable=_not_identifiable(bench, selection),
+        not_identifiable=_not_identifiable(fitter, selection),
         predictable=predictable,
-        stranger=stranger,
-        atlas=atlas(look, after, bench.believed, noise),
-        look=look,
-        believed=bench.believed,
+        unnamed_pattern=unnamed_pattern,
+        atlas=atlas(dataset, after, fitter.operating_point, noise),
+        dataset=dataset,
+        operating_point=fitter.operating_point,
         selection=selection,
         residual_before=before,
         residual_after=after,
-        at_rest=bench.at_rest(chosen),
+        at_rest=fitter.at_rest(chosen),
     )
 
 
-def _searched(question: Question, look: Look, tell: Progress) -> tuple[Bench, Selection]:
+def _searched(
+    question: DiagnosisProblem, dataset: Dataset, tell: Progress
+) -> tuple[HypothesisFitter, Selection]:
     """Search for causes, and on with other blocks held out where one hides what no other shows."""
 
     def progress(done: float) -> None:
         tell("search", 0.1 + 0.5 * done)
 
     progress(0.0)
-    bench, found = _found(_bench(question, look), progress)
-    other_look = turned(look) if surprised(bench, found.chosen) else None
+    fitter, found = _found(_bench(question, dataset), progress)
+    other_look = with_other_holdout(dataset) if has_holdout_outliers(fitter, found.chosen) else None
     if other_look is not None:
-        other, more = _found(bench.with_look(other_look), progress, found.chosen.members)
-        if more.chosen.members and not surprised(other, more.chosen):
+        other, more = _found(fitter.with_look(other_look), progress, found.chosen.members)
+        if more.chosen.members and not has_holdout_outliers(other, more.chosen):
             return other, more
-    return bench, found
+    return fitter, found
 
 
 def _found(
-    bench: Bench, progress: Callable[[float], None], start: Sequence[Candidate] = ()
-) -> tuple[Bench, Selection]:
+    fitter: HypothesisFitter, progress: Callable[[float], None], start: Sequence[Candidate] = ()
+) -> tuple[HypothesisFitter, Selection]:
     """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
-    found = select(bench, progress, start)
-    if not bench.needs_ordinary_noise(found.chosen):
-        found = consolidated(bench, found)
-    if bench.needs_ordinary_noise(found.chosen):
-        bench, found = _found_anew(bench, found, progress, start)
-    return bench, reconsidered(bench, found)
+    found = search_stepwise(fitter, progress, start)
+    if not fitter.needs_ordinary_noise(found.chosen):
+        found = restart_from_common_cause(fitter, found)
+    if fitter.needs_ordinary_noise(found.chosen):
+        fitter, found = _found_anew(fitter, found, progress, start)
+    return fitter, restart_at_operating_point(fitter, found)
 
 
 def _found_anew(
-    bench: Bench, before: Selection, progress: Callable[[float], None], start: Sequence[Candidate]
-) -> tuple[Bench, Selection]:
+    fitter: HypothesisFitter, before: Selection, progress: Callable[[float], None], start: Sequence[Candidate]
+) -> tuple[HypothesisFitter, Selection]:
     """Search under ordinary noise: on from what was found where all of that stays, or from the beginning."""
-    ordinary = bench.with_ordinary_noise()
-    found = confirmed(ordinary, before, progress)
+    ordinary = fitter.with_ordinary_noise()
+    found = confirm(ordinary, before, progress)
     if found is None:
         # What was ranked meanwhile is of beliefs that did not hold.
-        ordinary = bench.with_ordinary_noise()
-        found = select(ordinary, progress, start)
-    return ordinary, consolidated(ordinary, found)
+        ordinary = fitter.with_ordinary_noise()
+        found = search_stepwise(ordinary, progress, start)
+    return ordinary, restart_from_common_cause(ordinary, found)
 
 
-def _weighed(bench: Bench, found: Selection) -> tuple[Selection, list[Standing]]:
+def _weighed(fitter: HypothesisFitter, found: Selection) -> tuple[Selection, list[Comparison]]:
     """Keep the causes that stand up to their rivals, and look for what the others kept out."""
-    kept, standings = weighed(bench, found)
+    kept, comparisons = compare_alternatives(fitter, found)
     lost = {key: np.inf for key in found.chosen.by_key if key not in kept.chosen.by_key}
     if lost:
-        more = continued(bench, kept, lost)
+        more = continue_search(fitter, kept, lost)
         if len(more.chosen.members) > len(kept.chosen.members):
-            return weighed(bench, more, lost)
-    return kept, standings
+            return compare_alternatives(fitter, more, lost)
+    return kept, comparisons
 
 
-def _bench(question: Question, look: Look) -> Bench:
+def _bench(question: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
     """Lay out what is suspected, and what is believed beforehand."""
     reference = question.reference
     causes, belief = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.belief)
-    return Bench(look, question.plan, causes, belief)
+    return HypothesisFitter(dataset, question.plan, causes, belief)
 
 
-def _looked(question: Question) -> tuple[list[Finding], Look]:
+def _looked(question: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
     """Examine the raw samples in a wide look, then narrow it to where positions are not all noise."""
-    looks: list[Fitted] = []
+    datasets: list[Fitted] = []
     plain: list[Explained] = []
 
-    def look_again(width: float) -> Fitted:
-        look = look_at(
+    def dataset_at(width: float) -> Fitted:
+        dataset = build_dataset(
             question.model, question.logs, held_out=question.held_out, blocks=question.blocks, width=width
         )
-        bench, found = _bare(question, look)
-        bench.believe(found)
-        plain.append((bench, found))
-        looks.append((look, bench.believed, tuple(one.noise for one in found.fit.joints)))
-        return looks[-1]
+        fitter, found = _bare(question, dataset)
+        fitter.believe(found)
+        plain.append((fitter, found))
+        datasets.append((dataset, fitter.operating_point, tuple(one.noise for one in found.fit.joints)))
+        return datasets[-1]
 
-    look, _, _ = narrowed(look_again)
-    wide, believed, _ = looks[0]
-    raw = [raw_finding(cause, one, wide) for cause in RAW_CAUSES for one in cause.examine(wide, believed)]
-    return raw, unsurprising(look, plain[-1], partial(_bare, question))
+    dataset, _, _ = limit_bandwidth(dataset_at)
+    wide, operating_point, _ = datasets[0]
+    raw = [
+        sample_finding(cause, one, wide)
+        for cause in SAMPLE_CHECKS
+        for one in cause.examine(wide, operating_point)
+    ]
+    return raw, with_typical_holdout(dataset, plain[-1], partial(_bare, question))
 
 
-def _bare(question: Question, look: Look) -> Explained:
+def _bare(question: DiagnosisProblem, dataset: Dataset) -> Explained:
     """Fit the model with nothing suspected, under ordinary noise where that is left too much."""
-    bench = Bench(look, question.plan, ())
-    found = bench.tried(())
-    if bench.needs_ordinary_noise(found):
-        bench = bench.with_ordinary_noise()
-        found = bench.tried(())
-    return bench, found
+    fitter = HypothesisFitter(dataset, question.plan, ())
+    found = fitter.tried(())
+    if fitter.needs_ordinary_noise(found):
+        fitter = fitter.with_ordinary_noise()
+        found = fitter.tried(())
+    return fitter, found
 
 
-def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiable, ...]:
+def _not_identifiable(fitter: HypothesisFitter, selection: Selection) -> tuple[NotIdentifiable, ...]:
     """List the kinds whose columns the fitted model spans, cause by cause with all such joints."""
     open_sites: dict[str, list[int]] = {}
-    by_id = {cause.id: cause for cause in bench.causes}
-    for one in bench.scanned(selection.none):
+    by_id = {cause.id: cause for cause in fitter.causes}
+    for one in fitter.scanned(selection.none):
         if one.clear_share < OPEN:
             open_sites.setdefault(one.candidate.cause.id, []).extend(one.candidate.site)
     return tuple(
@@ -218,39 +226,52 @@ def _not_identifiable(bench: Bench, selection: Selection) -> tuple[NotIdentifiab
     )
 
 
-def _stranger(bench: Bench, selection: Selection, left: JointSeries) -> Stranger | None:
+def _stranger(fitter: HypothesisFitter, selection: Selection, left: JointSeries) -> UnnamedPattern | None:
     """Give the clearest of what the residual follows though no listed cause would."""
-    ways = (strangers(bench), switchings(bench, selection.chosen, left))
-    return _clearer(*(_pattern(bench, selection, one) for one in ways), level_keeper(bench.look, left))
+    ways = (unnamed_candidates(fitter), switching_candidates(fitter, selection.chosen, left))
+    return _clearer(
+        *(_pattern(fitter, selection, one) for one in ways), bounded_residual(fitter.dataset, left)
+    )
 
 
-def _clearer(*told: Stranger | None) -> Stranger | None:
-    return max((one for one in told if one is not None), key=lambda one: one.statistic, default=None)
+def _clearer(*with_deviations: UnnamedPattern | None) -> UnnamedPattern | None:
+    return max(
+        (one for one in with_deviations if one is not None), key=lambda one: one.statistic, default=None
+    )
 
 
-def _pattern(bench: Bench, selection: Selection, suspects: tuple[Candidate, ...]) -> Stranger | None:
-    found = best_stranger(bench, selection.chosen, suspects)
+def _pattern(
+    fitter: HypothesisFitter, selection: Selection, unnamed: tuple[Candidate, ...]
+) -> UnnamedPattern | None:
+    found = best_unnamed_pattern(fitter, selection.chosen, unnamed)
     if found is None:
         return None
     last = found.members[-1]
-    chance = log_p(selection.chosen, found) + float(np.log(bench.look.joints))
-    return Stranger(
+    chance = log_p(selection.chosen, found) + float(np.log(fitter.dataset.joints))
+    return UnnamedPattern(
         joint=last.site[0],
-        statement=last.cause.statement(found.told(len(found.members) - 1, bench.look.robot)),
-        statistic=rise(selection.chosen, found),
+        statement=last.cause.statement(found.with_deviations(len(found.members) - 1, fitter.dataset.robot)),
+        statistic=likelihood_ratio(selection.chosen, found),
         log10_p=chance / float(np.log(10.0)),
     )
 
 
 def _verdict(
-    found: Sequence[Finding], predictable: Sequence[Predictable], stranger: Stranger | None, most: float
+    found: Sequence[Finding],
+    predictable: Sequence[Predictable],
+    unnamed_pattern: UnnamedPattern | None,
+    most: float,
 ) -> Verdict:
     """Say `unexplained` where what no cause explains is more than what the causes found do.
 
     What spoilt samples leave follows patterns, too: on joints where a raw check explains a part, it does.
     """
     spoilt = {joint for one in found if one.member is None for joint in _spoilt(one)}
-    if stranger is not None and stranger.statistic > most and stranger.joint not in spoilt:
+    if (
+        unnamed_pattern is not None
+        and unnamed_pattern.statistic > most
+        and unnamed_pattern.joint not in spoilt
+    ):
         return "unexplained"
     left = [one for one in predictable if one.interval[0] > UNEXPLAINED_SHARE]
     if not found:

@@ -8,7 +8,7 @@ import numpy as np
 from ..arrays import JointVector, Vector
 from ..dynamics.prediction import Prediction
 from .causes.protocol import Cure, Quantity, Site
-from .dataset.dataset import Look
+from .dataset.dataset import Dataset
 from .residual.atlas import Atlas
 from .residual.learner import Predictable
 from .search.hypothesis import Candidate
@@ -27,7 +27,7 @@ class Evidence:
 
 
 @dataclass(frozen=True)
-class Rival:
+class Alternative:
     """Name another cause that was weighed for the same evidence.
 
     Attributes
@@ -107,8 +107,8 @@ class Finding:
     p_value: float
     explained_fraction: float
     evidence: tuple[Evidence, ...]
-    ambiguous_with: tuple[Rival, ...]
-    refuted: tuple[Rival, ...]
+    ambiguous_with: tuple[Alternative, ...]
+    refuted: tuple[Alternative, ...]
     gain: Gain | None
     curve: Curve | None
     member: Candidate | None
@@ -126,7 +126,7 @@ class NotIdentifiable:
 
 
 @dataclass(frozen=True)
-class Stranger:
+class UnnamedPattern:
     """Say what a residual still follows that is in no list.
 
     Attributes
@@ -152,9 +152,9 @@ class Diagnosis:
 
     Attributes
     ----------
-    stranger
+    unnamed_pattern
         A pattern that what is left still follows; None where none is found.
-    believed
+    operating_point
         The model whose prediction the causes' columns were built on.
     residual_before, residual_after
         Per row of the look and joint, without and with the findings, N m or N.
@@ -167,10 +167,10 @@ class Diagnosis:
     findings: tuple[Finding, ...]
     not_identifiable: tuple[NotIdentifiable, ...]
     predictable: tuple[Predictable, ...]
-    stranger: Stranger | None
+    unnamed_pattern: UnnamedPattern | None
     atlas: Atlas
-    look: Look
-    believed: Prediction
+    dataset: Dataset
+    operating_point: Prediction
     selection: Selection
     residual_before: np.ndarray
     residual_after: np.ndarray

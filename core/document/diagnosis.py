@@ -45,7 +45,7 @@ def _diagnosis(found: Diagnosed) -> dict[str, object]:
         if found.after is None
         else _side(found.after) | _extended(found.before, found.after),
         "repairs": listed,
-        "repaired_robot": repaired_description(diagnosis.look.robot, listed),
+        "repaired_robot": repaired_description(diagnosis.dataset.robot, listed),
         "simulation": _simulation(found.motion, found.motion_note),
         "atlas": dependence_rows(diagnosis.atlas),
         "spectra": spectrum_rows(diagnosis.atlas),
@@ -58,8 +58,8 @@ def _diagnosis(found: Diagnosed) -> dict[str, object]:
             }
             for step in diagnosis.selection.steps
         ],
-        "band_hz": diagnosis.look.band_hz,
-        "held_out": held_out_spans(found.before, diagnosis.look.held_out_blocks),
+        "band_hz": diagnosis.dataset.band_hz,
+        "held_out": held_out_spans(found.before, diagnosis.dataset.held_out_blocks),
     }
 
 

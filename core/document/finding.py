@@ -2,7 +2,7 @@
 
 from ..diagnosis.causes.protocol import Quantity, Site
 from ..diagnosis.causes.registry import BY_ID
-from ..diagnosis.result import Curve, Finding, Gain, NotIdentifiable, Rival
+from ..diagnosis.result import Alternative, Curve, Finding, Gain, NotIdentifiable
 
 
 def finding_row(finding: Finding) -> dict[str, object]:
@@ -58,7 +58,7 @@ def percent_of(deviation: float, value: float) -> float | None:
     return 100.0 * deviation / abs(value) if value else None
 
 
-def _meets(rival: Rival, finding: Finding) -> bool:
+def _meets(rival: Alternative, finding: Finding) -> bool:
     """Tell whether a rival could explain the same trace: what acts on other joints only is no rival."""
     return not rival.joints or bool(set(rival.joints) & set(finding.joints))
 
@@ -74,7 +74,7 @@ def _quantity(one: Quantity) -> dict[str, object]:
     }
 
 
-def _rival(one: Rival) -> dict[str, object]:
+def _rival(one: Alternative) -> dict[str, object]:
     joints: Site = one.joints
     return {
         "cause": one.cause,

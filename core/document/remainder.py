@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..diagnosis.residual.atlas import Atlas
-from ..diagnosis.result import Diagnosis, Stranger
+from ..diagnosis.result import Diagnosis, UnnamedPattern
 
 SHOWN_DIGITS = 5
 """Bins of an atlas are for looking at; more digits would only make the document long."""
@@ -17,7 +17,7 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
     least
         Lower end of the predictable share's interval above which a joint is listed under `joints`.
     """
-    predictable, floor, stranger = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.stranger
+    predictable, floor, stranger = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.unnamed_pattern
     foretold = {one.joint for one in predictable if one.interval[0] > least}
     return {
         "joints": sorted(foretold | ({stranger.joint} if stranger else set())),
@@ -34,7 +34,7 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
     }
 
 
-def _pattern(stranger: Stranger) -> dict[str, object]:
+def _pattern(stranger: UnnamedPattern) -> dict[str, object]:
     return {
         "joint": stranger.joint,
         "statement": stranger.statement,

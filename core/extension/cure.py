@@ -24,8 +24,8 @@ def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
 def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
     for one in diagnosis.findings:
         if one.member is not None and gains_surely(one):
-            member = one.member
-            yield one, member.cause.term(diagnosis.look, diagnosis.believed, member.site, member.scalars)
+            member, at = one.member, diagnosis.operating_point
+            yield one, member.cause.term(diagnosis.dataset, at, member.site, member.scalars)
 
 
 def gains_surely(finding: Finding) -> bool:

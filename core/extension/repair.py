@@ -7,10 +7,10 @@ there. It is of first order where its finding is: after a large one a second dia
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..diagnosis.causes.protocol import Numbers, Site, Solved
+from ..diagnosis.causes.protocol import FittedCause, Numbers, Site
 from ..diagnosis.causes.registry import BY_ID
-from ..diagnosis.causes.repairs import Mends, MendsRobot, mends
-from ..diagnosis.causes.sample_check import RawCause
+from ..diagnosis.causes.repairs import Corrects, CorrectsRobot, corrects
+from ..diagnosis.causes.sample_check import SampleCheck
 from ..diagnosis.result import Diagnosis, Finding
 from ..diagnosis.search.hypothesis import Candidate
 from ..robot.model import RobotModel
@@ -37,14 +37,14 @@ class Repair:
 
     cause: str
     joints: Site
-    mends: Mends
+    mends: Corrects
     what: str
     numbers: Numbers
 
 
 def repairs(diagnosis: Diagnosis) -> tuple[Repair, ...]:
     """Give the repair of every finding, in their order."""
-    robot = diagnosis.look.robot
+    robot = diagnosis.dataset.robot
     found: list[Repair] = []
     for finding in diagnosis.findings:
         found.append(_repair(finding, diagnosis, robot))
@@ -56,24 +56,24 @@ def repaired_robot(robot: RobotModel, repairs: Iterable[Repair]) -> RobotModel:
     """Correct a robot's description by all repairs that are of it."""
     for one in repairs:
         cause: object = BY_ID.get(one.cause)
-        if one.mends == "robot" and isinstance(cause, MendsRobot):
-            robot = cause.mended_robot(robot, one.joints, one.numbers)
+        if one.mends == "robot" and isinstance(cause, CorrectsRobot):
+            robot = cause.corrected_robot(robot, one.joints, one.numbers)
     return robot
 
 
 def _repair(finding: Finding, diagnosis: Diagnosis, robot: RobotModel) -> Repair:
     if finding.member is None:
         known = BY_ID[finding.cause]
-        why = known.beyond_repair if isinstance(known, RawCause) else NOT_SURE
+        why = known.beyond_repair if isinstance(known, SampleCheck) else NOT_SURE
         return Repair(finding.cause, finding.joints, "nothing", why, {})
     if not gains_surely(finding):
         return Repair(finding.cause, finding.joints, "nothing", NOT_SURE, {})
     cause = finding.member.cause
-    numbers = cause.numbers(diagnosis.look, _solved(diagnosis, finding.member))
+    numbers = cause.numbers(diagnosis.dataset, _solved(diagnosis, finding.member))
     what = cause.repair(robot, finding.joints, numbers)
-    return Repair(finding.cause, finding.joints, mends(cause), what, numbers)
+    return Repair(finding.cause, finding.joints, corrects(cause), what, numbers)
 
 
-def _solved(diagnosis: Diagnosis, member: Candidate) -> Solved:
+def _solved(diagnosis: Diagnosis, member: Candidate) -> FittedCause:
     chosen = diagnosis.selection.chosen
     return chosen.solved(chosen.members.index(member))

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..diagnosis.causes.registry import BY_ID
-from ..diagnosis.causes.repairs import MendsLog
+from ..diagnosis.causes.repairs import CorrectsLog
 from ..errors import LogError
 from ..log.model import JointLog, LogRows, rows_at
 from ..robot.model import RobotModel
@@ -50,7 +50,7 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
     place = {name: -number for number, name in enumerate(BY_ID)}
     chosen = sorted((one for one in repairs if one.mends == "log"), key=lambda one: place.get(one.cause, 0))
     known = [(one, causes.get(one.cause)) for one in chosen]
-    mending = tuple((one, cause) for one, cause in known if isinstance(cause, MendsLog))
+    mending = tuple((one, cause) for one, cause in known if isinstance(cause, CorrectsLog))
     if not mending:
         return log
     reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in mending)
@@ -79,7 +79,7 @@ class RepairedSource:
 
     log: JointLog
     effort_scale: JointVector
-    mending: tuple[tuple[Repair, MendsLog], ...]
+    mending: tuple[tuple[Repair, CorrectsLog], ...]
     reach: int
 
     @property
@@ -103,7 +103,7 @@ class RepairedSource:
             return rows
         mended = self._with_torque(rows_at(rows, fresh))
         for one, cause in self.mending:
-            mended = cause.mended_rows(mended, one.joints, one.numbers)
+            mended = cause.corrected_rows(mended, one.joints, one.numbers)
         held = rows_at(self._with_channel(mended, rows), np.cumsum(fresh) - 1)
         return replace(held, time=rows.time)
 

@@ -12,12 +12,12 @@ FAR = 1000.0
 TERMS = 8
 
 
-def log_chance(statistic: float, width: int) -> float:
+def log_chi2_tail(statistic: float, width: int) -> float:
     """Give the logarithm of the chance that a chi-square variable of `width` degrees exceeds a statistic.
 
-    >>> round(log_chance(3.841459, 1), 4)
+    >>> round(log_chi2_tail(3.841459, 1), 4)
     -2.9957
-    >>> round(log_chance(3000.0, 2))
+    >>> round(log_chi2_tail(3000.0, 2))
     -1500
     """
     if statistic < width:

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from tests.core.dynamics.every_term import cures_by_cause
 from veritorque.app.schemas import diagnosis as contract
-from veritorque.core.diagnosis.checks.alternatives import INDIFFERENCE
+from veritorque.core.diagnosis.checks.alternatives import UNDECIDED
 from veritorque.core.diagnosis.diagnose import UNEXPLAINED_SHARE
 from veritorque.core.diagnosis.result import Verdict
 from veritorque.core.diagnosis.search.entry_test import LEVEL
@@ -55,7 +55,7 @@ def test_every_field_of_a_diagnosis_is_explained(model):
 
 
 def test_the_numbers_that_decide_are_those_of_the_code():
-    assert INDIFFERENCE == 6.0
+    assert UNDECIDED == 6.0
     assert "differ by less than 6" in GUIDE
     assert LEVEL == 1e-4
     assert "once in ten thousand logs" in GUIDE

@@ -24,7 +24,7 @@ def in_doubt(found: Diagnosis) -> Diagnosis:
 def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Diagnosed:
     """Diagnose a scene where the search doubts that friction of joint 2 differs between the directions."""
     monkeypatch.setattr(core.study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
-    logs = (scene.look.motions[0].log,)
+    logs = (scene.dataset.motions[0].log,)
     return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}), progress)
 
 

@@ -7,10 +7,10 @@ import numpy as np
 from tests.hidden.plan import Order
 from tests.hidden.score import Answer, Rate, Score, brier, confusion, rate, reliability
 
-Scored = list[tuple[Order, Score]]
+ScoredCandidate = list[tuple[Order, Score]]
 
 
-def tables(scored: Scored) -> Iterator[str]:
+def tables(scored: ScoredCandidate) -> Iterator[str]:
     """Give the lines: per strength, per cause, combinations, clean, foreign, sizes, confidence, confusion."""
     yield from _by("strength", scored, lambda order, _: f"{order.strength:g}")
     usual = [one for one in scored if one[0].strength == 1.0] or scored
@@ -20,7 +20,7 @@ def tables(scored: Scored) -> Iterator[str]:
     yield from _confusion([score for _, score in scored])
 
 
-def _by(title: str, scored: Scored, key: Callable[[Order, Answer], str]) -> Iterator[str]:
+def _by(title: str, scored: ScoredCandidate, key: Callable[[Order, Answer], str]) -> Iterator[str]:
     groups: dict[str, list[Answer]] = {}
     for order, score in scored:
         for answer in score.answers if order.kind == "single" else ():
@@ -38,7 +38,7 @@ def _by(title: str, scored: Scored, key: Callable[[Order, Answer], str]) -> Iter
         yield f"  {name:35s}" + "".join(f"{cell!s:27s}" for cell in cells)
 
 
-def _cases(scored: Scored) -> Iterator[str]:
+def _cases(scored: ScoredCandidate) -> Iterator[str]:
     def of(kind: str) -> list[Score]:
         return [score for order, score in scored if order.kind == kind]
 

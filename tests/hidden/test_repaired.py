@@ -14,7 +14,7 @@ import pytest
 
 from tests.hidden.plan import Order, drawn
 from veritorque.core.diagnosis.causes.registry import BY_ID
-from veritorque.core.diagnosis.causes.repairs import mends
+from veritorque.core.diagnosis.causes.repairs import corrects
 from veritorque.core.document.repairs import read_repairs
 from veritorque.core.extension.repaired_log import repaired_log
 from veritorque.core.robot.description import robot_from_description
@@ -83,7 +83,7 @@ def raised(diagnosis: Mapping[str, Any]) -> float:
 
 
 def test_every_repair_is_taken_here():
-    mendable = {name for name, one in BY_ID.items() if mends(one) in ("robot", "log")}
+    mendable = {name for name, one in BY_ID.items() if corrects(one) in ("robot", "log")}
     assert {one.cause for one in CASES} == mendable
 
 

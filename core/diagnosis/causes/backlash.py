@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.backlash import Backlash as BacklashTerm
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import (
     OwnJointCause,
     before_the_gear,
@@ -53,30 +53,32 @@ class Backlash(OwnJointCause):
     # The link bounces and slides as it lands; what that leaves looks like a spring or like lost time.
     leaves = ("joint_elasticity", "time_delay", "torque_filter_lag")
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints that turn."""
-        del believed
-        return [(joint,) for joint in revolute_joints(look.robot)]
+        del operating_point
+        return [(joint,) for joint in revolute_joints(dataset.robot)]
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the width of the gap, of which the time of crossing is the cube root."""
         return [
             {"around": value, **rotor}
-            for rotor in motor_inertias(look, believed, site)
+            for rotor in motor_inertias(dataset, operating_point, site)
             for value in spread(NARROWEST, WIDEST, STEPS)
         ]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        band = SMOOTHING_OVER_BAND * look.band_hz
-        return BacklashTerm(site[0], believed, scalars["around"], band, scalars.get("motor_inertia", 0.0))
+        band = SMOOTHING_OVER_BAND * dataset.band_hz
+        return BacklashTerm(
+            site[0], operating_point, scalars["around"], band, scalars.get("motor_inertia", 0.0)
+        )
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a gap of about the width that the crossings were computed for."""
         around = solved.scalars["around"]
         return super().possible(solved) and bool(around / NARROWER < solved.values[0] < WIDER * around)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how wide the gap is."""
         found = named(self.quantities(solved))
         return (

@@ -8,8 +8,8 @@ import numpy as np
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.cable import Cable
-from ..dataset.dataset import Look
-from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
@@ -34,24 +34,24 @@ class CableForce(OwnJointCause):
     coordinate = "position"
     unrefined = ("side",)
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the angle of engagement for pulls above it, then for pulls below it."""
-        del believed
-        angle = look.state.position[:, site[0] - 1]
+        del operating_point
+        angle = dataset.state.position[:, site[0] - 1]
         above = [(float(np.quantile(angle, share)), 1.0) for share in SHARES]
         below = [(float(np.quantile(angle, 1.0 - share)), -1.0) for share in reversed(SHARES)]
         return [{"engage_angle": engaged, "side": side} for engaged, side in above + below]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed
+        del dataset, operating_point
         return Cable(site[0], scalars["engage_angle"], scalars["side"])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a cable that pulls back."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give stiffness and angle of engagement."""
         angle, deviation = solved.scalars["engage_angle"], solved.deviations.get("engage_angle", 0.0)
         return (
@@ -65,7 +65,7 @@ class CableForce(OwnJointCause):
             Quantity("engage_angle", solved.site[0], solved.unit("rad"), angle, deviation),
         )
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say from which angle on the cable pulls, and how strongly."""
         found = named(self.quantities(solved))
         side = "above" if solved.scalars["side"] >= 0.0 else "below"

@@ -16,9 +16,9 @@ from ...dynamics.prediction import Prediction
 from ...log.model import LogRows
 from ...signals.condition import Motion
 from ...signals.resample import dropped
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from .protocol import Confusion, Cure, Quantity
-from .sample_check import LEVEL, RawFinding, Spoil, residual_share
+from .sample_check import LEVEL, SampleFinding, Spoil, residual_share
 
 ROWS = 65_536
 
@@ -50,9 +50,9 @@ class DroppedSamples:
     experiment: ClassVar[str] = "any motion, recorded with the controller's own sample counter"
     beyond_repair: ClassVar[str] = "What was not recorded is lost; the rows that repeat are left out"
 
-    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+    def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Count rows that repeat while the robot moves."""
-        counts = [count for motion in look.motions for count in _counted(motion)]
+        counts = [count for motion in dataset.motions for count in _counted(motion)]
         rows, lost = sum(one.rows for one in counts), sum(one.dropped for one in counts)
         expected = sum(one.expected for one in counts)
         p_value = float(poisson.sf(lost - 1, expected)) if lost else 1.0
@@ -61,7 +61,7 @@ class DroppedSamples:
         fraction = lost / rows
         deviation = float(np.sqrt(fraction * (1.0 - fraction) / rows))
         return (
-            RawFinding(
+            SampleFinding(
                 site=(),
                 quantities=(Quantity("fraction", None, "1", fraction, deviation),),
                 statement=(
@@ -70,7 +70,7 @@ class DroppedSamples:
                 ),
                 statistic=float(lost),
                 p_value=p_value,
-                residual_share=residual_share(look, believed, _bridged(fraction)),
+                residual_share=residual_share(dataset, operating_point, _bridged(fraction)),
             ),
         )
 

@@ -10,9 +10,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from .repairs import MendsLog
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .repairs import CorrectsLog
 from .shared.common import OwnJointCause, named, rounded, shown
 from .shared.sites import revolute_joints
 from .shared.waves import amplitude_and_angle
@@ -21,7 +21,7 @@ LARGEST = 0.3
 
 
 @dataclass(frozen=True)
-class EncoderEccentricity(OwnJointCause, MendsLog):
+class EncoderEccentricity(OwnJointCause, CorrectsLog):
     """Suspect an encoder error that repeats with every turn."""
 
     id = "encoder_eccentricity"
@@ -46,30 +46,30 @@ class EncoderEccentricity(OwnJointCause, MendsLog):
     experiment = "quick motion through as much of a turn as the joint's range allows"
     coordinate = "position"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints that turn."""
-        del believed
-        return [(joint,) for joint in revolute_joints(look.robot)]
+        del operating_point
+        return [(joint,) for joint in revolute_joints(dataset.robot)]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, scalars
-        return EncoderEccentricityTerm(site[0], believed)
+        del dataset, scalars
+        return EncoderEccentricityTerm(site[0], operating_point)
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(float(solved.values @ solved.values) < LARGEST**2)
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report amplitude and phase of the error amplitude sin(q + phase)."""
-        (amplitude, wide), (phase, turned) = amplitude_and_angle(solved.values, solved.covariance)
+        (amplitude, wide), (phase, with_other_holdout) = amplitude_and_angle(solved.values, solved.covariance)
         joint = solved.site[0]
         return (
             Quantity("amplitude", joint, "rad", amplitude, wide),
-            Quantity("phase", joint, "rad", phase, turned),
+            Quantity("phase", joint, "rad", phase, with_other_holdout),
         )
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how large the error is and where."""
         found = named(self.quantities(solved))
         return (
@@ -83,7 +83,7 @@ class EncoderEccentricity(OwnJointCause, MendsLog):
         wave = f"{rounded(numbers['amplitude'], 4)} rad times sin(q + {rounded(numbers['phase'], 4)})"
         return f"From every angle q of joint {joints[0]} {wave} is subtracted"
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Take the error out of the angle, and out of the speed where it is logged.
 
         The column has the error at the angle that was read, and so has its repair.

@@ -8,9 +8,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsRobot
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, rounded, shown
 from .shared.sites import revolute_joints
 
@@ -18,7 +18,7 @@ LARGEST = 0.5
 
 
 @dataclass(frozen=True)
-class EncoderOffset(OwnJointCause, MendsRobot):
+class EncoderOffset(OwnJointCause, CorrectsRobot):
     """Suspect a constant zero error of one encoder.
 
     The description is mended, not the log: a zero that is off is off in every log of the robot.
@@ -45,21 +45,21 @@ class EncoderOffset(OwnJointCause, MendsRobot):
     experiment = "motion of the joints beyond this one through their whole range, with this joint moving too"
     coordinate = "position"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints that turn."""
-        del believed
-        return [(joint,) for joint in revolute_joints(look.robot)]
+        del operating_point
+        return [(joint,) for joint in revolute_joints(dataset.robot)]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, scalars
-        return EncoderOffsetTerm(site[0], believed)
+        del dataset, scalars
+        return EncoderOffsetTerm(site[0], operating_point)
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LARGEST)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say by how much the reading is off."""
         found = named(self.quantities(solved))["offset"]
         return f"Joint {solved.site[0]}'s encoder reads the angle of the description plus {shown(found)}"
@@ -71,7 +71,7 @@ class EncoderOffset(OwnJointCause, MendsRobot):
         after = rounded(before - link.ratio * numbers["offset"], 4)
         return f"Joint {joints[0]}'s {entry} goes from {rounded(before, 4)} to {after} rad"
 
-    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+    def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Turn the zero of every link that the joint moves back by what the encoder reads too much."""
         (joint,) = joints
         links = (_turned(one, -numbers["offset"]) if one.joint == joint else one for one in robot.links)

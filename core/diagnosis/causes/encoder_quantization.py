@@ -11,9 +11,9 @@ from ...log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from ...log.defects.stretch import stretches
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from .protocol import Confusion, Cure, Quantity
-from .sample_check import RawFinding, Spoil, disturbance, share_of_residual
+from .sample_check import SampleFinding, Spoil, disturbance, share_of_residual
 
 LEAST_SHARE = 0.6
 """Share of a joint's residual that rounding must account for to be named; good encoders make a half."""
@@ -45,14 +45,17 @@ class EncoderQuantization:
     experiment: ClassVar[str] = "slow motion, which passes many samples within one step"
     beyond_repair: ClassVar[str] = "Where the joint was between two counts of its encoder is not in the log"
 
-    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+    def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Round each joint's smooth motion to its own steps and see what that does."""
-        steps = np.max([_steps(motion.log) for motion in look.motions], axis=0)
+        steps = np.max([_steps(motion.log) for motion in dataset.motions], axis=0)
         found = []
         for joint in np.flatnonzero(steps > 0.0):
-            gained = disturbance(look, believed, _rounded(int(joint), float(steps[joint])))
-            unit = joint_unit(look.robot, int(joint) + 1, "rad")
-            share, of_torque = share_of_residual(look, believed, gained), _of_torque(look, gained)
+            gained = disturbance(dataset, operating_point, _rounded(int(joint), float(steps[joint])))
+            unit = joint_unit(dataset.robot, int(joint) + 1, "rad")
+            share, of_torque = (
+                share_of_residual(dataset, operating_point, gained),
+                _of_torque(dataset, gained),
+            )
             if _matters(
                 float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, int(joint))
             ):
@@ -74,15 +77,17 @@ def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
     return of_torque > LEAST_OF_TORQUE and share > (NOTABLE if stands_out else LEAST_SHARE)
 
 
-def _of_torque(look: Look, gained: JointSeries) -> JointVector:
+def _of_torque(dataset: Dataset, gained: JointSeries) -> JointVector:
     """Give the RMS of an error over the torque's, per joint."""
-    sizes = [np.sqrt(np.mean(one**2, axis=0)) for one in (gained, look.torque)]
+    sizes = [np.sqrt(np.mean(one**2, axis=0)) for one in (gained, dataset.torque)]
     return np.asarray(sizes[0] / np.maximum(sizes[1], 1e-300))
 
 
-def _finding(joint: int, size: tuple[float, str], share: JointVector, of_torque: JointVector) -> RawFinding:
+def _finding(
+    joint: int, size: tuple[float, str], share: JointVector, of_torque: JointVector
+) -> SampleFinding:
     step, unit = size
-    return RawFinding(
+    return SampleFinding(
         site=(joint + 1,),
         quantities=(Quantity("lsb", joint + 1, unit, step, 0.0),),
         statement=(

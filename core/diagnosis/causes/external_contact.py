@@ -8,10 +8,10 @@ import numpy as np
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.contact import WRENCH, Contact, Span, pushed
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
-from ..regression.innovation_covariance import fitted_rows, misfit, precisions
-from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
+from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, rounded
 from .shared.events import find_events
 from .shared.sites import end_links
@@ -45,18 +45,18 @@ class ExternalContact(OwnJointCause):
     coordinate = "time"
     event = True
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints of links that carry no other, where one log tells what the time is."""
-        del believed
-        return [(joint,) for joint in end_links(look.robot)] if len(look.motions) == 1 else []
+        del operating_point
+        return [(joint,) for joint in end_links(dataset.robot)] if len(dataset.motions) == 1 else []
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Find when the residual is a wrench on the link for a while."""
-        mask = fitted_rows(look)
-        push = pushed(look.robot, end_links(look.robot)[site[0]], look.state)
-        left = misfit(look, believed)
-        found = find_events(look.time, push, left, precisions(look, left, mask), most=MOST)
-        spans = sorted(span for span in found if not spiked(look.motions[0].log, span))
+        mask = fitted_rows(dataset)
+        push = pushed(dataset.robot, end_links(dataset.robot)[site[0]], dataset.state)
+        left = torque_residual(dataset, operating_point)
+        found = find_events(dataset.time, push, left, inverse_covariances(dataset, left, mask), most=MOST)
+        spans = sorted(span for span in found if not spiked(dataset.motions[0].log, span))
         if not spans:
             return []
         return [
@@ -72,12 +72,12 @@ class ExternalContact(OwnJointCause):
         del grid
         return float(SPANS_TRIED) ** len(_spans(scalars))
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del believed
-        return Contact(site[0], end_links(look.robot)[site[0]], _spans(scalars))
+        del operating_point
+        return Contact(site[0], end_links(dataset.robot)[site[0]], _spans(scalars))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a force that leaves the robot whole, and a moment that its lever explains."""
         wrenches = solved.values.reshape(-1, len(WRENCH))
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0)).reshape(-1, len(WRENCH))
@@ -86,7 +86,7 @@ class ExternalContact(OwnJointCause):
         doubt = 3.0 * np.linalg.norm(deviations, axis=1)
         return bool(np.all(force < STRONGEST) and np.all(moment < LONGEST_LEVER * force + doubt))
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report every contact's force at its peak, when it begins and ends, and first the force known best.
 
         The largest is often that which is known least: what noise adds to a force makes it larger.
@@ -104,7 +104,7 @@ class ExternalContact(OwnJointCause):
             ]
         return tuple(found)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say when and how hard."""
         pushes = (
             f"{rounded(one.force, 3)} ± {rounded(one.deviation)} N from {begin:.3g} s to {end:.3g} s"
@@ -128,7 +128,7 @@ class _Contact:
         return self.deviation / max(self.force, 1e-12)
 
 
-def _contacts(solved: Solved) -> list[_Contact]:
+def _contacts(solved: FittedCause) -> list[_Contact]:
     forces = np.linalg.norm(solved.values.reshape(-1, len(WRENCH))[:, :3], axis=1)
     return [
         _Contact(span, float(forces[number]), _deviation(solved, number))
@@ -141,7 +141,7 @@ def _spans(scalars: Scalars) -> tuple[Span, ...]:
     return tuple((scalars[f"start_{number}"], scalars[f"end_{number}"]) for number in range(1, count + 1))
 
 
-def _deviation(solved: Solved, number: int) -> float:
+def _deviation(solved: FittedCause, number: int) -> float:
     """Give the deviation of the size of one contact's force, N, to first order: that along the force."""
     place = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
     force = solved.values[place]

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.asymmetric_viscous import AsymmetricViscous
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 
@@ -26,12 +26,12 @@ class FrictionAsymmetric(OwnJointCause):
     )
     experiment = "constant-speed moves at three speeds or more, each in both directions"
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed, scalars
+        del dataset, operating_point, scalars
         return AsymmetricViscous(site[0])
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say which direction is the harder one, and by how much."""
         found = named(self.quantities(solved))["delta_viscous"]
         more, less = ("forwards", "backwards") if found.value > 0.0 else ("backwards", "forwards")

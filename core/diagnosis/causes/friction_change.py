@@ -6,8 +6,8 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, shown
 
 WORDS = {"delta_viscous": "viscous friction", "delta_coulomb": "Coulomb friction", "delta_offset": "offset"}
@@ -39,13 +39,13 @@ class FrictionChange(OwnJointCause):
     )
     experiment = "constant-speed moves of this joint at three speeds or more, each in both directions"
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns, smoothed as the believed model's are."""
-        del look, scalars
-        widths = next((one.widths for one in believed.model.terms if isinstance(one, Coulomb)), ())
+        del dataset, scalars
+        widths = next((one.widths for one in operating_point.model.terms if isinstance(one, Coulomb)), ())
         return FrictionChangeTerm(site[0], widths[site[0] - 1] if widths else 0.0)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say what has changed by how much; what hardly has is not worth a word."""
         found = self.quantities(solved)
         clear = [one for one in found if abs(one.value) > 2.0 * one.standard_deviation]

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.load_friction import LoadFriction
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, before_the_gear, motor_inertias, named, shown
 
 
@@ -31,20 +31,20 @@ class FrictionLoadDependent(OwnJointCause):
     experiment = "slow moves in both directions through postures of little and of much gravity torque"
     coordinate = "load"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the inertia that turns with the motor, where the fit cannot tell it from the link's."""
-        return motor_inertias(look, believed, site)
+        return motor_inertias(dataset, operating_point, site)
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look
-        return LoadFriction(site[0], believed, scalars.get("motor_inertia", 0.0))
+        del dataset
+        return LoadFriction(site[0], operating_point, scalars.get("motor_inertia", 0.0))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want friction that brakes, and less than all of the load."""
         return super().possible(solved) and bool(0.0 < solved.values[0] < 1.0)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say which share of the load comes back as friction."""
         found, unit = named(self.quantities(solved)), solved.unit("N m")
         return (

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.position_friction import PositionFriction
-from ..dataset.dataset import Look
-from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 from .shared.harmonics import harmonics, wave_quantities
 
@@ -32,22 +32,22 @@ class FrictionPositionDependent(OwnJointCause):
     coordinate = "position"
     unrefined = ("centre",)
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the waves per turn from one upwards."""
-        del believed
-        angle = look.state.position[:, site[0] - 1]
+        del operating_point
+        angle = dataset.state.position[:, site[0] - 1]
         return harmonics(angle, lowest=1.0, highest=float("inf"), most=MOST)
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, believed
+        del dataset, operating_point
         return PositionFriction(site[0], scalars["harmonic"], scalars["centre"])
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: amplitude cos(harmonic q + phase) is added to the Coulomb level."""
         return wave_quantities(solved, "N m")
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how far the level waves, and how often per turn."""
         found = named(self.quantities(solved))
         return (

@@ -8,8 +8,8 @@ import numpy as np
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.presliding import Presliding
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown, spread
 
 
@@ -41,22 +41,22 @@ class FrictionPresliding(OwnJointCause):
     experiment = "many slow reversals, each followed by a move of some degrees"
     coordinate = "travel"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
-        del believed
-        span = max(float(np.ptp(look.state.position[:, site[0] - 1])), 1e-6)
+        del operating_point
+        span = max(float(np.ptp(dataset.state.position[:, site[0] - 1])), 1e-6)
         return [{"presliding_distance": value} for value in spread(2e-4 * span, 0.16 * span, 11)]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed
+        del dataset, operating_point
         return Presliding(site[0], scalars["presliding_distance"])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want friction that builds up, not one that falls."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say over which distance how much friction builds up."""
         found = named(self.quantities(solved))
         return (

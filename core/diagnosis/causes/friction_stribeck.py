@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.stribeck import Stribeck
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown, spread
 
 
@@ -33,22 +33,22 @@ class FrictionStribeck(OwnJointCause):
     )
     experiment = "slow constant-speed moves, 1 % to 20 % of the joint's speed, in both directions"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the Stribeck velocity from 3 % of the RMS speed to the RMS speed."""
-        del believed
-        speed = max(float(look.speed[site[0] - 1]), 1e-6)
+        del operating_point
+        speed = max(float(dataset.speed[site[0] - 1]), 1e-6)
         return [{"stribeck_velocity": value} for value in spread(0.03 * speed, 1.0 * speed, 9)]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed
+        del dataset, operating_point
         return Stribeck(site[0], scalars["stribeck_velocity"])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want an excess, not a lack."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how much friction is lost at which speed."""
         found = named(self.quantities(solved))
         return (

@@ -8,8 +8,8 @@ import numpy as np
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
-from ..dataset.dataset import Look
-from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
 from .shared.common import NOTHING, OwnJointCause, named, shown
 
 SHARES = (0.05, 0.12, 0.3, 0.7, 3.0)
@@ -43,22 +43,22 @@ class FrictionTemperature(OwnJointCause):
     experiment = "the same motion cold and after half an hour of work, the joints' temperatures logged"
     coordinate = "time"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the warm-up's time constant where no temperature is logged."""
-        del believed, site
-        if look.state.temperature is not None:
+        del operating_point, site
+        if dataset.state.temperature is not None:
             return NOTHING
-        return [{"time_constant": share * float(np.ptp(look.time))} for share in SHARES]
+        return [{"time_constant": share * float(np.ptp(dataset.time))} for share in SHARES]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del believed
-        temperature = look.state.temperature
+        del operating_point
+        temperature = dataset.state.temperature
         if temperature is not None:
             return TemperatureFriction(site[0], float(temperature[:, site[0] - 1].mean()))
-        return WarmUpFriction(site[0], float(look.time.min()), scalars["time_constant"])
+        return WarmUpFriction(site[0], float(dataset.time.min()), scalars["time_constant"])
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the slopes: per kelvin with a sensor, over the whole warm-up without one."""
         per = "" if "time_constant" in solved.scalars else "/K"
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
@@ -71,7 +71,7 @@ class FrictionTemperature(OwnJointCause):
             for name, value in solved.scalars.items()
         )
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say by how much friction changes, per kelvin or over which time."""
         found = named(self.quantities(solved))
         changes = (

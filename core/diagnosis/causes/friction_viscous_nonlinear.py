@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.nonlinear_viscous import NonlinearViscous
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
@@ -32,22 +32,22 @@ class FrictionViscousNonlinear(OwnJointCause):
     )
     experiment = "constant-speed moves from 5 % to 100 % of the joint's speed, in both directions"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the power."""
-        del look, believed, site
+        del dataset, operating_point, site
         return [{"exponent": value} for value in EXPONENTS]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed
+        del dataset, operating_point
         return NonlinearViscous(site[0], scalars["exponent"])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a power that is neither Coulomb nor viscous friction."""
         power = solved.scalars["exponent"]
         return super().possible(solved) and power >= APART and abs(power - 1.0) >= APART
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how friction grows with which power."""
         found = named(self.quantities(solved))
         grows = "grows" if solved.values[0] > 0.0 else "falls"

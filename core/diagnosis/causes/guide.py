@@ -10,8 +10,8 @@ from collections.abc import Mapping
 
 from .protocol import Cause, Confusion
 from .registry import BY_ID, ONLY_CHANGES
-from .repairs import mends
-from .sample_check import RawCause
+from .repairs import corrects
+from .sample_check import SampleCheck
 
 OPENING = """\
 # Causes
@@ -69,7 +69,7 @@ def guide() -> str:
     return OPENING + cures + OVERVIEW + rows + "".join(_section(one) for one in BY_ID.values())
 
 
-def _section(cause: Cause | RawCause) -> str:
+def _section(cause: Cause | SampleCheck) -> str:
     suspected = " ".join((inspect.getdoc(inspect.getmodule(cause)) or "").split("\n\n")[0].split())
     units = "".join(f"| {name} | {_written(unit)} |\n" for name, unit in cause.units)
     return (
@@ -82,8 +82,8 @@ def _section(cause: Cause | RawCause) -> str:
     )
 
 
-def _repair(cause: Cause | RawCause) -> str:
-    return "nothing" if isinstance(cause, RawCause) else mends(cause)
+def _repair(cause: Cause | SampleCheck) -> str:
+    return "nothing" if isinstance(cause, SampleCheck) else corrects(cause)
 
 
 def _confusion(one: Confusion) -> str:

@@ -10,9 +10,9 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.missing_coupling import MissingCoupling
 from ...robot.model import Coupling, RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from .repairs import MendsRobot
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, shown
 
 FURTHEST = 2
@@ -23,7 +23,7 @@ DOUBT = 2.0
 
 
 @dataclass(frozen=True)
-class JointCoupling(OwnJointCause, MendsRobot):
+class JointCoupling(OwnJointCause, CorrectsRobot):
     """Suspect an undeclared gear coupling."""
 
     id = "joint_coupling"
@@ -41,10 +41,10 @@ class JointCoupling(OwnJointCause, MendsRobot):
     coordinate = "other_velocity"
     unrefined = ("weight",)
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List pairs of turning joints, at most two apart, that no declared coupling joins."""
-        del believed
-        robot = look.robot
+        del operating_point
+        robot = dataset.robot
         turning = {link.joint for link in robot.links if link.kind == "revolute"}
         declared = [set(coupling.joints) for coupling in robot.couplings]
         return [
@@ -54,23 +54,23 @@ class JointCoupling(OwnJointCause, MendsRobot):
             if first in turning and not any({first, second} <= one for one in declared)
         ]
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the sense in which the first joint turns the motor."""
-        del look, believed, site
+        del dataset, operating_point, site
         return [{"weight": 1.0}, {"weight": -1.0}]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns of the coupling."""
-        del look, believed
+        del dataset, operating_point
         weights = (scalars["weight"], 1.0)
         return MissingCoupling(Coupling("undeclared", site[1], (site[0], site[1]), weights))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want inertia and friction that are not negative beyond doubt, and at least one of them positive."""
         size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
         return super().possible(solved) and bool(size.min() > -DOUBT and size.max() > DOUBT)
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the motor's inertia and friction under the number of the joint that it drives."""
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         found = named(
@@ -81,7 +81,7 @@ class JointCoupling(OwnJointCause, MendsRobot):
         )
         return tuple(found[name] for name, _ in self.units)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say which two joints the motor turns with, and what its inertia and friction are."""
         found = named(self.quantities(solved))
         first, second = solved.site
@@ -92,9 +92,9 @@ class JointCoupling(OwnJointCause, MendsRobot):
             f"Coulomb friction {_known(found['Fcm'])}"
         )
 
-    def numbers(self, look: Look, solved: Solved) -> Numbers:
+    def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the reported numbers, and the weight of the first joint in the motor's turn."""
-        return {**super().numbers(look, solved), "weight": solved.scalars["weight"]}
+        return {**super().numbers(dataset, solved), "weight": solved.scalars["weight"]}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """Say which coupling is declared."""
@@ -105,7 +105,7 @@ class JointCoupling(OwnJointCause, MendsRobot):
             f"motor that turns with joint {second} {sign} joint {first}"
         )
 
-    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+    def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Declare the coupling, under the number of the joint that its motor drives or the next free one."""
         first, second = joints
         taken = {one.number for one in robot.couplings}

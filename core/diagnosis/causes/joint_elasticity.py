@@ -8,8 +8,8 @@ import numpy as np
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.elasticity import Elasticity
-from ..dataset.dataset import Look
-from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
 from .shared.common import (
     OwnJointCause,
     before_the_gear,
@@ -47,26 +47,28 @@ class JointElasticity(OwnJointCause):
     inexact = 0.15
     like_position_noise = True
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the resonance from a few times the motion's band to beyond the look's, and the damping."""
-        ends = (LOWEST * look.motion_band_hz, HIGHEST * look.band_hz)
+        ends = (LOWEST * dataset.motion_band_hz, HIGHEST * dataset.band_hz)
         return [
             {"resonance_hz": frequency, "damping_ratio": ratio, **rotor}
-            for rotor in motor_inertias(look, believed, site)
+            for rotor in motor_inertias(dataset, operating_point, site)
             for frequency in spread(*ends, POINTS)
             for ratio in DAMPING_RATIOS
         ]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         response = (scalars["resonance_hz"], scalars["damping_ratio"])
-        return Elasticity(site[0], believed, look.band_hz, *response, scalars.get("motor_inertia", 0.0))
+        return Elasticity(
+            site[0], operating_point, dataset.band_hz, *response, scalars.get("motor_inertia", 0.0)
+        )
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a spring that gives way."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the stiffness, of the compliance's relative deviation, the damping, and the rotor if any."""
         compliance, deviation = float(solved.values[0]), float(solved.covariance[0, 0] ** 0.5)
         joint, angular = solved.site[0], 2.0 * np.pi * solved.scalars["resonance_hz"]
@@ -83,7 +85,7 @@ class JointElasticity(OwnJointCause):
             *(one for one in super().quantities(solved) if one.name == "motor_inertia"),
         )
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how stiff the gear is."""
         found = named(self.quantities(solved))
         return (

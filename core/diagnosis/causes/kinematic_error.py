@@ -8,9 +8,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, with_entry
 from ...dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
-from .repairs import MendsRobot
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, rounded, shown
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
@@ -19,7 +19,7 @@ LARGEST = 0.3
 
 
 @dataclass(frozen=True)
-class KinematicError(OwnJointCause, MendsRobot):
+class KinematicError(OwnJointCause, CorrectsRobot):
     """Suspect one entry (alpha, d or r) of a link's modified DH row, by its place in `ENTRIES`."""
 
     id = "kinematic_error"
@@ -45,16 +45,16 @@ class KinematicError(OwnJointCause, MendsRobot):
     experiment = "quick motion of all joints at once: lengths show in products of velocities"
     coordinate = "position"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints whose link has a row."""
-        del believed
-        joints = range(1, look.joints + 1)
-        return [(joint,) for joint in joints if link_of(look.robot, joint).row is not None]
+        del operating_point
+        joints = range(1, dataset.joints + 1)
+        return [(joint,) for joint in joints if link_of(dataset.robot, joint).row is not None]
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """List the entries that are neither the joint's own stroke nor a shift of the whole robot."""
-        del believed
-        link = link_of(look.robot, site[0])
+        del operating_point
+        link = link_of(dataset.robot, site[0])
         kept = {
             "alpha": True,
             "d": link.antecedent > 0,
@@ -62,16 +62,16 @@ class KinematicError(OwnJointCause, MendsRobot):
         }
         return [{"entry": float(code)} for code, entry in enumerate(ENTRIES) if kept[entry]]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look
-        return KinematicErrorTerm(site[0], believed, _entry(scalars))
+        del dataset
+        return KinematicErrorTerm(site[0], operating_point, _entry(scalars))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LARGEST)
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the error, and once more under the name of its entry."""
         entry = _entry(solved.scalars)
         value, deviation = float(solved.values[0]), float(solved.covariance[0, 0]) ** 0.5
@@ -79,7 +79,7 @@ class KinematicError(OwnJointCause, MendsRobot):
             Quantity(name, solved.site[0], ENTRY_UNITS[entry], value, deviation) for name in ("error", entry)
         )
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say which entry is off by how much."""
         found = named(self.quantities(solved))["error"]
         entry = _entry(solved.scalars)
@@ -97,7 +97,7 @@ class KinematicError(OwnJointCause, MendsRobot):
             f"{after} {ENTRY_UNITS[entry]}"
         )
 
-    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+    def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Let the entry grow by the error."""
         return with_entry(robot, joints[0], _reported(numbers), numbers["error"])
 

@@ -10,8 +10,8 @@ from ...dynamics.term import Term
 from ...dynamics.terms.link_change import LinkChange
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.bodies import is_body
 from .shared.common import OwnJointCause, shown
 from .shared.sites import links_by_joint
@@ -43,21 +43,21 @@ class LinkParameters(OwnJointCause):
     experiment = "quick motion of all joints at once through postures in which this link hangs and lies"
     coordinate = "position"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints with a link of their own."""
-        del believed
-        return [(joint,) for joint in links_by_joint(look.robot)]
+        del operating_point
+        return [(joint,) for joint in links_by_joint(dataset.robot)]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del believed, scalars
-        return LinkChange(site[0], links_by_joint(look.robot)[site[0]])
+        del operating_point, scalars
+        return LinkChange(site[0], links_by_joint(dataset.robot)[site[0]])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a difference that is neither a body nor minus one: such a one is a payload."""
         return super().possible(solved) and not is_body(solved.values, solved.covariance)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say which of the ten are furthest from the reference, in units of how well they are known."""
         clear = sorted(self.quantities(solved), key=_clearness, reverse=True)[:TOLD]
         told = [one for one in clear if _clearness(one) > 2.0] or clear[:1]

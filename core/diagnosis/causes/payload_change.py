@@ -11,8 +11,8 @@ from ...dynamics.term import Term
 from ...dynamics.terms.payload import Payload
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.bodies import MASS, body_of, is_body
 from .shared.common import NOTHING, OwnJointCause, named, rounded, shown
 from .shared.sites import end_links, links_by_joint
@@ -69,34 +69,38 @@ class PayloadChange(OwnJointCause):
     experiment = "the same motion of all joints before and after the change, at least five seconds each"
     coordinate = "time"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints of the links that may carry it; several logs have no instant in common."""
-        del believed
-        return [(joint,) for joint in self._links(look)] if self.throughout or len(look.motions) == 1 else []
+        del operating_point
+        return (
+            [(joint,) for joint in self._links(dataset)]
+            if self.throughout or len(dataset.motions) == 1
+            else []
+        )
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the instant, where there is one."""
-        del believed, site
+        del operating_point, site
         if self.throughout:
             return NOTHING
-        instants = np.linspace(look.time.min(), look.time.max(), INSTANTS, endpoint=False)[1:]
+        instants = np.linspace(dataset.time.min(), dataset.time.max(), INSTANTS, endpoint=False)[1:]
         return [{"time": float(value)} for value in instants]
 
     def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
         """Count the instants that are told apart."""
         return float(len(grid) * TOLD_APART) if scalars else super().trials(grid, scalars)
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del believed
-        return Payload(site[0], self._links(look)[site[0]], scalars.get("time", -np.inf))
+        del operating_point
+        return Payload(site[0], self._links(dataset)[site[0]], scalars.get("time", -np.inf))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a mass that an arm may carry and, where all ten parameters are well known, a body."""
         light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < HEAVIEST)
         return light and (not self.throughout or is_body(solved.values, solved.covariance))
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report mass (negative: taken off), mass centre in the link's frame where it shows, and instant."""
         body = body_of(solved.values, solved.covariance)[0] if self.throughout else solved.values
         joint, mass = solved.site[0], float(body[MASS])
@@ -115,7 +119,7 @@ class PayloadChange(OwnJointCause):
         ]
         return (*found, *when)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say what mass, where and since when."""
         found = named(self.quantities(solved))
         told = [(axis, found[f"com_{axis}"]) for axis in "xyz" if f"com_{axis}" in found]
@@ -136,8 +140,8 @@ class PayloadChange(OwnJointCause):
             )
         return f"The description stays as it is: identified anew, the link of joint {joints[0]} has the body"
 
-    def _links(self, look: Look) -> dict[int, int]:
-        return links_by_joint(look.robot) if self.throughout else end_links(look.robot)
+    def _links(self, dataset: Dataset) -> dict[int, int]:
+        return links_by_joint(dataset.robot) if self.throughout else end_links(dataset.robot)
 
     def _since(self, found: Mapping[str, Quantity]) -> str:
         return "the reference" if self.throughout else f"{found['time'].value:.3g} s"

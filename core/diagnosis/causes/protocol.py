@@ -15,7 +15,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...robot.joint_units import along_slide
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 
 Cure = Literal["term", "signal", "robot"]
 Scalars = Mapping[str, float]
@@ -57,7 +57,7 @@ class Quantity:
 
 
 @dataclass(frozen=True, eq=False)
-class Solved:
+class FittedCause:
     """Carry what a fit found for one candidate.
 
     Linear parameters come with their covariance, scanned scalars with their deviations.
@@ -161,15 +161,15 @@ class Cause(Protocol):
         """
         ...
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List where it can act."""
         ...
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """List the values of its nonlinear scalars to be scanned; one empty mapping where it has none."""
         ...
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give its torque per unit of its linear parameters."""
         ...
 
@@ -177,19 +177,19 @@ class Cause(Protocol):
         """Count the trials that a point of the grid was picked from: what its p-value is corrected for."""
         ...
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Tell whether nature allows the parameters found: signs and sizes."""
         ...
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the numbers a reader wants, under the names of the public enumeration."""
         ...
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say in one sentence, with the numbers filled in, what is wrong and what it does."""
         ...
 
-    def numbers(self, look: Look, solved: Solved) -> Numbers:
+    def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the numbers that a repair is done with."""
         ...
 

@@ -25,7 +25,7 @@ from .link_parameters import LinkParameters
 from .payload_change import PayloadChange
 from .protocol import Cause
 from .rotor_inertia_missing import RotorInertiaMissing
-from .sample_check import RawCause
+from .sample_check import SampleCheck
 from .spring_compensator import SpringCompensator
 from .time_delay import TimeDelay
 from .timestamp_jitter import TimestampJitter
@@ -82,10 +82,10 @@ ONLY_CHANGES: tuple[Cause, ...] = tuple(
 AGAINST_REFERENCE: tuple[Cause, ...] = (*CHANGES, *CAUSES)
 """Causes that add torque to what a reference predicts."""
 
-RAW_CAUSES: tuple[RawCause, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
+SAMPLE_CHECKS: tuple[SampleCheck, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
 """Causes that show in the raw samples."""
 
-BY_ID: Mapping[str, Cause | RawCause] = {
+BY_ID: Mapping[str, Cause | SampleCheck] = {
     **{one.id: one for one in (*CAUSES, *ONLY_CHANGES)},
-    **{one.id: one for one in RAW_CAUSES},
+    **{one.id: one for one in SAMPLE_CHECKS},
 }

@@ -13,22 +13,22 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from .protocol import Numbers, Site
 
-Mends = Literal["robot", "log", "model", "nothing"]
+Corrects = Literal["robot", "log", "model", "nothing"]
 """What a repair changes: the description, the log, the model (its term is all there is), or nothing."""
 
 
-class MendsRobot:
+class CorrectsRobot:
     """Correct the robot's description."""
 
-    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+    def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Give the robot as it is."""
         raise NotImplementedError
 
 
-class MendsLog:
+class CorrectsLog:
     """Correct the rows of a log."""
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Give what should have been logged; the torque is the joints', whatever the log's channel is.
 
         The rows follow each other without a gap, and none of them only repeats the one before.
@@ -41,11 +41,11 @@ class MendsLog:
         return 0.0
 
 
-def mends(cause: object) -> Mends:
+def corrects(cause: object) -> Corrects:
     """Tell what the repair of a cause that joined the model changes."""
-    if isinstance(cause, MendsRobot):
+    if isinstance(cause, CorrectsRobot):
         return "robot"
-    return "log" if isinstance(cause, MendsLog) else "model"
+    return "log" if isinstance(cause, CorrectsLog) else "model"
 
 
 def with_torque(rows: LogRows, joints: Site, mend: Callable[[JointSeries], JointSeries]) -> LogRows:

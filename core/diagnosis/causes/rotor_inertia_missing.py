@@ -7,14 +7,14 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.missing_rotor import MissingRotor
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsRobot
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, rounded, shown
 
 
 @dataclass(frozen=True)
-class RotorInertiaMissing(OwnJointCause, MendsRobot):
+class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
     """Suspect a rotor that nobody declared."""
 
     id = "rotor_inertia_missing"
@@ -31,23 +31,23 @@ class RotorInertiaMissing(OwnJointCause, MendsRobot):
     experiment = "large accelerations of this joint in postures of different inertia beyond it"
     coordinate = "acceleration"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints without a declared rotor."""
-        del believed
+        del operating_point
         return [
-            (number,) for number, joint in enumerate(look.robot.joints, start=1) if not joint.rotor_inertia
+            (number,) for number, joint in enumerate(dataset.robot.joints, start=1) if not joint.rotor_inertia
         ]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed, scalars
+        del dataset, operating_point, scalars
         return MissingRotor(site[0])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want an inertia."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how much inertia is missing."""
         found = named(self.quantities(solved))
         return f"Joint {solved.site[0]}'s rotor is missing from the model: {shown(found['IA'])} at the joint"
@@ -60,7 +60,7 @@ class RotorInertiaMissing(OwnJointCause, MendsRobot):
             f"{rounded(numbers['IA'], 4)} kg m2"
         )
 
-    def mended_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
+    def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Declare the rotor."""
         del numbers
         declared = (

@@ -20,9 +20,9 @@ from ...signals.condition import Motion
 from ...signals.derivative import median
 from ...signals.state import MotionState
 from ...signals.zero_phase import kernel
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
-from ..regression.innovation_covariance import fitted_rows, misfit
+from ..regression.innovation_covariance import fitted_rows, torque_residual
 from .protocol import Confusion, Cure, Quantity, Site
 
 LEVEL = 1e-5
@@ -36,7 +36,7 @@ Spoil = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
 
 
 @dataclass(frozen=True, eq=False)
-class RawFinding:
+class SampleFinding:
     """State what a raw check found.
 
     Attributes
@@ -56,7 +56,7 @@ class RawFinding:
 
 
 @runtime_checkable
-class RawCause(Protocol):
+class SampleCheck(Protocol):
     """Suspect a fault of the samples; the attributes are those of `Cause`.
 
     Attributes
@@ -85,36 +85,36 @@ class RawCause(Protocol):
         """List what it is mistaken for."""
         ...
 
-    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+    def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Look for it in the logs."""
         ...
 
 
-def residual_share(look: Look, believed: Prediction, spoil: Spoil) -> JointVector:
+def residual_share(dataset: Dataset, operating_point: Prediction, spoil: Spoil) -> JointVector:
     """Spoil the smooth motion and give, per joint, the mean square of what that adds over the residual's."""
-    return share_of_residual(look, believed, disturbance(look, believed, spoil))
+    return share_of_residual(dataset, operating_point, disturbance(dataset, operating_point, spoil))
 
 
-def share_of_residual(look: Look, believed: Prediction, gained: JointSeries) -> JointVector:
+def share_of_residual(dataset: Dataset, operating_point: Prediction, gained: JointSeries) -> JointVector:
     """Give, per joint, the mean square of a disturbance over the residual's."""
-    left, mask = misfit(look, believed), fitted_rows(look)
+    left, mask = torque_residual(dataset, operating_point), fitted_rows(dataset)
     had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
     return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
 
 
-def disturbance(look: Look, believed: Prediction, spoil: Spoil) -> JointSeries:
+def disturbance(dataset: Dataset, operating_point: Prediction, spoil: Spoil) -> JointSeries:
     """Spoil the smooth motion and give what that adds to the torque at the look's rows, N m or N."""
     rng = np.random.default_rng(0)
-    gained = np.zeros_like(look.torque)
-    for stretch in look.stretches:
-        state, motion = stretch.state, look.motions[look.log[stretch.rows.start]]
+    gained = np.zeros_like(dataset.torque)
+    for stretch in dataset.stretches:
+        state, motion = stretch.state, dataset.motions[dataset.log[stretch.rows.start]]
         spoilt = _spoilt(state, motion, spoil, rng)
-        gained[stretch.rows] = _change(stretch, believed, spoilt)
+        gained[stretch.rows] = _change(stretch, operating_point, spoilt)
     return gained
 
 
-def _change(stretch: Stretch, believed: Prediction, spoilt: MotionState) -> JointSeries:
-    change = believed.torque(spoilt) - believed.torque(stretch.state)
+def _change(stretch: Stretch, operating_point: Prediction, spoilt: MotionState) -> JointSeries:
+    change = operating_point.torque(spoilt) - operating_point.torque(stretch.state)
     return stretch.filtered(change.T).T
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.spring import Spring
-from ..dataset.dataset import Look
-from .protocol import Confusion, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 
@@ -27,12 +27,12 @@ class SpringCompensator(OwnJointCause):
     experiment = "hold ten postures spread over the whole range of the joint"
     coordinate = "position"
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, believed, scalars
+        del dataset, operating_point, scalars
         return Spring(site[0])
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how stiff the spring is, and whether it pulls back or helps on."""
         found = named(self.quantities(solved))
         does = "pulls back to" if solved.values[0] > 0.0 else "pushes away from"

@@ -11,9 +11,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.delay import Delay
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsLog, with_torque
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded
 
 LONGEST_DELAY = 0.05
@@ -21,7 +21,7 @@ STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
 
 @dataclass(frozen=True)
-class TimeDelay(OwnJointCause, MendsLog):
+class TimeDelay(OwnJointCause, CorrectsLog):
     """Suspect a delay of the torque channel."""
 
     id = "time_delay"
@@ -50,26 +50,26 @@ class TimeDelay(OwnJointCause, MendsLog):
     experiment = "motion with quick reversals, five times the present frequencies"
     coordinate = "torque_rate"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """Act on the whole robot."""
-        del look, believed
+        del dataset, operating_point
         return [()]
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Begin at several delays."""
-        del look, believed, site
+        del dataset, operating_point, site
         return [{"around": start} for start in STARTS]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, site
-        return Delay(0, believed, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
+        del dataset, site
+        return Delay(0, operating_point, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a delay that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LONGEST_DELAY)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how late, in milliseconds."""
         found = named(self.quantities(solved))["delay"]
         late = "behind" if found.value > 0.0 else "ahead of"
@@ -82,7 +82,7 @@ class TimeDelay(OwnJointCause, MendsLog):
         way = "earlier" if numbers["delay"] > 0.0 else "later"
         return f"All torques move {rounded(1e3 * abs(numbers['delay']), 4)} ms {way} in the log, interpolated"
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Move the torque; beyond the ends it stays as it is there."""
         then = np.clip(rows.time + numbers["delay"], rows.time[0], rows.time[-1])
         return with_torque(rows, joints, lambda torque: np.asarray(CubicSpline(rows.time, torque)(then)))

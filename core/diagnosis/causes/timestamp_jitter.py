@@ -19,9 +19,9 @@ from ...log.model import LogRows
 from ...signals.resample import dropped, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from .protocol import Confusion, Cure, Quantity
-from .sample_check import LEVEL, RawFinding, Spoil, residual_share
+from .sample_check import LEVEL, SampleFinding, Spoil, residual_share
 from .shared.common import rounded
 
 LOOK_SECONDS = 120.0
@@ -52,11 +52,13 @@ class TimestampJitter:
     experiment: ClassVar[str] = "quick motion of at least two joints at once"
     beyond_repair: ClassVar[str] = "At which instants the samples were really taken is not in the log"
 
-    def examine(self, look: Look, believed: Prediction) -> tuple[RawFinding, ...]:
+    def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Compare the joints' remainders with their velocities."""
-        if look.joints < 2:
+        if dataset.joints < 2:
             return ()
-        parts = [part for motion in look.motions for segment in motion.segments for part in _parts(segment)]
+        parts = [
+            part for motion in dataset.motions for segment in motion.segments for part in _parts(segment)
+        ]
         if not parts:
             return ()
         crosses, alone = (np.concatenate(one) for one in zip(*map(_products, parts), strict=True))
@@ -67,12 +69,12 @@ class TimestampJitter:
         if p_value > LEVEL or shared < AGREEMENT * own:
             return ()
         std = float(np.sqrt(shared))
-        share = residual_share(look, believed, _jittered(std))
+        share = residual_share(dataset, operating_point, _jittered(std))
         if share.max() < LEAST_SHARE:
             return ()
         scatter = np.sqrt(np.sum((crosses[:, 0] - shared * crosses[:, 1]) ** 2)) / crosses[:, 1].sum()
         found = Quantity("std", None, "s", std, 0.5 * float(scatter) / std)
-        return (RawFinding((), (found,), _statement(found), statistic, p_value, share),)
+        return (SampleFinding((), (found,), _statement(found), statistic, p_value, share),)
 
 
 def _by_chance(statistic: float, products: Vector) -> float:

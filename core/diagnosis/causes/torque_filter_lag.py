@@ -14,9 +14,9 @@ from ...dynamics.terms.filter_lag import FilterLag
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsLog, with_torque
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded
 
 SHORTEST, LONGEST = 2e-4, 0.1
@@ -28,7 +28,7 @@ PERIODS = 3.0
 
 
 @dataclass(frozen=True)
-class TorqueFilterLag(OwnJointCause, MendsLog):
+class TorqueFilterLag(OwnJointCause, CorrectsLog):
     """Suspect a filter in the torque channel."""
 
     id = "torque_filter_lag"
@@ -57,26 +57,26 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
     experiment = "motion with quick reversals, five times the present frequencies"
     coordinate = "torque_rate"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """Act on the whole robot."""
-        del look, believed
+        del dataset, operating_point
         return [()]
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Begin at several time constants."""
-        del look, believed, site
+        del dataset, operating_point, site
         return [{"around": start} for start in STARTS]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, site
-        return FilterLag(0, believed, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
+        del dataset, site
+        return FilterLag(0, operating_point, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a filter that lags."""
         return bool(0.0 < solved.values[0] < LONGEST)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say with which time constant."""
         found = named(self.quantities(solved))["time_constant"]
         return (
@@ -84,9 +84,9 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
             f"{rounded(1e3 * found.standard_deviation)} ms, the positions are not"
         )
 
-    def numbers(self, look: Look, solved: Solved) -> Numbers:
+    def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the reported number, and the band in which it was found."""
-        return {**super().numbers(look, solved), "band_hz": look.band_hz}
+        return {**super().numbers(dataset, solved), "band_hz": dataset.band_hz}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """Say what is added."""
@@ -94,7 +94,7 @@ class TorqueFilterLag(OwnJointCause, MendsLog):
         size, band = rounded(1e3 * numbers["time_constant"], 4), rounded(numbers["band_hz"], 3)
         return f"Every torque grows by {size} ms times its rate of change, taken up to {band} Hz"
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Undo the filter: tau + T tau' is what went into it; above the band a rate is mostly noise."""
         samples = round(float(np.ptp(rows.time)) / float(np.median(np.diff(rows.time)))) + 1
         even, step = np.linspace(rows.time[0], rows.time[-1], samples, retstep=True)

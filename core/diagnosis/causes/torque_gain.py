@@ -9,16 +9,16 @@ from ...dynamics.terms.torque_gain import CommonGain
 from ...dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsLog, with_torque
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded
 
 LARGEST = 0.9
 
 
 @dataclass(frozen=True)
-class TorqueGain(OwnJointCause, MendsLog):
+class TorqueGain(OwnJointCause, CorrectsLog):
     """Suspect a wrong torque constant.
 
     Attributes
@@ -54,20 +54,20 @@ class TorqueGain(OwnJointCause, MendsLog):
     experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
     coordinate = "torque"
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List every joint, or the robot as a whole."""
-        return [()] if self.together else super().sites(look, believed)
+        return [()] if self.together else super().sites(dataset, operating_point)
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, scalars
-        return TorqueGainTerm(site[0], believed) if site else CommonGain(0, believed)
+        del dataset, scalars
+        return TorqueGainTerm(site[0], operating_point) if site else CommonGain(0, operating_point)
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want a channel that still has most of its sense."""
         return bool(abs(solved.values[0]) < LARGEST)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say by how many per cent the channel is wrong."""
         found = named(self.quantities(solved))["relative_error"]
         way = "much" if found.value > 0.0 else "little"
@@ -82,6 +82,6 @@ class TorqueGain(OwnJointCause, MendsLog):
         which = f"joint {joints[0]}" if len(joints) == 1 else "every joint"
         return f"The torque of {which} is divided by {rounded(1.0 + numbers['relative_error'], 4)}"
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Divide the channel by what it shows of the torque."""
         return with_torque(rows, joints, lambda torque: torque / (1.0 + numbers["relative_error"]))

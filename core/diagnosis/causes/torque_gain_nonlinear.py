@@ -10,14 +10,14 @@ from ...dynamics.term import Term
 from ...dynamics.terms.cubic_gain import CubicGain
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsLog, with_torque
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded, shown
 
 
 @dataclass(frozen=True)
-class TorqueGainNonlinear(OwnJointCause, MendsLog):
+class TorqueGainNonlinear(OwnJointCause, CorrectsLog):
     """Suspect a torque constant that varies with current."""
 
     id = "torque_gain_nonlinear"
@@ -39,12 +39,12 @@ class TorqueGainNonlinear(OwnJointCause, MendsLog):
     experiment = "hold known payloads, up to the rated one, in the posture of the largest gravity torque"
     coordinate = "torque"
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del look, scalars
-        return CubicGain(site[0], believed)
+        del dataset, scalars
+        return CubicGain(site[0], operating_point)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say which way the channel bends."""
         found = named(self.quantities(solved))
         high = "too high" if solved.values[0] > 0.0 else "too low"
@@ -61,7 +61,7 @@ class TorqueGainNonlinear(OwnJointCause, MendsLog):
             f"{rounded(numbers['cubic_coefficient'], 4)} 1/(N m)^2 times its cube is y"
         )
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Straighten the curve."""
         bend = numbers["cubic_coefficient"]
         return with_torque(rows, joints, lambda torque: straightened(torque, bend))

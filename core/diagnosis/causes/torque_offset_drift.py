@@ -11,9 +11,9 @@ from ...dynamics.terms.drift import Drift, course
 from ...log.model import LogRows
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Scalars, Site, Solved
-from .repairs import MendsLog, with_torque
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded, shown
 
 SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
@@ -21,7 +21,7 @@ SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
 
 
 @dataclass(frozen=True)
-class TorqueOffsetDrift(OwnJointCause, MendsLog):
+class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
     """Suspect a drifting torque offset."""
 
     id = "torque_offset_drift"
@@ -43,17 +43,19 @@ class TorqueOffsetDrift(OwnJointCause, MendsLog):
     experiment = "hold the same posture at the start and at the end of a log as long as the work"
     coordinate = "time"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the time constant."""
-        del believed, site
-        return [{"time_constant": share * float(np.ptp(look.time))} for share in SHARES]
+        del operating_point, site
+        return [{"time_constant": share * float(np.ptp(dataset.time))} for share in SHARES]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
-        del believed
-        return Drift(site[0], float(look.time.min()), float(np.ptp(look.time)), scalars["time_constant"])
+        del operating_point
+        return Drift(
+            site[0], float(dataset.time.min()), float(np.ptp(dataset.time)), scalars["time_constant"]
+        )
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how far the zero drifts, and in which time."""
         found = named(self.quantities(solved))
         return (
@@ -61,10 +63,10 @@ class TorqueOffsetDrift(OwnJointCause, MendsLog):
             f"over the log, with a time constant of {found['time_constant'].value:.2g} s"
         )
 
-    def numbers(self, look: Look, solved: Solved) -> Numbers:
+    def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the reported numbers, and when the drift begins and how long it lasts."""
-        span = {"start": float(look.time.min()), "duration": float(np.ptp(look.time))}
-        return {**super().numbers(look, solved), **span}
+        span = {"start": float(dataset.time.min()), "duration": float(np.ptp(dataset.time))}
+        return {**super().numbers(dataset, solved), **span}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """Say what is subtracted."""
@@ -76,7 +78,7 @@ class TorqueOffsetDrift(OwnJointCause, MendsLog):
             f"{rounded(end, 4)} s, with a time constant of {rounded(numbers['time_constant'], 4)} s"
         )
 
-    def mended_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
+    def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
         """Subtract the drift."""
         passed = rows.time - numbers["start"]
         share = course(passed, numbers["duration"], numbers["time_constant"])

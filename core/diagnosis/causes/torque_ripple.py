@@ -8,8 +8,8 @@ import numpy as np
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.ripple import Ripple
-from ..dataset.dataset import Look
-from .protocol import Confusion, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 from .shared.harmonics import harmonics, wave_quantities
 
@@ -43,27 +43,27 @@ class TorqueRipple(OwnJointCause):
     coordinate = "position"
     unrefined = ("centre",)
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the waves per turn from two up to what the band shows."""
-        del believed
+        del operating_point
         own = site[0] - 1
-        highest = BAND_SHARE * 2.0 * np.pi * look.band_hz / max(float(look.speed[own]), 1e-6)
-        return harmonics(look.state.position[:, own], lowest=LOWEST, highest=highest, most=MOST)
+        highest = BAND_SHARE * 2.0 * np.pi * dataset.band_hz / max(float(dataset.speed[own]), 1e-6)
+        return harmonics(dataset.state.position[:, own], lowest=LOWEST, highest=highest, most=MOST)
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, believed
+        del dataset, operating_point
         return Ripple(site[0], scalars["harmonic"], scalars["centre"])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want more waves per turn than gravity has."""
         return super().possible(solved) and solved.scalars["harmonic"] >= LOWEST
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: the drive has to give amplitude cos(harmonic q + phase) more."""
         return wave_quantities(solved, "N m")
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say how high the wave is, and how often it comes per turn."""
         found = named(self.quantities(solved))
         return (

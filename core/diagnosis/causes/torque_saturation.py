@@ -10,8 +10,8 @@ from ...dynamics.term import Term
 from ...dynamics.terms.saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
-from ..dataset.dataset import Look
-from .protocol import Confusion, Numbers, Quantity, Scalars, Site, Solved
+from ..dataset.dataset import Dataset
+from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, rounded, shown
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
@@ -45,27 +45,27 @@ class TorqueSaturation(OwnJointCause):
     experiment = "the same motion a tenth slower, which keeps the command below the limit"
     coordinate = "torque"
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the limit below the largest torque of the motion."""
-        largest = float(np.abs(believed.applied(look.state)[:, site[0] - 1]).max())
+        largest = float(np.abs(operating_point.applied(dataset.state)[:, site[0] - 1]).max())
         return [{"limit": share * largest} for share in SHARES]
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look
-        return Saturation(site[0], believed, scalars["limit"])
+        del dataset
+        return Saturation(site[0], operating_point, scalars["limit"])
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Want commands that are larger than what is applied."""
         return super().possible(solved) and bool(solved.values[0] > 0.0)
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the limit, which is known no better than the predicted torque that it clips."""
         limit = solved.scalars["limit"]
         deviation = float(np.hypot(solved.deviations.get("limit", 0.0), PREDICTION_ERROR * limit))
         return (Quantity("limit", solved.site[0], solved.unit("N m"), limit, deviation),)
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say where the torque ends."""
         found = named(self.quantities(solved))
         return (

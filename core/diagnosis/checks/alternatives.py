@@ -10,21 +10,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..result import Gain, Rival
-from ..search.confounding import keeps_beside, left_by_last
-from ..search.entry_test import Key, holds_unseen, with_candidate
-from ..search.fitter import Bench
-from ..search.holdout import unseen_share
+from ..result import Alternative, Gain
+from ..search.confounding import keeps_beside, masked_by_last
+from ..search.entry_test import Key, passes_holdout, with_candidate
+from ..search.fitter import HypothesisFitter
+from ..search.holdout import holdout_share
 from ..search.hypothesis import Candidate, Hypothesis
-from ..search.likelihood_ratio import merit, rise
+from ..search.likelihood_ratio import bic_gain, likelihood_ratio
 from ..search.stepwise import Selection, Step
 from .gain import gain
-from .lack_of_fit import best_stranger, strangers
+from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 
-INDIFFERENCE = 6.0
+UNDECIDED = 6.0
 OTHER_SHARE = 0.03
 """Share of a finding's rise below which its lead over a rival not known to be confused with it is nothing."""
-STRANGER_SHARE = 0.25
+UNNAMED_SHARE = 0.25
 """Share of a finding's rise by which a pattern without a name has to lead to refute it."""
 EVENT_SHARE = 0.5
 """An event at picked instants fits a little of anything: this share of its rise is not counted."""
@@ -38,7 +38,7 @@ WORTH_NAMING = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Standing:
+class Comparison:
     """Hold how a finding stands among its rivals.
 
     Attributes
@@ -47,27 +47,27 @@ class Standing:
         What is judged.
     statistic
         Rise of twice the log-likelihood that it brings itself.
-    merit
+    bic_gain
         The same less what its parameters would gain by themselves.
     margin
         By how much its criterion beats that of the best rival that is another cause or acts elsewhere.
-    over_nameless
+    over_unnamed
         The same over the best pattern without a name on its joints; infinite where none explains anything.
     """
 
     member: Candidate
     statistic: float
-    merit: float
+    bic_gain: float
     margin: float
-    ambiguous: tuple[Rival, ...]
-    refuted: tuple[Rival, ...]
+    ambiguous: tuple[Alternative, ...]
+    refuted: tuple[Alternative, ...]
     without: Hypothesis
-    over_nameless: float = np.inf
+    over_unnamed: float = np.inf
 
 
-def weighed(
-    bench: Bench, selection: Selection, given_up: Collection[Key] = ()
-) -> tuple[Selection, list[Standing]]:
+def compare_alternatives(
+    fitter: HypothesisFitter, selection: Selection, excluded_kinds: Collection[Key] = ()
+) -> tuple[Selection, list[Comparison]]:
     """Weigh every member, and give up those that only make up for what is not known.
 
     Beside a strong effect whose columns are not exact, much fits what is left a little; a member that another
@@ -76,17 +76,17 @@ def weighed(
     What was given up is nobody's rival. Gives what remains, with its
     members' standings.
     """
-    suspects, lost = strangers(bench), set(given_up)
+    unnamed, lost = unnamed_candidates(fitter), set(excluded_kinds)
     while True:
         everyone = range(len(selection.chosen.members))
-        alone = [standing(bench, selection.chosen, index, lost) for index in everyone]
-        found = [replace(one, over_nameless=_over_nameless(bench, one, suspects)) for one in alone]
+        alone = [compare_member(fitter, selection.chosen, index, lost) for index in everyone]
+        found = [replace(one, over_unnamed=_over_nameless(fitter, one, unnamed)) for one in alone]
         most = max((one.statistic for one in found), default=0.0)
         weak = [
             index
             for index, one in enumerate(found)
             if not selection.chosen.allows(index)
-            or _stopgap(bench, selection.chosen, one, alone=one.statistic >= most)
+            or _stopgap(fitter, selection.chosen, one, alone=one.statistic >= most)
             or _beaten(one)
         ]
         if not weak:
@@ -94,27 +94,29 @@ def weighed(
         least = min(weak, key=lambda index: found[index].statistic)
         lost.add(found[least].member.key)
         step = Step("dropped", found[least].member, -found[least].statistic)
-        bench.believe(found[least].without)
-        kept = bench.tried(found[least].without.members, found[least].without)
+        fitter.believe(found[least].without)
+        kept = fitter.tried(found[least].without.members, found[least].without)
         selection = replace(selection, chosen=kept, steps=(*selection.steps, step))
 
 
-def _stopgap(bench: Bench, chosen: Hypothesis, own: Standing, *, alone: bool) -> bool:
+def _stopgap(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, alone: bool) -> bool:
     """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows.
 
     Of the clearest, of one that stands alone, and of one that hardly acts there, it is only asked whether it
     makes that error larger.
     """
-    if own.margin < -INDIFFERENCE and not alone:
+    if own.margin < -UNDECIDED and not alone:
         return True
-    if own.member.cause.event or bench.belief is not None:
+    if own.member.cause.event or fitter.belief is not None:
         return False
-    expected = unseen_share(bench, chosen, chosen.by_key[own.member.key]) * own.statistic
-    look, left = bench.look, (bench.residual(own.without), bench.residual(chosen))
-    unseen, fitted = (look.usable & (look.held_out == held)[:, None] for held in (True, False))
+    expected = holdout_share(fitter, chosen, chosen.by_key[own.member.key]) * own.statistic
+    dataset, left = fitter.dataset, (fitter.residual(own.without), fitter.residual(chosen))
+    holdout, fitted = (dataset.usable & (dataset.held_out == held)[:, None] for held in (True, False))
     # What shared parameters take up where a cause acts, they spoil on the other joints.
-    places = (tuple(sorted(bench.columns([own.member])[0])), tuple(range(look.joints)))
-    both = [[gain(*left, mask, look.block_of_all, joints) for mask in (unseen, fitted)] for joints in places]
+    places = (tuple(sorted(fitter.columns([own.member])[0])), tuple(range(dataset.joints)))
+    both = [
+        [gain(*left, mask, dataset.block_of_all, joints) for mask in (holdout, fitted)] for joints in places
+    ]
     seen = [(there, here) for there, here in both if there is not None and here is not None]
     if alone or expected < LEAST_SEEN:
         return any(there.interval_95[1] < 0.0 for there, _ in seen)
@@ -128,76 +130,84 @@ def _refuted_unseen(there: Gain, here: Gain) -> bool:
     return none or (low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent)
 
 
-def _over_nameless(bench: Bench, own: Standing, suspects: tuple[Candidate, ...]) -> float:
+def _over_nameless(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
     """Give by how much a member beats the best pattern without a name in its place, on its joints."""
-    joints = own.member.site or range(1, bench.look.joints + 1)
-    here = tuple(one for one in suspects if one.site[0] in joints)
-    stranger = best_stranger(bench, own.without, here)
-    return np.inf if stranger is None else own.merit - merit(own.without, stranger)
+    joints = own.member.site or range(1, fitter.dataset.joints + 1)
+    here = tuple(one for one in unnamed if one.site[0] in joints)
+    unnamed_pattern = best_unnamed_pattern(fitter, own.without, here)
+    return np.inf if unnamed_pattern is None else own.bic_gain - bic_gain(own.without, unnamed_pattern)
 
 
-def _beaten(own: Standing) -> bool:
+def _beaten(own: Comparison) -> bool:
     """Tell whether a pattern without a name explains much more than a member in its place."""
     if own.member.cause.event:
-        return own.over_nameless < EVENT_SHARE * own.statistic
-    return own.over_nameless < -max(INDIFFERENCE, STRANGER_SHARE * own.statistic)
+        return own.over_unnamed < EVENT_SHARE * own.statistic
+    return own.over_unnamed < -max(UNDECIDED, UNNAMED_SHARE * own.statistic)
 
 
-def standing(bench: Bench, chosen: Hypothesis, index: int, given_up: Collection[Key] = ()) -> Standing:
+def compare_member(
+    fitter: HypothesisFitter, chosen: Hypothesis, index: int, excluded_kinds: Collection[Key] = ()
+) -> Comparison:
     """Weigh a member against the best of all other candidates in its place, but for what was given up."""
     member = chosen.members[index]
-    without = bench.less(chosen)[index]
-    own = bench.tried((*without.members, member), without)
-    taken = {*chosen.by_key, *given_up}
+    without = fitter.less(chosen)[index]
+    own = fitter.tried((*without.members, member), without)
+    taken = {*chosen.by_key, *excluded_kinds}
     excluded = {name for one in without.members for name in one.cause.excludes}
     others = [
         one
-        for one in bench.scanned(without)
+        for one in fitter.scanned(without)
         if one.candidate.key not in taken and one.candidate.cause.id not in excluded
     ][:WEIGHED]
     trials = [
-        bench.tried(trial.members, trial) for one in others for trial in [with_candidate(bench, without, one)]
+        fitter.tried(trial.members, trial)
+        for one in others
+        for trial in [with_candidate(fitter, without, one)]
     ]
     ambiguous, refuted, margin = [], [], np.inf
-    own_merit, own_rise = merit(without, own), rise(without, own)
-    for trial in sorted(trials, key=lambda one: -merit(without, one)):
+    own_merit, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
+    for trial in sorted(trials, key=lambda one: -bic_gain(without, one)):
         rival = trial.members[-1]
-        if keeps_beside(bench, own, rival, rise(without, trial)) or left_by_last(bench, own, rival):
+        if keeps_beside(fitter, own, rival, likelihood_ratio(without, trial)) or masked_by_last(
+            fitter, own, rival
+        ):
             continue
-        behind = own_merit - merit(without, trial)
-        why = _impossible(bench, without, trial)
+        behind = own_merit - bic_gain(without, trial)
+        why = _impossible(fitter, without, trial)
         if not why:
             margin = min(margin, behind)
         # One that explains no more besides than noise of the positions might refutes nobody.
-        like = _by_position_noise(bench, own, (member, rival))
-        if not why and behind < max(like, _indifference(member, rival, own_rise)):
-            ambiguous.append(_undecided(member, rival, rise(without, trial), behind, like))
-        elif rise(without, trial) > WORTH_NAMING * own_rise:
-            refuted.append(_refuted(rival, rise(without, trial), own_rise, why))
-    return Standing(member, own_rise, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
+        like = _by_position_noise(fitter, own, (member, rival))
+        if not why and behind < max(like, _indifference(member, rival, own_ratio)):
+            ambiguous.append(_undecided(member, rival, likelihood_ratio(without, trial), behind, like))
+        elif likelihood_ratio(without, trial) > WORTH_NAMING * own_ratio:
+            refuted.append(_refuted(rival, likelihood_ratio(without, trial), own_ratio, why))
+    return Comparison(member, own_ratio, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
 
 
-def _indifference(member: Candidate, rival: Candidate, own_rise: float) -> float:
+def _indifference(member: Candidate, rival: Candidate, own_ratio: float) -> float:
     shares = {one.cause: one.share for one in member.cause.confusions}
-    return max(INDIFFERENCE, shares.get(rival.cause.id, OTHER_SHARE) * own_rise)
+    return max(UNDECIDED, shares.get(rival.cause.id, OTHER_SHARE) * own_ratio)
 
 
-def _by_position_noise(bench: Bench, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
+def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
     """Give the rise that noise of the positions may bring two candidates: none where one is not like it."""
     if not all(one.cause.like_position_noise for one in both):
         return 0.0
-    torque, worth = bench.look.position_torque, []
-    for rows, part, made in zip(bench.base, own.fit.joints, torque.T, strict=True):
+    torque, worth = fitter.dataset.position_torque, []
+    for rows, part, made in zip(fitter.base, own.fit.joints, torque.T, strict=True):
         worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.place) ** 2)))
     return min(max(worth[joint - 1] for joint in one.site or range(1, len(worth) + 1)) for one in both)
 
 
-def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: float, like: float) -> Rival:
+def _undecided(
+    member: Candidate, rival: Candidate, statistic: float, behind: float, like: float
+) -> Alternative:
     known = [one for one in member.cause.confusions if one.cause == rival.cause.id]
     why = known[0].why if known else "both columns run nearly parallel in this motion"
     experiment = known[0].experiment if known else rival.cause.experiment
-    noise = f", where noise of the positions may make {like:.1f}" if like > INDIFFERENCE else ""
-    return Rival(
+    noise = f", where noise of the positions may make {like:.1f}" if like > UNDECIDED else ""
+    return Alternative(
         rival.cause.id,
         rival.site,
         statistic,
@@ -206,17 +216,17 @@ def _undecided(member: Candidate, rival: Candidate, statistic: float, behind: fl
     )
 
 
-def _impossible(bench: Bench, without: Hypothesis, trial: Hypothesis) -> str:
+def _impossible(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis) -> str:
     """Say why a rival cannot take a finding's place, however well it fits; nothing where it can."""
     if not trial.possible:
         return "fits only with a sign or size that nature does not allow"
-    return "" if holds_unseen(bench, without, trial) else "does not help on rows that no fit has seen"
+    return "" if passes_holdout(fitter, without, trial) else "does not help on rows that no fit has seen"
 
 
-def _refuted(rival: Candidate, statistic: float, own: float, impossible: str) -> Rival:
+def _refuted(rival: Candidate, statistic: float, own: float, impossible: str) -> Alternative:
     why = (
         f"{impossible} (rise {statistic:.1f})"
         if impossible
         else f"raises twice the log-likelihood by {statistic:.1f} where the finding raises it by {own:.1f}"
     )
-    return Rival(rival.cause.id, rival.site, statistic, why, "")
+    return Alternative(rival.cause.id, rival.site, statistic, why, "")

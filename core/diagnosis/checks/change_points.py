@@ -12,11 +12,11 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from ...arrays import Indices, JointSeries, Vector
-from ...numerics.chi2_tail import log_chance
+from ...numerics.chi2_tail import log_chi2_tail
 from ..dataset.dataset import ROWS_OVER_BAND
-from ..search.fitter import Bench
+from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis
-from .unnamed_pattern import Unlisted
+from .unnamed_pattern import UnnamedPatternCause
 
 SMOOTHED = (3, 5, 9, 15)
 """Rows that are averaged."""
@@ -25,29 +25,31 @@ FAR = (0.0, 0.3, 0.6, 0.9, 1.2)
 LEAST_ROWS, LEAST_CHANGES = 200, 2
 MOST_LOG_TRIALS = 600.0
 """What has more ways than this (a logarithm) could be anything."""
-_UNLISTED = Unlisted()
+_UNLISTED = UnnamedPatternCause()
 
 
-def switchings(bench: Bench, now: Hypothesis, residual: JointSeries) -> tuple[Candidate, ...]:
+def switching_candidates(
+    fitter: HypothesisFitter, now: Hypothesis, residual: JointSeries
+) -> tuple[Candidate, ...]:
     """Give, per joint, the likeliest way in which its residual (rows x joints) switches.
 
     None where there are several logs: their instants are the same, and what happened at them is not.
     """
-    look, found = bench.look, []
-    for joint, (series, usable) in enumerate(zip(residual.T, look.usable.T, strict=True), start=1):
+    dataset, found = fitter.dataset, []
+    for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
         rows = int(np.count_nonzero(usable))
-        if rows < LEAST_ROWS or look.log.any():
+        if rows < LEAST_ROWS or dataset.log.any():
             continue
         ways = []
         for changes in _changes(np.where(usable, series, 0.0)):
             trials = _log_trials(len(changes), rows / ROWS_OVER_BAND)
             if len(changes) >= LEAST_CHANGES and trials < MOST_LOG_TRIALS:
-                instants = 0.5 * (look.time[changes] + look.time[changes + 1])
+                instants = 0.5 * (dataset.time[changes] + dataset.time[changes + 1])
                 scalars = _UNLISTED.switching(instants)
                 ways.append(Candidate(_UNLISTED, (joint,), scalars, float(np.exp(trials))))
         chances = [
-            log_chance(scored.statistic, scored.freedom) + np.log(way.trials)
-            for scored, way in zip(bench.scored(now, ways), ways, strict=True)
+            log_chi2_tail(scored.statistic, scored.freedom) + np.log(way.trials)
+            for scored, way in zip(fitter.scored(now, ways), ways, strict=True)
         ]
         if ways:
             found.append(ways[int(np.argmin(chances))])

@@ -11,7 +11,7 @@ import numpy as np
 from ...arrays import Indices, JointSeries, Vector, Weights
 from ...dynamics.prediction import Prediction
 from ..causes.protocol import Site
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from ..regression.rows import Columns
 from ..residual.coordinates import coordinate
 from ..result import Curve
@@ -24,8 +24,8 @@ STAND_IN = {"load_jerk": "torque_rate", "load_rate": "torque_rate"}
 
 
 def curve(
-    look: Look,
-    believed: Prediction,
+    dataset: Dataset,
+    operating_point: Prediction,
     chosen: Hypothesis,
     place: int,
     columns: Columns,
@@ -40,15 +40,17 @@ def curve(
     """
     member = chosen.members[place]
     torque = {joint: part @ chosen.fit.values[chosen.columns_of(place)] for joint, part in columns.items()}
-    joint = max(torque, key=lambda one: _share(torque[one], left[0][:, one], look.usable[:, one]))
+    joint = max(torque, key=lambda one: _share(torque[one], left[0][:, one], dataset.usable[:, one]))
     name = STAND_IN.get(member.cause.coordinate, member.cause.coordinate)
     if name == "other_velocity":
         name = _of_other(joint, member.site)
-    along = coordinate(look, believed, name, joint + 1) or coordinate(look, believed, "time", joint + 1)
+    along = coordinate(dataset, operating_point, name, joint + 1) or coordinate(
+        dataset, operating_point, "time", joint + 1
+    )
     if along is None:
         return None
-    rows = np.flatnonzero(look.clear[:, joint])
-    own, forward = torque[joint][rows], look.state.velocity[rows, joint] > 0.0
+    rows = np.flatnonzero(dataset.clear[:, joint])
+    own, forward = torque[joint][rows], dataset.state.velocity[rows, joint] > 0.0
     together, apart = _binned(rows, along.values), _apart(rows, forward, along.values)
     split = _told(own, rows, together) < TOLD and _told(own, rows, apart) > _told(own, rows, together)
     groups = apart if split else together
@@ -61,7 +63,7 @@ def curve(
         after=_over(groups, left[1][:, joint], np.mean),
         model=_over(groups, torque[joint], np.mean),
         standard_error=_over(groups, left[1][:, joint], np.std) / np.sqrt([len(group) for group in groups]),
-        direction=_over(groups, np.sign(look.state.velocity[:, joint]), np.median)
+        direction=_over(groups, np.sign(dataset.state.velocity[:, joint]), np.median)
         if split
         else np.zeros(len(groups)),
     )

@@ -5,21 +5,26 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import JointSeries
-from ..causes.sample_check import RawCause, RawFinding
-from ..dataset.dataset import Look
+from ..causes.sample_check import SampleCheck, SampleFinding
+from ..dataset.dataset import Dataset
 from ..result import Evidence, Finding
-from ..search.fitter import Bench
-from ..search.holdout import expected_unseen_rise, unseen_rise
+from ..search.fitter import HypothesisFitter
+from ..search.holdout import expected_holdout_likelihood_ratio, holdout_likelihood_ratio
 from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
-from .alternatives import Standing
+from .alternatives import Comparison
 from .confidence import confidence
 from .figure import curve
 from .gain import gain
 
 
 def finding(
-    bench: Bench, chosen: Hypothesis, place: int, own: Standing, after: JointSeries, unnamed: float
+    fitter: HypothesisFitter,
+    chosen: Hypothesis,
+    place: int,
+    own: Comparison,
+    after: JointSeries,
+    unnamed: float,
 ) -> Finding:
     """Tell of one member of a hypothesis.
 
@@ -35,15 +40,15 @@ def finding(
         Rise of twice the log-likelihood by a pattern without a name in what is left: where it brings more
         than the finding does, this may be no more than its trace.
     """
-    look, left = bench.look, (_without(bench, chosen, place, own), after)
-    member, solved = chosen.members[place], chosen.told(place, bench.look.robot)
+    dataset, left = fitter.dataset, (_without(fitter, chosen, place, own), after)
+    member, solved = chosen.members[place], chosen.with_deviations(place, fitter.dataset.robot)
     cause = member.cause
-    columns = bench.columns([member])[0]
+    columns = fitter.columns([member])[0]
     joints = tuple(sorted(columns))
-    mask = look.usable & look.held_out[:, None]
-    measured = gain(left[0], left[1], mask, look.block_of_all, joints)
-    log_p = log_p_of(bench, chosen, place, own.statistic)
-    margin = min(own.margin, own.over_nameless, own.statistic - unnamed)
+    mask = dataset.usable & dataset.held_out[:, None]
+    measured = gain(left[0], left[1], mask, dataset.block_of_all, joints)
+    log_p = log_p_of(fitter, chosen, place, own.statistic)
+    margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -53,17 +58,17 @@ def finding(
         quantities=cause.quantities(solved),
         confidence=confidence(own.statistic, margin, measured),
         p_value=float(np.exp(log_p)),
-        explained_fraction=_explained(left, look.usable & ~look.held_out[:, None], joints),
-        evidence=(*_evidence(own, log_p, member.trials), *_unseen(bench, chosen, place, own)),
+        explained_fraction=_explained(left, dataset.usable & ~dataset.held_out[:, None], joints),
+        evidence=(*_evidence(own, log_p, member.trials), *_unseen(fitter, chosen, place, own)),
         ambiguous_with=own.ambiguous,
         refuted=own.refuted,
         gain=measured,
-        curve=curve(look, bench.believed, chosen, place, columns, left),
+        curve=curve(dataset, fitter.operating_point, chosen, place, columns, left),
         member=member,
     )
 
 
-def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...]:
+def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, ...]:
     return (
         Evidence(
             "Rise of twice the log-likelihood when it joins the model, the noise learned anew",
@@ -85,30 +90,32 @@ def _evidence(own: Standing, log_p: float, trials: float) -> tuple[Evidence, ...
     )
 
 
-def _unseen(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> tuple[Evidence, ...]:
+def _unseen(
+    fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison
+) -> tuple[Evidence, ...]:
     """Say what it brings on rows that no fit has seen, each weighed by the noise there; not of an event.
 
     The error's RMS, which `gain` is of, may be one of slow torque that hides what is weighed here.
     """
     if own.member.cause.event:
         return ()
-    expected = expected_unseen_rise(bench, own.without, chosen, place)
+    expected = expected_holdout_likelihood_ratio(fitter, own.without, chosen, place)
     return (
         Evidence(
             "Rise of twice the log-likelihood on rows that no fit has seen; as far as it acts there "
             f"{expected:.0f} is to be expected",
             "unseen likelihood ratio",
-            unseen_rise(bench, own.without, chosen, place),
+            holdout_likelihood_ratio(fitter, own.without, chosen, place),
         ),
     )
 
 
-def _over_nameless(own: Standing) -> tuple[Evidence, ...]:
+def _over_nameless(own: Comparison) -> tuple[Evidence, ...]:
     """Say how it stands to patterns without a name, where one explains a part of it."""
-    if not np.isfinite(own.over_nameless):
+    if not np.isfinite(own.over_unnamed):
         return ()
     statement = "Lead of its criterion over that of the best pattern without a name; below 0 it is doubtful"
-    return (Evidence(statement, "lead over the nameless", own.over_nameless),)
+    return (Evidence(statement, "lead over the nameless", own.over_unnamed),)
 
 
 def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
@@ -117,13 +124,13 @@ def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: 
     return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
 
 
-def raw_finding(cause: RawCause, found: RawFinding, look: Look) -> Finding:
+def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -> Finding:
     """Tell of a fault of the samples."""
     sure = 1.0 - found.p_value
     return Finding(
         cause=cause.id,
         title=cause.title,
-        joints=found.site or tuple(range(1, look.joints + 1)),
+        joints=found.site or tuple(range(1, dataset.joints + 1)),
         cure=cause.cure,
         statement=found.statement,
         quantities=found.quantities,
@@ -139,6 +146,6 @@ def raw_finding(cause: RawCause, found: RawFinding, look: Look) -> Finding:
     )
 
 
-def _without(bench: Bench, chosen: Hypothesis, place: int, own: Standing) -> JointSeries:
+def _without(fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison) -> JointSeries:
     """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
-    return bench.residual(own.without) if bench.belief is None else bench.residual(chosen, (place,))
+    return fitter.residual(own.without) if fitter.belief is None else fitter.residual(chosen, (place,))

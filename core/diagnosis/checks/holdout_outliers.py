@@ -12,13 +12,13 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Indices, Vector
-from ..dataset.dataset import Look
-from ..regression.prewhitening import white_left
+from ..dataset.dataset import Dataset
+from ..regression.prewhitening import prewhitened_residual
 from ..regression.rows import extended
-from ..search.fitter import Bench
+from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 
-Explained = tuple[Bench, Hypothesis]
+Explained = tuple[HypothesisFitter, Hypothesis]
 """A bench and a hypothesis that was fitted on it."""
 OVER_LARGEST, OVER_USUAL = 2.5, 6.0
 """How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
@@ -28,20 +28,20 @@ AS_MANY = 0.5
 """Other blocks hold out this share at least of each joint's rows clear of reversals: few judge nothing."""
 
 
-def surprised(bench: Bench, found: Hypothesis) -> bool:
+def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
     """Tell whether a block that was held out is missed far worse than any that was fitted."""
-    unseen = extended(bench.unseen, bench.columns(found.members))
-    for part, fitted, seen in zip(unseen, found.fit.joints, bench.base, strict=True):
+    holdout = extended(fitter.holdout, fitter.columns(found.members))
+    for part, fitted, seen in zip(holdout, found.fit.joints, fitter.base, strict=True):
         missed = (part.torque - part.columns @ found.fit.values)[:, None]
-        left = white_left(part, fitted.noise, missed)[:, 0]
+        left = prewhitened_residual(part, fitted.noise, missed)[:, 0]
         known = fitted.left(found.fit.values)
-        new, old = (_powers(bench.look, *one) for one in ((part.rows, left), (seen.rows, known)))
+        new, old = (_powers(fitter.dataset, *one) for one in ((part.rows, left), (seen.rows, known)))
         if len(new) and len(old) and new.max() > max(OVER_LARGEST * old.max(), OVER_USUAL * old.mean()):
             return True
     return False
 
 
-def unsurprising(look: Look, plain: Explained, fit: Callable[[Look], Explained]) -> Look:
+def with_typical_holdout(dataset: Dataset, plain: Explained, fit: Callable[[Dataset], Explained]) -> Dataset:
     """Hold other blocks out from the first where what is held out surprises, and those would not.
 
     Parameters
@@ -51,32 +51,32 @@ def unsurprising(look: Look, plain: Explained, fit: Callable[[Look], Explained])
     fit
         Gives the same of other rows.
     """
-    other = turned(look) if surprised(*plain) else None
-    return look if other is None or surprised(*fit(other)) else other
+    other = with_other_holdout(dataset) if has_holdout_outliers(*plain) else None
+    return dataset if other is None or has_holdout_outliers(*fit(other)) else other
 
 
-def turned(look: Look) -> Look | None:
+def with_other_holdout(dataset: Dataset) -> Dataset | None:
     """Hold other blocks out: those half-way to the next ones.
 
     None where whole logs are held out, or where the robot rests or turns round in the others.
     """
-    held_out = np.zeros_like(look.held_out)
-    for log in np.unique(look.log):
-        own = look.log == log
-        blocks = np.unique(look.block[own])
-        held = np.unique(look.block[own & look.held_out])
+    held_out = np.zeros_like(dataset.held_out)
+    for log in np.unique(dataset.log):
+        own = dataset.log == log
+        blocks = np.unique(dataset.block[own])
+        held = np.unique(dataset.block[own & dataset.held_out])
         if len(held) == len(blocks) or not len(held):
             return None
         shift = max(len(blocks) // (2 * len(held)), 1)
         others = blocks[(np.searchsorted(blocks, held) + shift) % len(blocks)]
-        held_out |= own & np.isin(look.block, others)
-    now, then = (np.count_nonzero(look.clear[one], axis=0) for one in (look.held_out, held_out))
-    return replace(look, held_out=held_out) if np.all(then >= AS_MANY * now) else None
+        held_out |= own & np.isin(dataset.block, others)
+    now, then = (np.count_nonzero(dataset.clear[one], axis=0) for one in (dataset.held_out, held_out))
+    return replace(dataset, held_out=held_out) if np.all(then >= AS_MANY * now) else None
 
 
-def _powers(look: Look, rows: Indices, left: Vector) -> np.ndarray:
+def _powers(dataset: Dataset, rows: Indices, left: Vector) -> np.ndarray:
     """Give the mean square of every block that has enough rows."""
-    block = look.block_of_all[rows]
+    block = dataset.block_of_all[rows]
     counts = np.bincount(block)
     power = np.bincount(block, left**2)
     enough = counts >= LEAST_ROWS

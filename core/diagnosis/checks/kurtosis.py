@@ -10,9 +10,9 @@ from scipy.ndimage import uniform_filter1d
 from scipy.stats import norm
 
 from ...arrays import Indices, JointSeries, Vector
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from ..residual.blocks import row_blocks
-from ..result import Stranger
+from ..result import UnnamedPattern
 
 SMOOTHED = 5
 """Rows that are averaged: noise shrinks, levels stay."""
@@ -22,11 +22,11 @@ CLEAR = 5.0
 LEAST_ROWS = 200
 
 
-def level_keeper(look: Look, residual: JointSeries) -> Stranger | None:
+def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
     """Give the joint whose residual (rows x joints) keeps to levels most clearly; None where none does."""
-    blocks = row_blocks(look)
+    blocks = row_blocks(dataset)
     found = []
-    for joint, (series, usable) in enumerate(zip(residual.T, look.usable.T, strict=True), start=1):
+    for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
         if np.count_nonzero(usable) < LEAST_ROWS:
             continue
         smooth = uniform_filter1d(np.where(usable, series, 0.0), SMOOTHED)[usable]
@@ -40,7 +40,7 @@ def level_keeper(look: Look, residual: JointSeries) -> Stranger | None:
         f"What is left on joint {joint} keeps within bounds, as a torque does that switches between levels "
         f"by itself (kurtosis {size:.2g}; noise has 3 or more)"
     )
-    return Stranger(joint, statement, clearest**2, chance)
+    return UnnamedPattern(joint, statement, clearest**2, chance)
 
 
 def kurtosis(series: Vector, block: Indices) -> tuple[float, float]:

@@ -6,38 +6,40 @@ is left shows that something is left. Either must be as sure as a named cause ha
 
 from dataclasses import replace
 
-from ..search.entry_test import clear_enough, holds_unseen
-from ..search.fitter import Bench
+from ..search.entry_test import is_significant, passes_holdout
+from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis
-from ..search.likelihood_ratio import merit
-from .unnamed_pattern import Unlisted
+from ..search.likelihood_ratio import bic_gain
+from .unnamed_pattern import UnnamedPatternCause
 
 TRIED = 3
-_UNLISTED = Unlisted()
+_UNLISTED = UnnamedPatternCause()
 
 
-def strangers(bench: Bench) -> tuple[Candidate, ...]:
+def unnamed_candidates(fitter: HypothesisFitter) -> tuple[Candidate, ...]:
     """Give the patterns that are looked for under the present belief."""
     return tuple(
         Candidate(_UNLISTED, site, scalars, _UNLISTED.trials(grid, scalars))
-        for site in _UNLISTED.sites(bench.look, bench.believed)
-        for grid in [tuple(_UNLISTED.grid(bench.look, bench.believed, site))]
+        for site in _UNLISTED.sites(fitter.dataset, fitter.operating_point)
+        for grid in [tuple(_UNLISTED.grid(fitter.dataset, fitter.operating_point, site))]
         for scalars in grid
     )
 
 
-def best_stranger(bench: Bench, now: Hypothesis, suspects: tuple[Candidate, ...]) -> Hypothesis | None:
+def best_unnamed_pattern(
+    fitter: HypothesisFitter, now: Hypothesis, unnamed: tuple[Candidate, ...]
+) -> Hypothesis | None:
     """Give a hypothesis with the pattern that explains most of what another leaves; None where none does."""
-    scans = bench.scanned(now, suspects)[:TRIED]
-    trials = [bench.added(now, _finest(bench, now, one.candidate)) for one in scans]
-    clear = [trial for trial in trials if clear_enough(bench, now, trial, bench.look.joints)]
-    whole = [bench.tried(trial.members, trial) for trial in clear]
-    ranked = sorted(whole, key=lambda trial: -merit(now, trial))
-    return next((trial for trial in ranked if holds_unseen(bench, now, trial)), None)
+    scans = fitter.scanned(now, unnamed)[:TRIED]
+    trials = [fitter.added(now, _finest(fitter, now, one.candidate)) for one in scans]
+    clear = [trial for trial in trials if is_significant(fitter, now, trial, fitter.dataset.joints)]
+    whole = [fitter.tried(trial.members, trial) for trial in clear]
+    ranked = sorted(whole, key=lambda trial: -bic_gain(now, trial))
+    return next((trial for trial in ranked if passes_holdout(fitter, now, trial)), None)
 
 
-def _finest(bench: Bench, now: Hypothesis, found: Candidate) -> Candidate:
+def _finest(fitter: HypothesisFitter, now: Hypothesis, found: Candidate) -> Candidate:
     """Give the likeliest of the patterns around one."""
-    around = [replace(found, scalars=scalars) for scalars in _UNLISTED.finer(bench.look, found.scalars)]
-    best = max(zip(bench.scored(now, around), around, strict=True), key=lambda one: one[0].statistic)[1]
+    around = [replace(found, scalars=scalars) for scalars in _UNLISTED.finer(fitter.dataset, found.scalars)]
+    best = max(zip(fitter.scored(now, around), around, strict=True), key=lambda one: one[0].statistic)[1]
     return replace(best, trials=found.trials * len(around))

@@ -15,9 +15,9 @@ from ...arrays import Vector
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
-from ..causes.protocol import Quantity, Scalars, Site, Solved
+from ..causes.protocol import FittedCause, Quantity, Scalars, Site
 from ..causes.shared.common import OwnJointCause
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 
 WAVES = (1.0, 2.0)
 SLOWEST, QUICKEST = 0.15, 1.0
@@ -31,7 +31,7 @@ _NAMES = tuple(PATTERNS)
 
 
 @dataclass(frozen=True)
-class Unlisted(OwnJointCause):
+class UnnamedPatternCause(OwnJointCause):
     """Suspect what no listed cause explains."""
 
     id = "unlisted"
@@ -40,34 +40,36 @@ class Unlisted(OwnJointCause):
     coordinate = "time"
     unrefined = ("pattern", "number_0", "number_1", "number_2")
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """List all patterns, numbers after their place."""
-        del believed
-        return [_scalars(name, numbers) for name, numbers in _fixed(look.joints, site[0], _seconds(look))]
+        del operating_point
+        return [
+            _scalars(name, numbers) for name, numbers in _fixed(dataset.joints, site[0], _seconds(dataset))
+        ]
 
-    def finer(self, look: Look, scalars: Scalars) -> list[Scalars]:
+    def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
         """List numbers around those of a grid point: higher harmonics want a rhythm's rate better than it."""
         name, numbers = _read(scalars)
         if name != "clock":
             return [scalars]
-        step = STEP / _seconds(look) / FINER
+        step = STEP / _seconds(dataset) / FINER
         return [_scalars(name, (numbers[0] + step * place,)) for place in range(-FINER, FINER + 1)]
 
     def switching(self, instants: Vector) -> Scalars:
         """Say that the torque switches between two levels at these instants, s: no grid could list them."""
         return _scalars("levels", tuple(instants.tolist()))
 
-    def term(self, look: Look, believed: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
-        del look, believed
+        del dataset, operating_point
         return Trace(site[0], *_read(scalars))
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report no numbers: they would mean nothing elsewhere."""
         del solved
         return ()
 
-    def statement(self, solved: Solved) -> str:
+    def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
         return f"What is left on joint {solved.site[0]} follows {_words(*_read(solved.scalars))}"
 
@@ -93,9 +95,9 @@ def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], 
     return tuple(out)
 
 
-def _seconds(look: Look) -> float:
+def _seconds(dataset: Dataset) -> float:
     """Give the length of the longest log, s, no more than a minute: what lasts longer is drift."""
-    return float(np.clip(max(motion.log.duration for motion in look.motions), 4.0, 60.0))
+    return float(np.clip(max(motion.log.duration for motion in dataset.motions), 4.0, 60.0))
 
 
 def _scalars(name: str, numbers: Numbers) -> Scalars:

@@ -34,8 +34,8 @@ from ...robot.model import RobotModel
 from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState
-from .onset_filter import body_rows
-from .segments import pieces_of, thinning
+from .onset_filter import onset_rows
+from .segments import segments_of, thinning
 from .stretch import Stretch
 
 BAND_OVER_MOTION = 40.0
@@ -50,7 +50,7 @@ BATCH = 64
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class Dataset:
     """Hold the rows of a diagnosis.
 
     Attributes
@@ -149,14 +149,14 @@ class Look:
         return out
 
 
-def look_at(
+def build_dataset(
     model: DynamicModel,
     logs: tuple[JointLog, ...],
     *,
     held_out: frozenset[BlockKey],
     blocks: int,
     width: float = BAND_OVER_MOTION,
-) -> Look:
+) -> Dataset:
     """Condition the logs for a diagnosis.
 
     Parameters
@@ -175,7 +175,7 @@ def look_at(
     """
     motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
     share = min(1.0, LONGEST_SECONDS / sum(log.duration for log in logs))
-    pieces = [pieces_of(number, motion, model.robot, share) for number, motion in enumerate(motions)]
+    pieces = [segments_of(number, motion, model.robot, share) for number, motion in enumerate(motions)]
     parts = [piece for one in pieces for piece in one]
     if not parts:
         raise ExcitationError(
@@ -191,7 +191,7 @@ def look_at(
     log = np.concatenate([np.full(len(part.time), part.log) for part in parts])
     block = np.concatenate([part.block for part in parts])
     keys = {number * blocks + one for number, one in held_out}
-    return Look(
+    return Dataset(
         robot=model.robot,
         motions=motions,
         stretches=stretches,
@@ -249,7 +249,7 @@ def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Ite
     batch: dict[int, Series] = {}
     for index, term in enumerate(terms):
         if isinstance(term, Payload):
-            yield index, body_rows(term, robot, stretch)
+            yield index, onset_rows(term, robot, stretch)
             continue
         batch[index] = term.series(robot, stretch.state)
         if sum(len(one) for one in batch.values()) >= BATCH:

@@ -14,7 +14,7 @@ from ...robot.model import RobotModel
 from .stretch import Stretch
 
 
-def body_rows(body: Payload, robot: RobotModel, stretch: Stretch) -> KeptSeries:
+def onset_rows(body: Payload, robot: RobotModel, stretch: Stretch) -> KeptSeries:
     """Give the filtered series of a body."""
     time = stretch.state.time
     begin = 0 if time is None else int(np.searchsorted(time, body.begin))

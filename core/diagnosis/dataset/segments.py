@@ -28,8 +28,8 @@ STRETCH_SECONDS = 30.0
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """Hold one stretch of a log with what a look keeps of its rows (see `Look`)."""
+class DatasetSegment:
+    """Hold one stretch of a log with what a look keeps of its rows (see `Dataset`)."""
 
     log: int
     stretch: Stretch
@@ -42,7 +42,7 @@ class Piece:
     sticking: tuple[csr_array, ...]
 
 
-def pieces_of(number: int, motion: Motion, robot: RobotModel, share: float) -> list[Piece]:
+def segments_of(number: int, motion: Motion, robot: RobotModel, share: float) -> list[DatasetSegment]:
     """Cut a log into stretches of half a minute at most, and keep the share of them that is asked for."""
     out, done = [], 0
     for segment in motion.segments:
@@ -60,7 +60,7 @@ def pieces_of(number: int, motion: Motion, robot: RobotModel, share: float) -> l
 
 def _piece(
     number: int, motion: Motion, robot: RobotModel, segment: Segment, kept: tuple[int, int], done: int
-) -> Piece:
+) -> DatasetSegment:
     recipe = motion.recipe
     tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
     thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
@@ -73,7 +73,7 @@ def _piece(
     at = tile.first + recipe.decimation * np.arange(len(tile.time))
     place = (done + np.arange(*kept)) / motion.kept
     stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
-    return Piece(
+    return DatasetSegment(
         log=number,
         stretch=stretch,
         sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),

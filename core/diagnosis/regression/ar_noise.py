@@ -23,7 +23,7 @@ a fit would leave ever more of the slow torque to it."""
 
 
 @dataclass(frozen=True, eq=False)
-class JointNoise:
+class ARNoise:
     """Hold the best linear predictors of a stationary residual from its past.
 
     Attributes
@@ -77,7 +77,7 @@ class JointNoise:
             weights[known, 1 : known + 1] = -predictor
         return np.asarray(weights / self.deviations[:, None])
 
-    def departure(self, other: "JointNoise", residual: Vector, place: Indices) -> float:
+    def departure(self, other: "ARNoise", residual: Vector, place: Indices) -> float:
         """Give by how much less likely noise like a residual, which is of this kind, is under another kind.
 
         To be expected, in logarithms, and never below zero: Kullback & Leibler's divergence.
@@ -98,9 +98,9 @@ class JointNoise:
         return float(counts @ np.log(self.deviations))
 
 
-def learn_noise(
+def fit_ar_noise(
     residual: Vector, place: Indices, order: int | None = None, *, taken: float = 0.0
-) -> JointNoise:
+) -> ARNoise:
     """Learn an autoregression from a residual; of the highest order that its length allows unless given.
 
     A fixed order keeps likelihoods comparable: one chosen by a criterion jumps between hypotheses.
@@ -114,7 +114,7 @@ def learn_noise(
     if order is None:
         order = min(len(variances) - 1, len(residual) // ROWS_PER_ORDER)
     raised = 1.0 / max(1.0 - taken / max(len(residual), 1), 0.1)
-    return JointNoise(tuple(predictors[: order + 1]), np.sqrt(raised * variances[: order + 1]))
+    return ARNoise(tuple(predictors[: order + 1]), np.sqrt(raised * variances[: order + 1]))
 
 
 def places(follows: np.ndarray) -> Indices:

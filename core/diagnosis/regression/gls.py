@@ -18,8 +18,8 @@ from scipy.linalg.lapack import dpotrs
 
 from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from ...estimate.gaussian_prior import Belief
-from .ar_noise import JointNoise, learn_noise
-from .prewhitening import Whitened, whitened
+from .ar_noise import ARNoise, fit_ar_noise
+from .prewhitening import Prewhitened, whitened
 from .rows import JointRows
 
 RIDGE = 1e-10
@@ -57,7 +57,7 @@ class Fit:
         The ordinary fit from whose residual noise is learned; None where it is learned from this one's.
     """
 
-    joints: tuple[Whitened, ...]
+    joints: tuple[Prewhitened, ...]
     left: tuple[Weights, ...]
     values: Vector
     factor: SquareMatrix
@@ -84,7 +84,7 @@ class Fit:
 
 def fit(
     joints: tuple[JointRows, ...],
-    noise: tuple[JointNoise, ...] | None = None,
+    noise: tuple[ARNoise, ...] | None = None,
     *,
     rounds: int = ROUNDS,
     belief: Belief | None = None,
@@ -111,7 +111,7 @@ def fit(
     return _settled(joints, _solved(_whitened(joints, first), size, belief), None, rounds + 1)
 
 
-def leaves_too_much(joints: tuple[JointRows, ...], found: Fit) -> bool:
+def noise_absorbs_effect(joints: tuple[JointRows, ...], found: Fit) -> bool:
     """Tell whether a fit leaves some joint's noise much more than an ordinary fit leaves."""
     plain = _ordinary(joints, found.belief)
     pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
@@ -125,8 +125,8 @@ def _ordinary(joints: tuple[JointRows, ...], belief: Belief | None) -> Fit:
     return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), size, belief)
 
 
-def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[JointNoise, ...]:
-    return tuple(learn_noise(one, rows.place, order=0) for one, rows in zip(sized, joints, strict=True))
+def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[ARNoise, ...]:
+    return tuple(fit_ar_noise(one, rows.place, order=0) for one, rows in zip(sized, joints, strict=True))
 
 
 def _size(joints: tuple[JointRows, ...]) -> int:
@@ -137,7 +137,7 @@ def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
     return [part.missed(rows, found.values) for part, rows in zip(found.joints, joints, strict=True)]
 
 
-def _whitened(joints: tuple[JointRows, ...], noise: tuple[JointNoise, ...]) -> tuple[Whitened, ...]:
+def _whitened(joints: tuple[JointRows, ...], noise: tuple[ARNoise, ...]) -> tuple[Prewhitened, ...]:
     return tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True))
 
 
@@ -181,7 +181,7 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
         residual = seen.joints[joint].missed(rows, seen.values)
-        learned = learn_noise(residual, rows.place, taken=degrees_taken(rows, joints))
+        learned = fit_ar_noise(residual, rows.place, taken=degrees_taken(rows, joints))
         if learned.departure(known.noise, residual, rows.place) > SETTLED:
             parts[joint] = whitened(rows, learned)
     if tuple(parts) == found.joints:
@@ -195,14 +195,16 @@ def degrees_taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
-def _solved(joints: tuple[Whitened, ...], size: int, belief: Belief | None, plain: Fit | None = None) -> Fit:
+def _solved(
+    joints: tuple[Prewhitened, ...], size: int, belief: Belief | None, plain: Fit | None = None
+) -> Fit:
     """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
     gram = np.zeros((size, size))
     for one in joints:
         gram[np.ix_(one.acting, one.acting)] += one.gram
     if belief is not None:
-        believed = belief.rows.shape[1]
-        gram[:believed, :believed] += belief.rows.T @ belief.rows
+        operating_point = belief.rows.shape[1]
+        gram[:operating_point, :operating_point] += belief.rows.T @ belief.rows
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor, _ = cho_factor(scaled, lower=True)

@@ -8,27 +8,27 @@ from scipy.sparse import csr_array
 
 from ...arrays import Indices, JointSeries, UsableRows, Vector
 from ...dynamics.prediction import Prediction
-from ..dataset.dataset import Look
-from .ar_noise import learn_noise, places
+from ..dataset.dataset import Dataset
+from .ar_noise import fit_ar_noise, places
 
 MIDDLE = 1.4826
 """Deviation of normal numbers over their median size."""
 
 
-def misfit(look: Look, believed: Prediction) -> JointSeries:
+def torque_residual(dataset: Dataset, operating_point: Prediction) -> JointSeries:
     """Give measured minus predicted torque, N m or N, rows x joints."""
-    left = look.torque.copy()
-    for stretch in look.stretches:
-        left[stretch.rows] -= stretch.filtered(believed.torque(stretch.state).T).T
+    left = dataset.torque.copy()
+    for stretch in dataset.stretches:
+        left[stretch.rows] -= stretch.filtered(operating_point.torque(stretch.state).T).T
     return left
 
 
-def fitted_rows(look: Look) -> np.ndarray:
+def fitted_rows(dataset: Dataset) -> np.ndarray:
     """Mark, rows x joints, what a fit may see: clear of reversals and not held out."""
-    return np.asarray(look.clear & ~look.held_out[:, None])
+    return np.asarray(dataset.clear & ~dataset.held_out[:, None])
 
 
-def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_array, ...]:
+def inverse_covariances(dataset: Dataset, left: JointSeries, mask: np.ndarray) -> tuple[csr_array, ...]:
     """Give, per joint, the inverse covariance of a misfit's noise over the marked rows; zero elsewhere.
 
     The noise is learned from the quieter half: what happens once in a while is not to be learned as noise.
@@ -36,12 +36,12 @@ def precisions(look: Look, left: JointSeries, mask: np.ndarray) -> tuple[csr_arr
     new in the middle of all rows gives its size: rows that were chosen for being quiet are quieter than it.
     """
     out = []
-    for joint in range(look.joints):
+    for joint in range(dataset.joints):
         rows = np.flatnonzero(mask[:, joint])
-        place = places(look.follows(rows))
-        new = learn_noise(left[rows, joint], place).innovations(left[rows, joint], place)
-        quiet = rows[_quiet(look, new, rows)]
-        noise = learn_noise(left[quiet, joint], places(look.follows(quiet)))
+        place = places(dataset.follows(rows))
+        new = fit_ar_noise(left[rows, joint], place).innovations(left[rows, joint], place)
+        quiet = rows[_quiet(dataset, new, rows)]
+        noise = fit_ar_noise(left[quiet, joint], places(dataset.follows(quiet)))
         white = noise.whitening(place)
         size = MIDDLE * _middle(noise.innovations(left[rows, joint], place))
         white = csr_array((white.data / size, rows[white.indices], white.indptr), (len(rows), len(left)))
@@ -54,11 +54,11 @@ def _middle(values: Vector) -> float:
     return float(np.median(np.abs(values))) or 1.0 if len(values) else 1.0
 
 
-def _quiet(look: Look, left: Vector, rows: Indices) -> UsableRows:
+def _quiet(dataset: Dataset, left: Vector, rows: Indices) -> UsableRows:
     """Mark the rows of the blocks in which what is left is smaller than in half of them."""
     if not len(rows):
         return np.zeros(0, dtype=bool)
-    block = look.block_of_all[rows]
+    block = dataset.block_of_all[rows]
     counts = np.maximum(np.bincount(block), 1)
     power = np.bincount(block, left**2) / counts
     return np.asarray(power[block] <= np.median(power[np.unique(block)]))

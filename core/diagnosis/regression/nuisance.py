@@ -27,14 +27,14 @@ RIDGE = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
-class Free:
+class Nuisance:
     """Hold independent columns in the order of time, their transpose, and the factor of their Gram matrix.
 
     The columns are scaled to unit size; `sizes` are those they had.
     """
 
     columns: csr_array
-    turned: csr_array
+    with_other_holdout: csr_array
     factor: Matrix
     sizes: Vector
 
@@ -48,7 +48,7 @@ class Free:
         if not self.count:
             return rows
         for _ in range(2):
-            along, _ = dpbtrs(self.factor, self.turned @ rows, lower=1)
+            along, _ = dpbtrs(self.factor, self.with_other_holdout @ rows, lower=1)
             rows = rows - self.columns @ along
         return rows
 
@@ -56,7 +56,7 @@ class Free:
         """Give how much of each column, in the size it came in, a column over the same rows holds."""
         along = np.zeros(self.count)
         for _ in range(2 if self.count else 0):
-            more, _ = dpbtrs(self.factor, self.turned @ (rows - self.columns @ along), lower=1)
+            more, _ = dpbtrs(self.factor, self.with_other_holdout @ (rows - self.columns @ along), lower=1)
             along += more
         return np.asarray(along / self.sizes)
 
@@ -67,11 +67,11 @@ class Free:
         """
         if not self.count or not rows.shape[1]:
             return np.zeros((self.count, rows.shape[1]))
-        along, _ = dtbtrs(self.factor, self.turned @ rows, uplo="L")
+        along, _ = dtbtrs(self.factor, self.with_other_holdout @ rows, uplo="L")
         return np.asarray(along)
 
 
-def free_of(columns: csr_array) -> Free:
+def nuisance_of(columns: csr_array) -> Nuisance:
     """Prepare independent columns, whatever their size.
 
     Parameters
@@ -85,7 +85,7 @@ def free_of(columns: csr_array) -> Free:
     )
     products[0] += RIDGE
     factor = cholesky_banded(products, lower=True) if products.size else products
-    return Free(scaled, scaled.T.tocsr(), factor, _sizes(columns))
+    return Nuisance(scaled, scaled.T.tocsr(), factor, _sizes(columns))
 
 
 def independent(columns: csr_array) -> csr_array:

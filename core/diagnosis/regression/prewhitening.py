@@ -10,8 +10,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ...arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
-from .ar_noise import JointNoise
-from .nuisance import Free, free_of
+from .ar_noise import ARNoise
+from .nuisance import Nuisance, nuisance_of
 from .rows import JointRows
 
 ROUNDING = 1e-12
@@ -19,7 +19,7 @@ ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Whitened:
+class Prewhitened:
     """Hold one joint's rows made white: columns and torque in units of the noise.
 
     Attributes
@@ -29,14 +29,14 @@ class Whitened:
     acting
         Which columns are not all zero on the joint, in rising order: the others are left out below.
     columns, inside
-        White columns, and what `free` ones span of them (see `Free.inside`).
+        White columns, and what `free` ones span of them (see `Nuisance.inside`).
     gram
         Products of the columns with each other, less what free columns span.
     torque
         White torque, less what free columns span of it.
     """
 
-    noise: JointNoise
+    noise: ARNoise
     whitening: csr_array
     acting: Indices
     columns: EquationRows
@@ -44,7 +44,7 @@ class Whitened:
     gram: SquareMatrix
     torque: Vector
     log_deviations: float
-    free: Free
+    free: Nuisance
 
     def of(self, some: slice) -> EquationRows:
         """Give those of some columns that are not all zero, white."""
@@ -60,7 +60,7 @@ class Whitened:
         left = rows.torque - rows.columns @ values
         return np.asarray(left - rows.free.columns @ self.free.coefficients(self.whitening @ left))
 
-    def with_columns(self, kept: int, further: Matrix) -> "Whitened":
+    def with_columns(self, kept: int, further: Matrix) -> "Prewhitened":
         """Keep the first columns and put others, not yet white, beside them."""
         own = int(np.searchsorted(self.acting, kept))
         before, inside_before = self.columns[:, :own], self.inside[:, :own]
@@ -87,12 +87,12 @@ class Whitened:
         )
 
 
-def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
+def whitened(rows: JointRows, noise: ARNoise) -> Prewhitened:
     """Whiten one joint's rows."""
     whitening, free = _noise_of(rows, noise)
     acting, columns, inside = _white(whitening, free, rows.columns)
     torque = free.cleared((whitening @ rows.torque)[:, None])[:, 0]
-    return Whitened(
+    return Prewhitened(
         noise=noise,
         whitening=whitening,
         acting=acting,
@@ -105,19 +105,21 @@ def whitened(rows: JointRows, noise: JointNoise) -> Whitened:
     )
 
 
-def white_left(rows: JointRows, noise: JointNoise, left: Matrix) -> EquationRows:
+def prewhitened_residual(rows: JointRows, noise: ARNoise, left: Matrix) -> EquationRows:
     """Whiten what some fits leave of one joint's rows, a column each, less what free columns span of it."""
     whitening, free = _noise_of(rows, noise)
     return free.cleared(whitening @ left)
 
 
-def _noise_of(rows: JointRows, noise: JointNoise) -> tuple[csr_array, Free]:
+def _noise_of(rows: JointRows, noise: ARNoise) -> tuple[csr_array, Nuisance]:
     """Give what makes a joint's rows white, and its free columns when white."""
     whitening = noise.whitening(rows.place)
-    return whitening, free_of(whitening @ rows.free.columns)
+    return whitening, nuisance_of(whitening @ rows.free.columns)
 
 
-def _white(whitening: csr_array, free: Free, columns: Matrix) -> tuple[Indices, EquationRows, EquationRows]:
+def _white(
+    whitening: csr_array, free: Nuisance, columns: Matrix
+) -> tuple[Indices, EquationRows, EquationRows]:
     """List the columns that act at all, and give them white, with what free ones span of them."""
     acting = np.flatnonzero(columns.any(axis=0))
     white = np.asarray(whitening @ columns[:, acting])

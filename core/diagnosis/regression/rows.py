@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays import EquationRows, Indices, Matrix, Vector, Weights
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from .ar_noise import places
-from .nuisance import Free, free_of, independent
+from .nuisance import Nuisance, independent, nuisance_of
 
 Columns = Mapping[int, EquationRows]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -32,7 +32,7 @@ class JointRows:
     place: Indices
     columns: Matrix
     torque: Vector
-    free: Free
+    free: Nuisance
 
     def missed(self, values: Weights) -> Vector:
         """Give what the columns leave over, less what the free ones take."""
@@ -40,18 +40,18 @@ class JointRows:
         return self.free.cleared(left[:, None])[:, 0]
 
 
-def joint_rows(look: Look, columns: Sequence[Matrix], mask: np.ndarray) -> tuple[JointRows, ...]:
+def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray) -> tuple[JointRows, ...]:
     """Take, per joint, the rows that a mask (rows x joints) allows."""
     out = []
-    for joint in range(look.joints):
+    for joint in range(dataset.joints):
         rows = np.flatnonzero(mask[:, joint])
         out.append(
             JointRows(
                 rows,
-                places(look.follows(rows)),
+                places(dataset.follows(rows)),
                 columns[joint][rows],
-                look.torque[rows, joint],
-                free_of(independent(look.sticking[joint][rows])),
+                dataset.torque[rows, joint],
+                nuisance_of(independent(dataset.sticking[joint][rows])),
             )
         )
     return tuple(out)

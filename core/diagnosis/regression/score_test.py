@@ -117,7 +117,7 @@ def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Column
     return Panel(joints, candidates).scores(found)
 
 
-def score_from(found: Fit, joints: tuple[JointRows, ...], columns: Columns, starts: Indices) -> list[Score]:
+def score_onsets(found: Fit, joints: tuple[JointRows, ...], columns: Columns, starts: Indices) -> list[Score]:
     """Score columns that act from one row of the look on, for each of many such rows.
 
     What is white from a row on is what is white all along, but for the first rows, as many as the noise
@@ -174,11 +174,11 @@ def _judged(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
     values, vectors = np.linalg.eigh(left[judged])
     inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > OPEN_SHARE)
     spread = vectors / size[judged][:, :, None]
-    turned = np.einsum("nij,ni->nj", spread, right[judged])
+    with_other_holdout = np.einsum("nij,ni->nj", spread, right[judged])
     covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)
-    found = np.einsum("nij,nj->ni", spread, turned * inverse)
+    found = np.einsum("nij,nj->ni", spread, with_other_holdout * inverse)
     for place, index in enumerate(np.flatnonzero(judged)):
-        statistic = float(turned[place] ** 2 @ inverse[place])
+        statistic = float(with_other_holdout[place] ** 2 @ inverse[place])
         freedom = int(np.count_nonzero(inverse[place]))
         out[index] = Score(statistic, freedom, found[place], covariance[place], float(clear[index]))
     return out

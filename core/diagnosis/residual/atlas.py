@@ -18,8 +18,8 @@ from scipy.stats import chi2
 
 from ...arrays import Indices, JointSeries, SquareMatrix, Vector
 from ...dynamics.prediction import Prediction
-from ..dataset.dataset import Look
-from ..regression.ar_noise import JointNoise, learn_noise, places
+from ..dataset.dataset import Dataset
+from ..regression.ar_noise import ARNoise, fit_ar_noise, places
 from .coordinates import coordinate, coordinate_names
 from .floor import NoiseFloor, noise_floor
 from .memory import covariance_of_sums
@@ -72,10 +72,10 @@ class Atlas:
 
 
 def atlas(
-    look: Look,
+    dataset: Dataset,
     residual: JointSeries,
-    believed: Prediction,
-    noise: Sequence[JointNoise],
+    operating_point: Prediction,
+    noise: Sequence[ARNoise],
 ) -> Atlas:
     """Show a residual over time, angle, speed, load, travel, temperature, the other joints and frequency.
 
@@ -88,20 +88,20 @@ def atlas(
     noise
         Noise model per joint, as learned from the rows that were fitted; used over time and temperature.
     """
-    begins = np.flatnonzero(look.starts)
+    begins = np.flatnonzero(dataset.starts)
     found = []
-    for name in coordinate_names(look):
-        for joint in range(1, look.joints + 1):
-            along = coordinate(look, believed, name, joint)
+    for name in coordinate_names(dataset):
+        for joint in range(1, dataset.joints + 1):
+            along = coordinate(dataset, operating_point, name, joint)
             if along is None:
                 continue
-            label = _bins(along.values, look.clear[:, joint - 1])
+            label = _bins(along.values, dataset.clear[:, joint - 1])
             if label.max(initial=-1) >= 1:
                 binned = _Binned(along.values, residual[:, joint - 1], label, begins)
                 own = noise[joint - 1] if name in VISITED_ONCE else _noise_beside(binned)
                 found.append(_dependence(name, joint, along.unit, binned, own))
-    floor = noise_floor(look, residual)
-    return Atlas(tuple(found), residual_spectra(look, residual, floor), floor)
+    floor = noise_floor(dataset, residual)
+    return Atlas(tuple(found), residual_spectra(dataset, residual, floor), floor)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,17 +114,17 @@ class _Binned:
     begins: Indices
 
 
-def _noise_beside(binned: _Binned) -> JointNoise:
+def _noise_beside(binned: _Binned) -> ARNoise:
     """Learn the noise from what the bins' means leave over."""
     rows = np.flatnonzero(binned.label >= 0)
     label = binned.label[rows]
     count = np.bincount(label)
     mean = np.bincount(label, binned.residual[rows]) / count
     follows = (np.diff(rows, prepend=-2) == 1) & ~np.isin(rows, binned.begins)
-    return learn_noise(binned.residual[rows] - mean[label], places(follows), taken=float(len(count)))
+    return fit_ar_noise(binned.residual[rows] - mean[label], places(follows), taken=float(len(count)))
 
 
-def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: JointNoise) -> Dependence:
+def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNoise) -> Dependence:
     label = binned.label
     rows = np.flatnonzero(label >= 0)
     count = np.bincount(label[rows])

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.stats import t as student
 
 from ...arrays import Indices, Vector
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 
 BLOCKS = 20
 LEVEL = 0.975
@@ -33,13 +33,13 @@ class Share:
     prediction: Vector
 
 
-def row_blocks(look: Look) -> Indices:
+def row_blocks(dataset: Dataset) -> Indices:
     """Cut the rows into contiguous blocks of nearly equal length, numbered from 0; none spans a gap."""
-    label = np.zeros(len(look.time), dtype=int)
-    borders = np.append(np.flatnonzero(look.starts), len(look.time))
+    label = np.zeros(len(dataset.time), dtype=int)
+    borders = np.append(np.flatnonzero(dataset.starts), len(dataset.time))
     done = 0
     for start, stop in pairwise(borders):
-        count = max(1, round(BLOCKS * float(stop - start) / len(look.time)))
+        count = max(1, round(BLOCKS * float(stop - start) / len(dataset.time)))
         label[start:stop] = done + np.arange(stop - start) * count // (stop - start)
         done += count
     return label

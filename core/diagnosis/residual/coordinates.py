@@ -15,7 +15,7 @@ from ...arrays import JointSeries, Samples
 from ...dynamics.prediction import Prediction
 from ...errors import OptionError
 from ...robot.joint_units import joint_unit
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 
 OTHER_VELOCITY = "velocity_of_joint_"
 
@@ -41,16 +41,16 @@ class Coordinate:
 @dataclass(frozen=True)
 class _Kind:
     unit: str
-    series: Callable[[Look, Prediction], JointSeries | None]
+    series: Callable[[Dataset, Prediction], JointSeries | None]
 
 
-def coordinate_names(look: Look) -> tuple[str, ...]:
+def coordinate_names(dataset: Dataset) -> tuple[str, ...]:
     """List the names of all coordinates that a joint of this look may have."""
-    others = tuple(f"{OTHER_VELOCITY}{number}" for number in range(1, look.joints + 1))
+    others = tuple(f"{OTHER_VELOCITY}{number}" for number in range(1, dataset.joints + 1))
     return (*_KINDS, *others)
 
 
-def coordinate(look: Look, believed: Prediction, name: str, joint: int) -> Coordinate | None:
+def coordinate(dataset: Dataset, operating_point: Prediction, name: str, joint: int) -> Coordinate | None:
     """Give one coordinate of one joint; None where the robot or the log does not have it.
 
     Parameters
@@ -65,24 +65,24 @@ def coordinate(look: Look, believed: Prediction, name: str, joint: int) -> Coord
     OptionError
         If there is no such coordinate or joint.
     """
-    if name not in coordinate_names(look) or not 1 <= joint <= look.joints:
+    if name not in coordinate_names(dataset) or not 1 <= joint <= dataset.joints:
         raise OptionError(
             "there is no such coordinate",
-            evidence={"name": name, "joint": joint, "joints": look.joints},
-            remedy="ask for one of " + ", ".join(coordinate_names(look)) + " of a joint counted from 1",
+            evidence={"name": name, "joint": joint, "joints": dataset.joints},
+            remedy="ask for one of " + ", ".join(coordinate_names(dataset)) + " of a joint counted from 1",
         )
-    series = coordinate_series(look, believed, name)
+    series = coordinate_series(dataset, operating_point, name)
     if name.startswith(OTHER_VELOCITY):
-        return _other(look, name, joint, series)
+        return _other(dataset, name, joint, series)
     if series is None or np.isnan(series[:, joint - 1]).all():
         return None
-    return Coordinate(name, joint, _unit(look, name, joint), series[:, joint - 1])
+    return Coordinate(name, joint, _unit(dataset, name, joint), series[:, joint - 1])
 
 
-def coordinate_series(look: Look, believed: Prediction, name: str) -> JointSeries | None:
+def coordinate_series(dataset: Dataset, operating_point: Prediction, name: str) -> JointSeries | None:
     """Give one coordinate for all joints at once: rows x joints, NaN for joints that lack it."""
     kind = "velocity" if name.startswith(OTHER_VELOCITY) else name
-    return _KINDS[kind].series(look, believed)
+    return _KINDS[kind].series(dataset, operating_point)
 
 
 def travel(position: Samples, velocity: Samples) -> Samples:
@@ -100,60 +100,60 @@ def travel(position: Samples, velocity: Samples) -> Samples:
     return np.asarray(gone - np.maximum.accumulate(begins))
 
 
-def _unit(look: Look, name: str, joint: int) -> str:
+def _unit(dataset: Dataset, name: str, joint: int) -> str:
     """Give a coordinate's unit; a motor turns whatever its joint does."""
     unit = _KINDS[name].unit
-    return unit if name == "motor_phase" else joint_unit(look.robot, joint, unit)
+    return unit if name == "motor_phase" else joint_unit(dataset.robot, joint, unit)
 
 
-def _other(look: Look, name: str, joint: int, velocity: JointSeries | None) -> Coordinate | None:
+def _other(dataset: Dataset, name: str, joint: int, velocity: JointSeries | None) -> Coordinate | None:
     moving = int(name.removeprefix(OTHER_VELOCITY))
     if moving == joint or velocity is None:
         return None
-    return Coordinate(name, joint, joint_unit(look.robot, moving, "rad/s"), velocity[:, moving - 1])
+    return Coordinate(name, joint, joint_unit(dataset.robot, moving, "rad/s"), velocity[:, moving - 1])
 
 
-def _time(look: Look, believed: Prediction) -> JointSeries:
-    del believed
-    return np.repeat(look.time[:, None], look.joints, axis=1)
+def _time(dataset: Dataset, operating_point: Prediction) -> JointSeries:
+    del operating_point
+    return np.repeat(dataset.time[:, None], dataset.joints, axis=1)
 
 
-def _torque_rate(look: Look, believed: Prediction) -> JointSeries:
-    torque, out = believed.load(look.state), np.zeros_like(look.torque)
-    for stretch in look.stretches:
+def _torque_rate(dataset: Dataset, operating_point: Prediction) -> JointSeries:
+    torque, out = operating_point.load(dataset.state), np.zeros_like(dataset.torque)
+    for stretch in dataset.stretches:
         rows = stretch.rows
         if rows.stop - rows.start > 1:
-            out[rows] = np.gradient(torque[rows], look.time[rows], axis=0)
+            out[rows] = np.gradient(torque[rows], dataset.time[rows], axis=0)
     return out
 
 
-def _travel(look: Look, believed: Prediction) -> JointSeries:
-    del believed
-    out = np.zeros_like(look.torque)
-    for stretch in look.stretches:
-        for joint in range(look.joints):
-            position, velocity = look.state.position[stretch.rows, joint], look.state.velocity
+def _travel(dataset: Dataset, operating_point: Prediction) -> JointSeries:
+    del operating_point
+    out = np.zeros_like(dataset.torque)
+    for stretch in dataset.stretches:
+        for joint in range(dataset.joints):
+            position, velocity = dataset.state.position[stretch.rows, joint], dataset.state.velocity
             out[stretch.rows, joint] = travel(position, velocity[stretch.rows, joint])
     return out
 
 
-def _motor_phase(look: Look, believed: Prediction) -> JointSeries | None:
-    del believed
-    ratios = np.array([joint.gear_ratio or np.nan for joint in look.robot.joints])
+def _motor_phase(dataset: Dataset, operating_point: Prediction) -> JointSeries | None:
+    del operating_point
+    ratios = np.array([joint.gear_ratio or np.nan for joint in dataset.robot.joints])
     if np.isnan(ratios).all():
         return None
-    return np.asarray(np.mod(look.state.position * ratios, 2.0 * np.pi))
+    return np.asarray(np.mod(dataset.state.position * ratios, 2.0 * np.pi))
 
 
 _KINDS: Mapping[str, _Kind] = {
     "time": _Kind("s", _time),
-    "position": _Kind("rad", lambda look, _: look.state.position),
-    "velocity": _Kind("rad/s", lambda look, _: look.state.velocity),
-    "acceleration": _Kind("rad/s2", lambda look, _: look.state.acceleration),
-    "load": _Kind("N m", lambda look, believed: believed.load(look.state)),
-    "torque": _Kind("N m", lambda look, believed: believed.torque(look.state)),
+    "position": _Kind("rad", lambda dataset, _: dataset.state.position),
+    "velocity": _Kind("rad/s", lambda dataset, _: dataset.state.velocity),
+    "acceleration": _Kind("rad/s2", lambda dataset, _: dataset.state.acceleration),
+    "load": _Kind("N m", lambda dataset, operating_point: operating_point.load(dataset.state)),
+    "torque": _Kind("N m", lambda dataset, operating_point: operating_point.torque(dataset.state)),
     "torque_rate": _Kind("N m/s", _torque_rate),
     "travel": _Kind("rad", _travel),
     "motor_phase": _Kind("rad", _motor_phase),
-    "temperature": _Kind("degC", lambda look, _: look.state.temperature),
+    "temperature": _Kind("degC", lambda dataset, _: dataset.state.temperature),
 }

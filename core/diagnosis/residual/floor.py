@@ -15,7 +15,7 @@ from scipy.signal import detrend, welch
 
 from ...arrays import JointSeries, JointVector, Vector
 from ...signals.zero_phase import gain
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from .period import Repeats, both_clear, later_by, repeating, repeats
 
 FloorSource = Literal["repeats", "high_band", "none"]
@@ -53,7 +53,7 @@ class NoiseFloor:
     period: float | None
 
 
-def noise_floor(look: Look, residual: JointSeries) -> NoiseFloor:
+def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
     """Estimate the noise in a look's band from repeats of the motion, and from the raw torque's high band.
 
     Parameters
@@ -62,9 +62,9 @@ def noise_floor(look: Look, residual: JointSeries) -> NoiseFloor:
         Measured minus predicted torque at the look's rows, N m or N; only its differences between repeats
         count, so it may come from any model, or be the torque itself.
     """
-    high, tilt = _from_high_band(look)
-    found = repeats(look)
-    repeated = np.full(look.joints, np.nan) if found is None else _from_repeats(look, residual, found)
+    high, tilt = _from_high_band(dataset)
+    found = repeats(dataset)
+    repeated = np.full(dataset.joints, np.nan) if found is None else _from_repeats(dataset, residual, found)
     use = np.isfinite(repeated)
     source: tuple[FloorSource, ...] = tuple(
         "repeats" if one else ("high_band" if np.isfinite(other) else "none")
@@ -80,18 +80,18 @@ def noise_floor(look: Look, residual: JointSeries) -> NoiseFloor:
     )
 
 
-def passed(look: Look, frequency_hz: Vector) -> Vector:
+def passed(dataset: Dataset, frequency_hz: Vector) -> Vector:
     """Give the share of white noise's power that the look's parallel filter passes at some frequencies."""
-    motion = look.motions[0]
+    motion = dataset.motions[0]
     below = np.clip(frequency_hz, 0.0, 0.499 * motion.log.rate_hz)
     recipe = motion.recipe
     return gain(below, cutoff_hz=recipe.cutoff_hz, rate_hz=motion.log.rate_hz, order=recipe.order) ** 2
 
 
-def _from_high_band(look: Look) -> tuple[JointVector, JointVector]:
+def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
     """Give RMS in the look's band and tilt per joint, the median over windows, which no reversal moves."""
-    low, high, rows = np.zeros(look.joints), np.zeros(look.joints), 0
-    for motion in look.motions:
+    low, high, rows = np.zeros(dataset.joints), np.zeros(dataset.joints), 0
+    for motion in dataset.motions:
         for segment in motion.segments:
             last = min(segment.kept, int(60.0 * segment.rate_hz / motion.recipe.decimation))
             torque = segment.tile(motion.effort_scale, 0, last, 0).torque
@@ -100,11 +100,11 @@ def _from_high_band(look: Look) -> tuple[JointVector, JointVector]:
                 low, high = low + len(torque) * density[0], high + len(torque) * density[1]
                 rows += len(torque)
     if not rows:
-        return np.full(look.joints, np.nan), np.full(look.joints, np.nan)
+        return np.full(dataset.joints, np.nan), np.full(dataset.joints, np.nan)
     low, high = low / rows, high / rows
-    grid = np.linspace(0.0, 0.499 * look.motions[0].log.rate_hz, 4096)
-    width = float(np.trapezoid(passed(look, grid), grid))
-    tilt = np.divide(low, high, out=np.full(look.joints, np.nan), where=high > 0.0)
+    grid = np.linspace(0.0, 0.499 * dataset.motions[0].log.rate_hz, 4096)
+    width = float(np.trapezoid(passed(dataset, grid), grid))
+    tilt = np.divide(low, high, out=np.full(dataset.joints, np.nan), where=high > 0.0)
     return np.sqrt(0.5 * (low + high) * width), tilt
 
 
@@ -122,12 +122,12 @@ def _halves(torque: JointSeries, rate_hz: float, cutoff_hz: float) -> tuple[Join
     return np.median(density[:, lower], axis=1), np.median(density[:, upper], axis=1)
 
 
-def _from_repeats(look: Look, residual: JointSeries, found: Repeats) -> JointVector:
-    total, count = np.zeros(look.joints), np.zeros(look.joints)
-    for stretch in look.stretches:
+def _from_repeats(dataset: Dataset, residual: JointSeries, found: Repeats) -> JointVector:
+    total, count = np.zeros(dataset.joints), np.zeros(dataset.joints)
+    for stretch in dataset.stretches:
         later = later_by(residual[stretch.rows], found.rows)
-        same = repeating(look, stretch, found)
-        both = both_clear(look, stretch, found, len(later)) & same[:, None]
+        same = repeating(dataset, stretch, found)
+        both = both_clear(dataset, stretch, found, len(later)) & same[:, None]
         difference = later - residual[stretch.rows][: len(later)]
         total += np.sum(np.where(both, difference**2, 0.0), axis=0)
         count += both.sum(axis=0)

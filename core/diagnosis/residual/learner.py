@@ -15,8 +15,8 @@ import numpy as np
 from ...arrays import Indices, JointMask, JointSeries, Matrix, Vector
 from ...dynamics.prediction import Prediction
 from ...errors import ExcitationError
-from ..dataset.dataset import Look
-from ..regression.ar_noise import JointNoise
+from ..dataset.dataset import Dataset
+from ..regression.ar_noise import ARNoise
 from .blocks import Share, row_blocks, share_on_blocks
 from .coordinates import coordinate, coordinate_series
 from .memory import memory
@@ -78,10 +78,10 @@ class Predictable:
 
 
 def predictable_share(
-    look: Look,
+    dataset: Dataset,
     residual: JointSeries,
-    believed: Prediction,
-    noise: Sequence[JointNoise],
+    operating_point: Prediction,
+    noise: Sequence[ARNoise],
 ) -> tuple[Predictable, ...]:
     """Learn every joint's residual from the motion of all joints, and judge it on blocks not learned from.
 
@@ -98,19 +98,19 @@ def predictable_share(
         If every joint has too few rows to hold any out.
     """
     # Next to reversals every motion leaves structure: a measured velocity's sign is not friction's direction.
-    mask = look.clear
+    mask = dataset.clear
     rows = refuse_too_little(mask)
-    block, shared = row_blocks(look), _shared(look)
+    block, shared = row_blocks(dataset), _shared(dataset)
     found = []
-    for joint in range(look.joints):
+    for joint in range(dataset.joints):
         if rows[joint] < FEWEST_ROWS:
-            found.append(_not_judged(joint + 1, len(look.time)))
+            found.append(_not_judged(joint + 1, len(dataset.time)))
             continue
-        features = np.column_stack([shared, _own(look, believed, joint)])
+        features = np.column_stack([shared, _own(dataset, operating_point, joint)])
         gap = _gap(noise[joint], block)
         prediction = _unseen(features, residual[:, joint], mask[:, joint], block, gap)
         judged = share_on_blocks(prediction, residual[:, joint], block)
-        found.append(_predictable(look, believed, joint + 1, residual[:, joint], judged))
+        found.append(_predictable(dataset, operating_point, joint + 1, residual[:, joint], judged))
     return tuple(found)
 
 
@@ -164,31 +164,31 @@ def _unseen(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, 
     return out
 
 
-def _gap(noise: JointNoise, block: Indices) -> int:
+def _gap(noise: ARNoise, block: Indices) -> int:
     longest = LONGEST_GAP * float(np.median(np.bincount(block)))
     return max(1, min(memory(noise), int(longest)))
 
 
-def _shared(look: Look) -> Matrix:
-    state = look.state
-    return np.column_stack([state.position, state.velocity, state.acceleration, look.time])
+def _shared(dataset: Dataset) -> Matrix:
+    state = dataset.state
+    return np.column_stack([state.position, state.velocity, state.acceleration, dataset.time])
 
 
-def _own(look: Look, believed: Prediction, joint: int) -> Matrix:
+def _own(dataset: Dataset, operating_point: Prediction, joint: int) -> Matrix:
     names = ("load", "torque", "travel", "temperature")
-    series = [coordinate_series(look, believed, name) for name in names]
-    direction = np.sign(look.state.velocity[:, joint])
+    series = [coordinate_series(dataset, operating_point, name) for name in names]
+    direction = np.sign(dataset.state.velocity[:, joint])
     return np.column_stack([direction, *(one[:, joint] for one in series if one is not None)])
 
 
 def _predictable(
-    look: Look, believed: Prediction, joint: int, residual: Vector, judged: Share
+    dataset: Dataset, operating_point: Prediction, joint: int, residual: Vector, judged: Share
 ) -> Predictable:
     rows = np.flatnonzero(np.isfinite(judged.prediction))
     places = []
     if judged.interval[0] > 0.0:
         for name in _WHERE:
-            along = coordinate(look, believed, name, joint)
+            along = coordinate(dataset, operating_point, name, joint)
             if along is not None:
                 places.append(_place(name, along.unit, along.values[rows], judged.prediction[rows]))
     return Predictable(

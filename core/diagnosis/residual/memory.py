@@ -11,21 +11,21 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
 from ...arrays import Indices, Matrix, SquareMatrix, Vector
-from ..regression.ar_noise import JointNoise
+from ..regression.ar_noise import ARNoise
 
 FORGOTTEN = 0.1
 """A noise has forgotten where its correlation with the past stays below this."""
 _LONGEST = 8192
 
 
-def spectrum(noise: JointNoise, size: int) -> Vector:
+def spectrum(noise: ARNoise, size: int) -> Vector:
     """Give the noise's power at the frequencies of a real transform of `size` rows; its mean is the variance.
 
     Examples
     --------
     White noise of deviation 2 has power 4 at every frequency:
 
-    >>> spectrum(JointNoise((np.zeros(0),), np.array([2.0])), 4)
+    >>> spectrum(ARNoise((np.zeros(0),), np.array([2.0])), 4)
     array([4., 4., 4.])
     """
     weights = np.concatenate([[1.0], -noise.predictors[noise.order]])
@@ -33,14 +33,14 @@ def spectrum(noise: JointNoise, size: int) -> Vector:
     return np.asarray(noise.deviations[noise.order] ** 2 / np.maximum(response, 1e-300))
 
 
-def memory(noise: JointNoise) -> int:
+def memory(noise: ARNoise) -> int:
     """Count the rows after which the noise has forgotten where it was.
 
     Examples
     --------
     Correlations 0.5, 0.25, 0.125, 0.0625, ... stay below a tenth from the fourth row on:
 
-    >>> memory(JointNoise((np.zeros(0), np.array([0.5])), np.array([1.0, 1.0])))
+    >>> memory(ARNoise((np.zeros(0), np.array([0.5])), np.array([1.0, 1.0])))
     4
     """
     covariance = irfft(spectrum(noise, _LONGEST), _LONGEST)[: _LONGEST // 2]
@@ -48,7 +48,7 @@ def memory(noise: JointNoise) -> int:
     return int(remembered[-1]) + 1
 
 
-def covariance_of_sums(noise: JointNoise, weights: Matrix, begins: Indices) -> SquareMatrix:
+def covariance_of_sums(noise: ARNoise, weights: Matrix, begins: Indices) -> SquareMatrix:
     """Give the covariance of weighted sums of the noise.
 
     Parameters
@@ -62,8 +62,8 @@ def covariance_of_sums(noise: JointNoise, weights: Matrix, begins: Indices) -> S
     borders = np.append(begins, len(weights)).astype(int)
     for start, stop in pairwise(borders):
         size = next_fast_len(2 * int(stop - start), real=True)
-        turned = rfft(weights[start:stop], size, axis=0)
+        with_other_holdout = rfft(weights[start:stop], size, axis=0)
         power = spectrum(noise, size) / size
         power[1 : (size + 1) // 2] *= 2.0  # the negative frequencies
-        total += np.real((turned.conj().T * power) @ turned)
+        total += np.real((with_other_holdout.conj().T * power) @ with_other_holdout)
     return total

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
 from ...arrays import JointMask, JointSeries, Rows, Vector
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
 
 SAME = 0.02
@@ -31,30 +31,30 @@ class Repeats:
     period: float
 
 
-def repeats(look: Look) -> Repeats | None:
+def repeats(dataset: Dataset) -> Repeats | None:
     """Find the shortest period of the longest stretch; None where the motion does not repeat."""
-    stretch = max(look.stretches, key=lambda one: one.rows.stop - one.rows.start)
-    position = look.state.position[stretch.rows]
+    stretch = max(dataset.stretches, key=lambda one: one.rows.stop - one.rows.start)
+    position = dataset.state.position[stretch.rows]
     if len(position) < 4 * _TAPS:
         return None
-    step = float(np.mean(np.diff(look.time[stretch.rows])))
+    step = float(np.mean(np.diff(dataset.time[stretch.rows])))
     moving = np.std(position, axis=0) > 1e-3 * np.std(position, axis=0).max()
     mismatch = _mismatch(position[:, moving])
     for valley in _valleys(mismatch):
         lag = _refined(
-            position[:, moving], look.state.velocity[stretch.rows][:, moving] * step, float(valley)
+            position[:, moving], dataset.state.velocity[stretch.rows][:, moving] * step, float(valley)
         )
         found = Repeats(lag, lag * step)
-        same = repeating(look, stretch, found)
+        same = repeating(dataset, stretch, found)
         if same.sum() * step >= FEWEST_SECONDS and same.mean() >= LEAST_SHARE:
             return found
     return None
 
 
-def repeating(look: Look, stretch: Stretch, found: Repeats) -> np.ndarray:
+def repeating(dataset: Dataset, stretch: Stretch, found: Repeats) -> np.ndarray:
     """Mark the instants of a stretch, from its first on, that the motion repeats a period later."""
     same = None
-    for series in (look.state.position[stretch.rows], look.state.velocity[stretch.rows]):
+    for series in (dataset.state.position[stretch.rows], dataset.state.velocity[stretch.rows]):
         later = later_by(series, found.rows)
         swing = np.maximum(np.std(series, axis=0), 1e-3 * np.std(series, axis=0).max())
         near = np.all(np.abs(later - series[: len(later)]) <= SAME * swing, axis=1)
@@ -89,9 +89,9 @@ def later_by(series: Rows, rows: float) -> Rows:
     return np.asarray(windows @ weights)
 
 
-def both_clear(look: Look, stretch: Stretch, found: Repeats, rows: int) -> JointMask:
+def both_clear(dataset: Dataset, stretch: Stretch, found: Repeats, rows: int) -> JointMask:
     """Mark, for the first rows of a stretch, where row and repeat are clear of reversals and ends."""
-    clear = look.clear[stretch.rows]
+    clear = dataset.clear[stretch.rows]
     later = int(np.floor(found.rows))
     ceiling = min(later + 1, len(clear))
     second = np.pad(clear[ceiling:], ((0, 1), (0, 0)))[:rows]

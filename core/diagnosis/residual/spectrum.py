@@ -11,7 +11,7 @@ import numpy as np
 from scipy.signal import welch
 
 from ...arrays import JointSeries, Vector
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from .floor import NoiseFloor, passed
 
 LONGEST = 256
@@ -32,16 +32,18 @@ class ResidualSpectrum:
     floor: Vector
 
 
-def residual_spectra(look: Look, residual: JointSeries, floor: NoiseFloor) -> tuple[ResidualSpectrum, ...]:
+def residual_spectra(
+    dataset: Dataset, residual: JointSeries, floor: NoiseFloor
+) -> tuple[ResidualSpectrum, ...]:
     """Estimate densities by Welch's method over runs of usable rows; a joint without any is left out."""
     found = []
-    for joint in range(look.joints):
-        runs = [run for run in _runs(look, joint) if run.stop - run.start >= SHORTEST]
+    for joint in range(dataset.joints):
+        runs = [run for run in _runs(dataset, joint) if run.stop - run.start >= SHORTEST]
         if not runs:
             continue
         size = min(LONGEST, max(run.stop - run.start for run in runs))
-        frequency, density = _welch([residual[run, joint] for run in runs], _rate(look, runs[0]), size)
-        shape = passed(look, frequency)
+        frequency, density = _welch([residual[run, joint] for run in runs], _rate(dataset, runs[0]), size)
+        shape = passed(dataset, frequency)
         width = float(np.trapezoid(shape, frequency))
         level = floor.rms[joint] ** 2 / max(width, 1e-300)
         found.append(ResidualSpectrum(joint + 1, frequency, density, level * shape))
@@ -59,12 +61,12 @@ def _welch(runs: Sequence[np.ndarray], rate_hz: float, size: int) -> tuple[Vecto
     return frequency, np.asarray(total / rows)
 
 
-def _runs(look: Look, joint: int) -> list[slice]:
-    rows = np.flatnonzero(look.usable[:, joint])
-    breaks = np.flatnonzero((np.diff(rows) != 1) | look.starts[rows[1:]]) + 1
+def _runs(dataset: Dataset, joint: int) -> list[slice]:
+    rows = np.flatnonzero(dataset.usable[:, joint])
+    breaks = np.flatnonzero((np.diff(rows) != 1) | dataset.starts[rows[1:]]) + 1
     return [slice(int(part[0]), int(part[-1]) + 1) for part in np.split(rows, breaks) if len(part)]
 
 
-def _rate(look: Look, run: slice) -> float:
+def _rate(dataset: Dataset, run: slice) -> float:
     """Give the rate of the kept rows, Hz."""
-    return float((run.stop - run.start - 1) / (look.time[run.stop - 1] - look.time[run.start]))
+    return float((run.stop - run.start - 1) / (dataset.time[run.stop - 1] - dataset.time[run.start]))

@@ -10,7 +10,7 @@ from functools import cached_property
 
 from ..causes.protocol import Site
 from ..regression.rows import Columns
-from .candidates import Suspicion
+from .candidates import Candidates
 from .hypothesis import Candidate
 
 NEAR = 0.01
@@ -18,7 +18,7 @@ NEAR = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Ranking:
+class CandidateCache:
     """Keep what is suspected all along the motion, to be ranked by columns that may be of an earlier belief.
 
     Attributes
@@ -29,19 +29,19 @@ class Ranking:
         Per joint, the suspicion that candidates of that joint alone are of.
     """
 
-    whole: Suspicion
-    joints: tuple[Suspicion, ...]
+    whole: Candidates
+    joints: tuple[Candidates, ...]
 
     @cached_property
     def candidates(self) -> tuple[Candidate, ...]:
         """Give what is suspected."""
         return tuple(candidate for candidate, _ in self._suspected)
 
-    def of(self, now: Suspicion) -> bool:
+    def of(self, now: Candidates) -> bool:
         """Tell whether everything is of one suspicion."""
         return self._suspicions == (now,)
 
-    def under(self, now: Suspicion) -> "Ranking":
+    def under(self, now: Candidates) -> "CandidateCache":
         """Take what another belief would rank otherwise from the suspicion under that belief.
 
         Roughly: columns made of derivatives may change by a greater share than what is predicted does, and so
@@ -50,9 +50,9 @@ class Ranking:
         changed = {one: ~(one.change(now) <= NEAR) for one in self._suspicions}
         whole = now if changed[self.whole].any() else self.whole
         joints = tuple(now if changed[one][joint] else one for joint, one in enumerate(self.joints))
-        return self if (whole, joints) == (self.whole, self.joints) else Ranking(whole, joints)
+        return self if (whole, joints) == (self.whole, self.joints) else CandidateCache(whole, joints)
 
-    def columns(self, built: Callable[[Sequence[Candidate], Suspicion], Sequence[Columns]]) -> list[Columns]:
+    def columns(self, built: Callable[[Sequence[Candidate], Candidates], Sequence[Columns]]) -> list[Columns]:
         """Give the candidates' columns, each as a bench builds it under its suspicion."""
         out: dict[int, Columns] = {}
         for suspicion in self._suspicions:
@@ -62,11 +62,11 @@ class Ranking:
         return [out[place] for place in range(len(out))]
 
     @property
-    def _suspicions(self) -> tuple[Suspicion, ...]:
+    def _suspicions(self) -> tuple[Candidates, ...]:
         return tuple(dict.fromkeys((self.whole, *self.joints)))
 
     @cached_property
-    def _suspected(self) -> tuple[tuple[Candidate, Suspicion], ...]:
+    def _suspected(self) -> tuple[tuple[Candidate, Candidates], ...]:
         return tuple(
             (candidate, own)
             for cause, site in self.whole.lasting
@@ -74,10 +74,10 @@ class Ranking:
             for candidate in own.of(cause, site)
         )
 
-    def _suspicion(self, site: Site) -> Suspicion:
+    def _suspicion(self, site: Site) -> Candidates:
         return self.joints[site[0] - 1] if len(site) == 1 else self.whole
 
 
-def ranking_under(suspicion: Suspicion) -> Ranking:
+def cache_at(suspicion: Candidates) -> CandidateCache:
     """Rank everything under one belief."""
-    return Ranking(suspicion, (suspicion,) * suspicion.look.joints)
+    return CandidateCache(suspicion, (suspicion,) * suspicion.dataset.joints)

@@ -16,18 +16,18 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause, Site
-from ..dataset.dataset import Look
+from ..dataset.dataset import Dataset
 from ..regression.rows import Columns
-from .hypothesis import Candidate, Hypothesis, Place, Scored
+from .hypothesis import Candidate, Hypothesis, Place, ScoredCandidate
 
 
 @dataclass(frozen=True, eq=False)
-class Suspicion:
+class Candidates:
     """Keep what is suspected while one prediction is believed.
 
     Attributes
     ----------
-    look, left
+    dataset, left
         The rows; and the same with only what is not explained so far for their torque.
     columns
         The filtered columns of candidates that are built on the prediction.
@@ -40,11 +40,11 @@ class Suspicion:
     """
 
     causes: tuple[Cause, ...]
-    look: Look
-    left: Look
-    believed: Prediction
+    dataset: Dataset
+    left: Dataset
+    operating_point: Prediction
     columns: dict[Place, Columns] = field(default_factory=dict)
-    scans: WeakKeyDictionary[Hypothesis, list[Scored]] = field(default_factory=WeakKeyDictionary)
+    scans: WeakKeyDictionary[Hypothesis, list[ScoredCandidate]] = field(default_factory=WeakKeyDictionary)
     less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
     trials: WeakKeyDictionary[Hypothesis, dict[Place, Hypothesis]] = field(default_factory=WeakKeyDictionary)
     _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
@@ -62,13 +62,13 @@ class Suspicion:
 
     def _sites(self, causes: Iterable[Cause]) -> Iterator[tuple[Cause, Site]]:
         for cause in causes:
-            for site in cause.sites(self.look, self.believed):
+            for site in cause.sites(self.dataset, self.operating_point):
                 yield cause, site
 
     def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
         """Give one cause at one site with all scalars that are scanned."""
         if (cause, site) not in self._known:
-            grid = tuple(cause.grid(self.left, self.believed, site))
+            grid = tuple(cause.grid(self.left, self.operating_point, site))
             self._known[cause, site] = tuple(
                 Candidate(cause, site, scalars, cause.trials(grid, scalars)) for scalars in grid
             )
@@ -78,29 +78,31 @@ class Suspicion:
         """Give all causes of one name at one site: against a reference some come in two forms."""
         name, site = key
         causes = (
-            one for one in self.causes if one.id == name and site in one.sites(self.look, self.believed)
+            one
+            for one in self.causes
+            if one.id == name and site in one.sites(self.dataset, self.operating_point)
         )
         return tuple(candidate for one in causes for candidate in self.of(one, site))
 
-    def change(self, other: "Suspicion") -> JointVector:
+    def change(self, other: "Candidates") -> JointVector:
         """Give by how much another prediction differs from this one, as a share of each joint's torque."""
-        square, change = np.zeros(self.look.joints), np.zeros(self.look.joints)
+        square, change = np.zeros(self.dataset.joints), np.zeros(self.dataset.joints)
         if other is self:
             return change
-        for stretch in self.look.stretches:
-            own, theirs = (one.believed.scaled(stretch.state) for one in (self, other))
+        for stretch in self.dataset.stretches:
+            own, theirs = (one.operating_point.scaled(stretch.state) for one in (self, other))
             square += np.sum(own**2, axis=0)
             change += np.sum((theirs - own) ** 2, axis=0)
         return np.asarray(np.sqrt(change / np.maximum(square, 1e-300)))
 
 
-def nothing_suspected(look: Look, model: DynamicModel) -> Suspicion:
+def no_candidates(dataset: Dataset, model: DynamicModel) -> Candidates:
     """Believe that nothing moves any link, and suspect nothing."""
     nothing = Prediction(model, np.zeros(len(model.parameters)), inverse_dynamics)
-    return Suspicion((), look, look, nothing)
+    return Candidates((), dataset, dataset, nothing)
 
 
-def joined_by(look: Look, found: Hypothesis, believed: Prediction) -> Prediction:
+def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Prediction) -> Prediction:
     """Give a prediction that knows what joined the model: loads first, then all else, then its scales.
 
     What is late is late after that, and is not part of it.
@@ -108,11 +110,11 @@ def joined_by(look: Look, found: Hypothesis, believed: Prediction) -> Prediction
     for joins in (_loads, _acts_inside, _scales):
         terms = []
         for index, one in enumerate(found.members):
-            term = one.cause.term(look, believed, one.site, one.scalars)
+            term = one.cause.term(dataset, operating_point, one.site, one.scalars)
             if joins(term) and not one.cause.yielded:
                 terms.append((term, found.fit.values[found.columns_of(index)]))
-        believed = replace(believed, joined=(*believed.joined, *terms))
-    return believed
+        operating_point = replace(operating_point, joined=(*operating_point.joined, *terms))
+    return operating_point
 
 
 def _loads(term: Term) -> bool:

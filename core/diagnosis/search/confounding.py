@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from .fitter import Bench
+from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
-from .likelihood_ratio import bounded_rise, log_p, rise, rise_by_joint
+from .likelihood_ratio import bounded_likelihood_ratio, likelihood_ratio, likelihood_ratio_by_joint, log_p
 
 BESIDE_SHARE = 0.5
 """What keeps this share of its rise beside a finding is no rival to it."""
@@ -17,7 +17,7 @@ WITHIN = 0.9
 """Share of an event's rows in which another cause acts, from which on it is what that one leaves."""
 
 
-def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> bool:
+def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hypothesis) -> bool:
     """Tell whether a member looks like what another one leaves, and brings too little for a cause.
 
     It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
@@ -30,39 +30,39 @@ def left_over(bench: Bench, whole: Hypothesis, index: int, less: Hypothesis) -> 
     less
         The hypothesis without the member.
     """
-    own, own_rise = whole.members[index].cause, rise_by_joint(less, whole)
+    own, own_ratio = whole.members[index].cause, likelihood_ratio_by_joint(less, whole)
     for place, other in enumerate(whole.members):
         leaves = own.id in other.cause.leaves
         if place == index or not (leaves or own.event):
             continue
-        without = bench.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
+        without = fitter.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
         if own.event:
             within = leaves and _acts_within(whole, index, place)
-            least = rise(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
-            if own_rise.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
+            least = likelihood_ratio(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
+            if own_ratio.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
                 return True
             continue
-        left = LEFT_SHARE * np.maximum(rise_by_joint(without, whole), 0.0)
-        if np.maximum(own_rise - left, 0.0).sum() < CLEAR_SHARE * own_rise.sum():
+        left = LEFT_SHARE * np.maximum(likelihood_ratio_by_joint(without, whole), 0.0)
+        if np.maximum(own_ratio - left, 0.0).sum() < CLEAR_SHARE * own_ratio.sum():
             return True
     return False
 
 
-def keeps_beside(bench: Bench, own: Hypothesis, rival: Candidate, alone: float) -> bool:
+def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate, alone: float) -> bool:
     """Tell whether a candidate keeps its rise beside a hypothesis: then it is no rival."""
-    return bench.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
+    return fitter.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
 
 
-def left_by_last(bench: Bench, own: Hypothesis, rival: Candidate) -> bool:
+def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate) -> bool:
     """Tell whether a candidate is an event that the last member leaves, as by its own torque at its limit."""
     if not rival.cause.event or rival.cause.id not in own.members[-1].cause.leaves:
         return False
-    both = bench.added(own, rival)
+    both = fitter.added(own, rival)
     return _acts_within(both, len(own.members), len(own.members) - 1)
 
 
 def _far_beyond_luck(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
-    chance = log_p(less, whole, bounded_rise(less, whole, index), index)
+    chance = log_p(less, whole, bounded_likelihood_ratio(less, whole, index), index)
     return bool(chance < np.log(FAR_BEYOND_LUCK))
 
 

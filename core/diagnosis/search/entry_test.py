@@ -9,19 +9,19 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ..causes.protocol import Site
-from .confounding import left_over
-from .fitter import Bench
-from .holdout import unseen_rise, unseen_share
-from .hypothesis import Candidate, Hypothesis, Scored
-from .likelihood_ratio import bounded_rise, log_p, merit, rise, weight
-from .lr_bound import foreseen
-from .profile_likelihood import refined
+from .confounding import is_masked
+from .fitter import HypothesisFitter
+from .holdout import holdout_likelihood_ratio, holdout_share
+from .hypothesis import Candidate, Hypothesis, ScoredCandidate
+from .likelihood_ratio import bic_gain, bounded_likelihood_ratio, likelihood_ratio, log_p, wald_statistic
+from .lr_bound import predicted_likelihood_ratios
+from .profile_likelihood import refine_scalars
 
 Key = tuple[str, Site]
-GivenUp = Mapping[Key, float]
+Excluded = Mapping[Key, float]
 """Kinds that were chosen once, and the rise that brings each back: none (inf) what did not stand out."""
-NOTHING: GivenUp = {}
-Ranked = Sequence[tuple[Scored, float]]
+NOTHING: Excluded = {}
+Ranked = Sequence[tuple[ScoredCandidate, float]]
 """Candidates, and the most that each may bring."""
 
 LEVEL = 1e-4
@@ -49,106 +49,116 @@ LEAST_SHARE = 0.004
 """Least share of a joint's whitened residual square that a cause has to explain."""
 
 
-def best_addition(
-    bench: Bench, now: Hypothesis, given_up: GivenUp = NOTHING, most: int = TRIED, least: float = 0.0
+def best_entry(
+    fitter: HypothesisFitter,
+    now: Hypothesis,
+    excluded_kinds: Excluded = NOTHING,
+    most: int = TRIED,
+    least: float = 0.0,
 ) -> Hypothesis | None:
     """Give the hypothesis with the cause that deserves it most, of so many tried; None where none does.
 
     Parameters
     ----------
     least
-        What its criterion has to gain (see `merit`).
+        What its criterion has to gain (see `bic_gain`).
     """
     excluded = {name for one in now.members for name in one.cause.excludes}
-    taken = {*now.by_key, *(key for key, brings in given_up.items() if brings == np.inf)}
+    taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
     scans = [
         one
-        for one in bench.scanned(now)
+        for one in fitter.scanned(now)
         if one.candidate.key not in taken and one.candidate.cause.id not in excluded
     ]
     tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
-    reach = zip(tried, foreseen(bench, now, tried), strict=True)
+    reach = zip(tried, predicted_likelihood_ratios(fitter, now, tried), strict=True)
     ranked = sorted(((one, RAISED * brings + BESIDES) for one, brings in reach), key=lambda pair: -pair[1])
     found: Hypothesis | None = None
     left: Ranked = [(one, most) for one, most in ranked if most > least]
     while left and found is None:
-        likely, left = _likely(bench, now, left, least, len(scans))
-        found = _first_to_hold(bench, now, likely, given_up, least)
+        likely, left = _likely(fitter, now, left, least, len(scans))
+        found = _first_to_hold(fitter, now, likely, excluded_kinds, least)
     return found
 
 
 def _likely(
-    bench: Bench, now: Hypothesis, ranked: Ranked, least: float, kinds: int
+    fitter: HypothesisFitter, now: Hypothesis, ranked: Ranked, least: float, kinds: int
 ) -> tuple[list[Hypothesis], Ranked]:
     """Fit candidates, and give those that are clear enough, the best ones first.
 
     Those that cannot be better than others that were are not fitted, and given besides.
     """
     likely: list[Hypothesis] = []
-    left: list[tuple[Scored, float]] = []
+    left: list[tuple[ScoredCandidate, float]] = []
     best = least
     for one, most in ranked:
         if most <= best:
             left.append((one, most))
             continue
-        trial = with_candidate(bench, now, one)
-        gains = merit(now, trial)
-        if trial.possible and gains > least and _deserves(bench, now, trial, kinds):
+        trial = with_candidate(fitter, now, one)
+        gains = bic_gain(now, trial)
+        if trial.possible and gains > least and _deserves(fitter, now, trial, kinds):
             likely.append(trial)
             best = best if one.candidate.cause.event else max(best, gains)
-    return sorted(likely, key=lambda trial: -merit(now, trial)), left
+    return sorted(likely, key=lambda trial: -bic_gain(now, trial)), left
 
 
 def _first_to_hold(
-    bench: Bench, now: Hypothesis, likely: Sequence[Hypothesis], given_up: GivenUp, least: float
+    fitter: HypothesisFitter,
+    now: Hypothesis,
+    likely: Sequence[Hypothesis],
+    excluded_kinds: Excluded,
+    least: float,
 ) -> Hypothesis | None:
     """Give the best of some trials that holds on unseen rows and is not what others leave."""
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
-    whole = [bench.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
+    whole = [fitter.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
     # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
-    ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -merit(now, trial)))
+    ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -bic_gain(now, trial)))
     deserves = (
         trial
         for trial in ranked
         if trial.possible
-        and merit(now, trial) > least
-        and rise(now, trial) > given_up.get(trial.members[-1].key, 0.0)
-        and holds_unseen(bench, now, trial)
-        and not left_over(bench, trial, len(now.members), now)
+        and bic_gain(now, trial) > least
+        and likelihood_ratio(now, trial) > excluded_kinds.get(trial.members[-1].key, 0.0)
+        and passes_holdout(fitter, now, trial)
+        and not is_masked(fitter, trial, len(now.members), now)
     )
     return next(deserves, None)
 
 
-def _deserves(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int = -1) -> bool:
+def _deserves(
+    fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: int, index: int = -1
+) -> bool:
     """Tell whether a member is clear enough to join (the last one unless said otherwise; so below)."""
-    return clear_enough(bench, now, trial, kinds, index=index) or _apart(bench, now, trial, kinds, index)
+    return is_significant(fitter, now, trial, kinds, index=index) or _apart(fitter, now, trial, kinds, index)
 
 
-def stays(bench: Bench, without: Hypothesis, now: Hypothesis, index: int) -> bool:
+def passes_exit_test(fitter: HypothesisFitter, without: Hypothesis, now: Hypothesis, index: int) -> bool:
     """Tell whether nature allows a member, and whether it is clear enough to join the others again."""
     if not now.allows(index):
         return False
     if not without.members:
-        return bool(weight(now, index) > -2.0 * np.log(LEVEL))
-    return _deserves(bench, without, now, bench.kinds, index)
+        return bool(wald_statistic(now, index) > -2.0 * np.log(LEVEL))
+    return _deserves(fitter, without, now, fitter.kinds, index)
 
 
-def _apart(bench: Bench, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
+def _apart(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
     """Tell whether a member is as clear as a first one has to be, and owes nothing to the others."""
     member, others = trial.members[index], [set(one.site) for one in now.members]
     if not others or _at_picked_instants(trial, index):
         return False
     if not all(one and one.isdisjoint(member.site) for one in others):
         return False
-    if not member.site or not clear_enough(bench, now, trial, kinds, LEVEL, index):
+    if not member.site or not is_significant(fitter, now, trial, kinds, LEVEL, index):
         return False
-    none = bench.tried(())
-    alone, beside = rise(none, bench.added(none, member)), rise(now, trial)
+    none = fitter.tried(())
+    alone, beside = likelihood_ratio(none, fitter.added(none, member)), likelihood_ratio(now, trial)
     return min(alone, beside) > UNCHANGED * max(alone, beside)
 
 
-def clear_enough(
-    bench: Bench,
+def is_significant(
+    fitter: HypothesisFitter,
     now: Hypothesis,
     trial: Hypothesis,
     kinds: int,
@@ -160,8 +170,8 @@ def clear_enough(
         rare = _at_picked_instants(trial, index)
         level = FURTHER_LEVEL if now.members else EVENT_LEVEL if rare else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
-    chance = log_p(now, trial, bounded_rise(now, trial, index), index)
-    return bool(chance < hurdle and _share(now, trial) > _least_share(bench, trial.members[index]))
+    chance = log_p(now, trial, bounded_likelihood_ratio(now, trial, index), index)
+    return bool(chance < hurdle and _share(now, trial) > _least_share(fitter, trial.members[index]))
 
 
 def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
@@ -173,36 +183,40 @@ def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
     return all(float(rows.mean()) < RARE for rows in acting if rows.any())
 
 
-def holds_unseen(bench: Bench, now: Hypothesis, trial: Hypothesis) -> bool:
+def passes_holdout(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis) -> bool:
     """Tell whether a new member helps on held-out rows as far as it acts there.
 
     An event is judged where it happens: what a fit knows of it from half its span says little of the rest.
     """
     if trial.members[-1].cause.event:
         return True
-    expected = unseen_share(bench, trial) * min(weight(trial, len(trial.members) - 1), rise(now, trial))
+    expected = holdout_share(fitter, trial) * min(
+        wald_statistic(trial, len(trial.members) - 1), likelihood_ratio(now, trial)
+    )
     luck = 2.0 * float(np.sqrt(max(expected, 1.0)))
-    return unseen_rise(bench, now, trial) >= min(UNSEEN_SHARE * expected, expected - UNLUCKY * luck)
+    return holdout_likelihood_ratio(fitter, now, trial) >= min(
+        UNSEEN_SHARE * expected, expected - UNLUCKY * luck
+    )
 
 
-def with_candidate(bench: Bench, now: Hypothesis, scored: Scored) -> Hypothesis:
+def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCandidate) -> Hypothesis:
     """Add a candidate with refined scalars, and fit everything anew; how well they are known is left open.
 
     What was fitted in a member's place to challenge it is not fitted again to weigh it.
     """
-    kept, place = bench.suspicion.trials.get(now, {}), scored.candidate.place
+    kept, place = fitter.suspicion.trials.get(now, {}), scored.candidate.place
     if place not in kept:
-        kept[place] = bench.added(now, refined(bench, now, scored.candidate, on_trial=True))
+        kept[place] = fitter.added(now, refine_scalars(fitter, now, scored.candidate, on_trial=True))
     return kept[place]
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
     rows = min((len(one.torque) for one in trial.fit.joints if len(one.torque)), default=1)
-    return rise(now, trial) / rows
+    return likelihood_ratio(now, trial) / rows
 
 
-def _least_share(bench: Bench, member: Candidate) -> float:
+def _least_share(fitter: HypothesisFitter, member: Candidate) -> float:
     if not member.cause.like_position_noise:
         return LEAST_SHARE
-    joints = member.site or range(1, bench.look.joints + 1)
-    return max(LEAST_SHARE, *(float(bench.look.position_share[joint - 1]) for joint in joints))
+    joints = member.site or range(1, fitter.dataset.joints + 1)
+    return max(LEAST_SHARE, *(float(fitter.dataset.position_share[joint - 1]) for joint in joints))

@@ -17,13 +17,13 @@ from ...estimate.gaussian_prior import Belief
 from ...regressor.columns import ColumnPlan
 from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause
-from ..dataset.dataset import Look
-from ..regression.gls import TRIAL_ROUNDS, Fit, fit, leaves_too_much, refit
-from ..regression.rows import Columns, extended, joint_rows
-from ..regression.score_test import Panel, Score, score, score_from
-from .candidate_cache import Ranking, ranking_under
-from .candidates import Suspicion, joined_by, nothing_suspected
-from .hypothesis import Candidate, Hypothesis, Place, Scored, best_of_kinds
+from ..dataset.dataset import Dataset
+from ..regression.gls import TRIAL_ROUNDS, Fit, fit, noise_absorbs_effect, refit
+from ..regression.rows import Columns, extended, rows_of_joints
+from ..regression.score_test import Panel, Score, score, score_onsets
+from .candidate_cache import CandidateCache, cache_at
+from .candidates import Candidates, extended_prediction, no_candidates
+from .hypothesis import Candidate, Hypothesis, Place, ScoredCandidate, best_of_kinds
 
 SCORED_ANEW = 24
 """Best kinds of a scan that are scored anew where columns are of an earlier belief; fewer are ever fitted."""
@@ -33,12 +33,12 @@ MOST_AT_REST = 0.9
 """A joint whose friction at rest may be anything on more than this share of the rows hardly moves."""
 
 
-class Bench:
+class HypothesisFitter:
     """Try hypotheses on the rows of a look.
 
     Parameters
     ----------
-    look
+    dataset
         The rows; a fit may use those that are usable and not held out.
     plan
         The model's base columns.
@@ -50,24 +50,24 @@ class Bench:
 
     def __init__(
         self,
-        look: Look,
+        dataset: Dataset,
         plan: ColumnPlan,
         causes: Sequence[Cause],
         belief: Belief | None = None,
     ) -> None:
-        self.look = look
+        self.dataset = dataset
         self.plan = plan
         self.causes = tuple(causes)
         self.belief = belief
-        columns = look.observed(plan)
-        self.base = joint_rows(look, columns, look.usable & ~look.held_out[:, None])
-        self.unseen = joint_rows(look, columns, look.usable & look.held_out[:, None])
-        self.everywhere = joint_rows(look, columns, np.ones_like(look.usable))
+        columns = dataset.observed(plan)
+        self.base = rows_of_joints(dataset, columns, dataset.usable & ~dataset.held_out[:, None])
+        self.holdout = rows_of_joints(dataset, columns, dataset.usable & dataset.held_out[:, None])
+        self.everywhere = rows_of_joints(dataset, columns, np.ones_like(dataset.usable))
         self._lasting: dict[Place, Columns] = {}
-        self._panels: WeakKeyDictionary[Ranking, Panel] = WeakKeyDictionary()
+        self._panels: WeakKeyDictionary[CandidateCache, Panel] = WeakKeyDictionary()
         self._ordinary = False
-        self._ranking: Ranking | None = None
-        self._now = nothing_suspected(look, plan.model)
+        self._ranking: CandidateCache | None = None
+        self._now = no_candidates(dataset, plan.model)
 
     def believe(self, found: Hypothesis) -> None:
         """Take a fit's base parameters for what is believed, and forget what was built on others.
@@ -76,8 +76,10 @@ class Bench:
         """
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.fit.values[: len(self.plan.columns)]
-        believed = joined_by(self.look, found, Prediction(self.plan.model, standard, inverse_dynamics))
-        self._now = Suspicion(self.causes, self.look, self._without_lasting(found), believed)
+        operating_point = extended_prediction(
+            self.dataset, found, Prediction(self.plan.model, standard, inverse_dynamics)
+        )
+        self._now = Candidates(self.causes, self.dataset, self._without_lasting(found), operating_point)
 
     def remembered(self) -> Callable[[], None]:
         """Give what brings back what is believed now, after something else was."""
@@ -88,14 +90,14 @@ class Bench:
 
         return believe_again
 
-    def _without_lasting(self, found: Hypothesis) -> Look:
+    def _without_lasting(self, found: Hypothesis) -> Dataset:
         """Take from the torque what a hypothesis's members explain of it, all but events."""
-        torque = self.look.torque.copy()
+        torque = self.dataset.torque.copy()
         for index, columns in enumerate(self.columns(found.members)):
             if not found.members[index].cause.event:
                 for joint, one in columns.items():
                     torque[:, joint] -= one @ found.fit.values[found.columns_of(index)]
-        return replace(self.look, torque=torque)
+        return replace(self.dataset, torque=torque)
 
     @property
     def candidates(self) -> tuple[Candidate, ...]:
@@ -103,21 +105,21 @@ class Bench:
         return (*self._ranked_like_now.candidates, *self._now.events)
 
     @property
-    def _ranked_like_now(self) -> Ranking:
+    def _ranked_like_now(self) -> CandidateCache:
         """Give what no other belief since it was ranked would rank otherwise."""
         before, now = self._ranking, self._now
-        self._ranking = ranking_under(now) if before is None else before.under(now)
+        self._ranking = cache_at(now) if before is None else before.under(now)
         return self._ranking
 
     @property
-    def suspicion(self) -> Suspicion:
+    def suspicion(self) -> Candidates:
         """Give what is suspected under the present belief."""
         return self._now
 
     @property
-    def believed(self) -> Prediction:
+    def operating_point(self) -> Prediction:
         """Give what is believed: the columns of candidates are built on it."""
-        return self._now.believed
+        return self._now.operating_point
 
     def scored(self, under: Hypothesis, candidates: Sequence[Candidate]) -> list[Score]:
         """Score candidates on top of a hypothesis."""
@@ -132,12 +134,12 @@ class Bench:
         """
         (columns,) = self.columns([candidate])
         part = {joint: one[:, some] for joint, one in columns.items()}
-        told = {
+        with_deviations = {
             joint: float(np.sum((under.fit.joints[joint].whitening @ one[self.base[joint].rows]) ** 2))
             for joint, one in part.items()
         }
-        most = sorted(told, key=lambda joint: -told[joint])[:TELLING]
-        return score_from(under.fit, self.base, {joint: part[joint] for joint in most}, starts)
+        most = sorted(with_deviations, key=lambda joint: -with_deviations[joint])[:TELLING]
+        return score_onsets(under.fit, self.base, {joint: part[joint] for joint in most}, starts)
 
     @property
     def kinds(self) -> int:
@@ -148,11 +150,13 @@ class Bench:
         """Give the candidates' filtered columns, computing those that are new."""
         return self._columns(candidates, self._now)
 
-    def _columns(self, candidates: Sequence[Candidate], suspicion: Suspicion) -> list[Columns]:
+    def _columns(self, candidates: Sequence[Candidate], suspicion: Candidates) -> list[Columns]:
         known = (self._lasting, suspicion.columns)
         new = [one for one in candidates if not any(one.place in kept for kept in known)]
-        terms = [one.cause.term(self.look, suspicion.believed, one.site, one.scalars) for one in new]
-        for one, term, columns in zip(new, terms, self.look.columns(terms), strict=True):
+        terms = [
+            one.cause.term(self.dataset, suspicion.operating_point, one.site, one.scalars) for one in new
+        ]
+        for one, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
             known[hasattr(term, "believed")][one.place] = columns
         return [next(kept[one.place] for kept in known if one.place in kept) for one in candidates]
 
@@ -216,7 +220,9 @@ class Bench:
             self.base[0].columns.shape[1],
         )
 
-    def scanned(self, under: Hypothesis, candidates: Sequence[Candidate] | None = None) -> list[Scored]:
+    def scanned(
+        self, under: Hypothesis, candidates: Sequence[Candidate] | None = None
+    ) -> list[ScoredCandidate]:
         """Score candidates (all by default) on top of a hypothesis; the best scalars of each kind only.
 
         Scalars at which nature allows what is found go before those at which it does not. What all of them
@@ -229,7 +235,7 @@ class Bench:
             scans[under] = self._scan(under)
         return scans[under]
 
-    def _scan(self, under: Hypothesis) -> list[Scored]:
+    def _scan(self, under: Hypothesis) -> list[ScoredCandidate]:
         """Score everything that is suspected, the best anew where columns may be of an earlier belief."""
         ranking, events = self._ranked_like_now, self._now.events
         asked = (*ranking.candidates, *events)
@@ -240,7 +246,7 @@ class Bench:
         again = self.scanned(under, [one.candidate for one in found[:SCORED_ANEW]])
         return sorted([*again, *found[SCORED_ANEW:]], key=lambda one: one.log_p)
 
-    def _panel(self, ranking: Ranking) -> Panel:
+    def _panel(self, ranking: CandidateCache) -> Panel:
         """Give what scores all that is suspected all along the motion."""
         if ranking not in self._panels:
             self._panels[ranking] = Panel(self.base, ranking.columns(self._columns))
@@ -252,18 +258,18 @@ class Bench:
         Never where noise is learned from ordinary fits already.
         """
         rows = extended(self.base, self.columns(under.members))
-        return not self._ordinary and leaves_too_much(rows, under.fit)
+        return not self._ordinary and noise_absorbs_effect(rows, under.fit)
 
-    def with_ordinary_noise(self) -> "Bench":
+    def with_ordinary_noise(self) -> "HypothesisFitter":
         """Give a bench of the same rows with ordinary noise; what ranked candidates may rank them still."""
         other = copy(self)
         other._ordinary = True  # noqa: SLF001 - of the same class
-        other._now = nothing_suspected(self.look, self.plan.model)  # noqa: SLF001 - of the same class
+        other._now = no_candidates(self.dataset, self.plan.model)  # noqa: SLF001 - of the same class
         return other
 
-    def with_look(self, look: Look) -> "Bench":
+    def with_look(self, dataset: Dataset) -> "HypothesisFitter":
         """Give a bench of a look that holds other rows out; what ranked candidates may rank them still."""
-        other = Bench(look, self.plan, self.causes, self.belief)
+        other = HypothesisFitter(dataset, self.plan, self.causes, self.belief)
         other._lasting, other._ranking = self._lasting, self._ranking
         return other
 

@@ -5,33 +5,37 @@ Source: Stone, J. R. Stat. Soc. B 36(2), 1974, on judging by data that the choic
 
 import numpy as np
 
-from ..regression.prewhitening import white_left
+from ..regression.prewhitening import prewhitened_residual
 from ..regression.rows import JointRows, extended
-from .fitter import Bench
+from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis
 
 
-def unseen_rise(bench: Bench, now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
+def holdout_likelihood_ratio(
+    fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int = -1
+) -> float:
     """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise.
 
     What was believed beforehand was not seen by either: by how much less the larger hypothesis departs
     from it counts like rows, in proportion to those that are held out.
     """
-    share = unseen_share(bench, trial, index) if bench.belief else 0.0
-    return _rise_at(bench, bench.unseen, now, trial, share)
+    share = holdout_share(fitter, trial, index) if fitter.belief else 0.0
+    return _rise_at(fitter, fitter.holdout, now, trial, share)
 
 
-def expected_unseen_rise(bench: Bench, now: Hypothesis, trial: Hypothesis, index: int) -> float:
-    """Give what `unseen_rise` would be if a member did there what it does on the fitted rows."""
-    return unseen_share(bench, trial, index) * _rise_at(bench, bench.base, now, trial, 1.0)
+def expected_holdout_likelihood_ratio(
+    fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int
+) -> float:
+    """Give what `holdout_likelihood_ratio` would be if a member did there what it does on the fitted rows."""
+    return holdout_share(fitter, trial, index) * _rise_at(fitter, fitter.base, now, trial, 1.0)
 
 
-def unseen_share(bench: Bench, trial: Hypothesis, index: int = -1) -> float:
+def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) -> float:
     """Give the square of a member's torque on held-out rows over that on the fitted ones."""
-    columns = bench.columns(trial.members)[index]
+    columns = fitter.columns(trial.members)[index]
     values = trial.fit.values[trial.columns_of(index % len(trial.members))]
     squares = []
-    for part in (bench.unseen, bench.base):
+    for part in (fitter.holdout, fitter.base):
         total = 0.0
         for joint, one in columns.items():
             torque = (one[part[joint].rows] @ values)[:, None]
@@ -41,15 +45,19 @@ def unseen_share(bench: Bench, trial: Hypothesis, index: int = -1) -> float:
 
 
 def _rise_at(
-    bench: Bench, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, believed: float
+    fitter: HypothesisFitter,
+    joints: tuple[JointRows, ...],
+    now: Hypothesis,
+    trial: Hypothesis,
+    operating_point: float,
 ) -> float:
-    rows = [extended(joints, bench.columns(one.members)) for one in (now, trial)]
+    rows = [extended(joints, fitter.columns(one.members)) for one in (now, trial)]
     squares = np.zeros(2)
     for parts, joint in zip(zip(*rows, strict=True), trial.fit.joints, strict=True):
         left = [
             part.torque - part.columns @ one.fit.values for part, one in zip(parts, (now, trial), strict=True)
         ]
-        squares += np.sum(white_left(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
-    if bench.belief:
-        squares += [believed * bench.belief.departure(one.fit.values) for one in (now, trial)]
+        squares += np.sum(prewhitened_residual(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
+    if fitter.belief:
+        squares += [operating_point * fitter.belief.departure(one.fit.values) for one in (now, trial)]
     return float(squares[0] - squares[1])

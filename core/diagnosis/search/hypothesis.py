@@ -7,10 +7,10 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays import SquareMatrix, Vector
-from ...numerics.chi2_tail import log_chance
+from ...numerics.chi2_tail import log_chi2_tail
 from ...robot.joint_units import slides
 from ...robot.model import RobotModel
-from ..causes.protocol import Cause, Scalars, Site, Solved
+from ..causes.protocol import Cause, FittedCause, Scalars, Site
 from ..regression.gls import OPEN_SHARE, Fit
 from ..regression.score_test import Score
 
@@ -55,7 +55,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Scored:
+class ScoredCandidate:
     """Carry a candidate with the rise of twice the log-likelihood that it brings.
 
     Attributes
@@ -73,7 +73,7 @@ class Scored:
     @cached_property
     def log_p(self) -> float:
         """Give log of (trials times the chance of so large a rise by luck)."""
-        return log_chance(self.statistic, self.freedom) + float(np.log(self.candidate.trials))
+        return log_chi2_tail(self.statistic, self.freedom) + float(np.log(self.candidate.trials))
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,16 +102,16 @@ class Hypothesis:
         place = self.columns_of(index)
         return np.asarray(self.fit.covariance[place, place])
 
-    def solved(self, index: int) -> Solved:
+    def solved(self, index: int) -> FittedCause:
         """Give what was found for a member; deviations count what scalars and columns are not exact by."""
         member, values = self.members[index], self.fit.values[self.columns_of(index)]
         covariance = self.covariance(index) + np.diag((member.cause.inexact * values) ** 2)
         for name, slope in member.slopes.items():
             if np.isfinite(member.deviations[name]):
                 covariance += np.outer(slope, slope) * member.deviations[name] ** 2
-        return Solved(member.site, values, covariance, member.scalars, dict(member.deviations))
+        return FittedCause(member.site, values, covariance, member.scalars, dict(member.deviations))
 
-    def told(self, index: int, robot: RobotModel) -> Solved:
+    def with_deviations(self, index: int, robot: RobotModel) -> FittedCause:
         """Give what was found for a member as a reader is told it: in the units of its joint."""
         found = self.solved(index)
         return replace(found, slides=bool(found.site) and slides(robot, found.site[0]))
@@ -133,11 +133,11 @@ class Hypothesis:
 
 def allowed(candidate: Candidate, judged: Score) -> bool:
     """Tell whether nature allows what a score says of a candidate."""
-    solved = Solved(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
+    solved = FittedCause(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
     return candidate.cause.possible(solved)
 
 
-def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Scored]:
+def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[ScoredCandidate]:
     """Give the best scalars of each kind, the least likely by luck first."""
     kinds: dict[object, list[int]] = {}
     for place, one in enumerate(asked):
@@ -148,6 +148,8 @@ def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Sc
         likeliest = next((place for place in ranked if allowed(asked[place], found[place])), ranked[0])
         judged = found[likeliest]
         best.append(
-            Scored(asked[likeliest], judged.statistic, judged.freedom, judged.values, judged.clear_share)
+            ScoredCandidate(
+                asked[likeliest], judged.statistic, judged.freedom, judged.values, judged.clear_share
+            )
         )
     return sorted(best, key=lambda one: one.log_p)

@@ -6,8 +6,8 @@ Source: Schwarz, Ann. Stat. 6(2), 1978, for the criterion.
 import numpy as np
 
 from ...arrays import JointVector
-from .fitter import Bench
-from .hypothesis import Hypothesis, Scored
+from .fitter import HypothesisFitter
+from .hypothesis import Hypothesis, ScoredCandidate
 
 MOST_OF_A_ROW = 16.0
 """Squared deviations that a row may count for."""
@@ -18,11 +18,11 @@ def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf, index: int =
 
     `trial` is `now` and this member, which is the last one unless said otherwise; so below.
     """
-    statistic = min(weight(trial, index), rise(now, trial), most)
-    return Scored(trial.members[index], statistic, trial.freedom(index), np.zeros(0), 1.0).log_p
+    statistic = min(wald_statistic(trial, index), likelihood_ratio(now, trial), most)
+    return ScoredCandidate(trial.members[index], statistic, trial.freedom(index), np.zeros(0), 1.0).log_p
 
 
-def bounded_rise(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
+def bounded_likelihood_ratio(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     """Give the rise where no row counts for more than so many deviations; of an event, over its own rows.
 
     A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
@@ -39,28 +39,28 @@ def bounded_rise(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     return total
 
 
-def rise(now: Hypothesis, trial: Hypothesis) -> float:
+def likelihood_ratio(now: Hypothesis, trial: Hypothesis) -> float:
     """Give the rise of twice the log-likelihood from one hypothesis to a larger one."""
     return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
 
 
-def rise_by_joint(now: Hypothesis, trial: Hypothesis) -> JointVector:
+def likelihood_ratio_by_joint(now: Hypothesis, trial: Hypothesis) -> JointVector:
     """Give the same from each joint's rows."""
     return np.asarray(2.0 * (trial.fit.by_joint - now.fit.by_joint))
 
 
-def log_p_of(bench: Bench, chosen: Hypothesis, index: int, statistic: float) -> float:
+def log_p_of(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statistic: float) -> float:
     """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned.
 
     `statistic` is the rise that it brings by itself.
     """
     member = chosen.members[index]
-    size = min(weight(chosen, index), statistic)
-    scored = Scored(member, size, chosen.freedom(index), np.zeros(0), 1.0)
-    return min(scored.log_p + float(np.log(bench.kinds)), 0.0)
+    size = min(wald_statistic(chosen, index), statistic)
+    scored = ScoredCandidate(member, size, chosen.freedom(index), np.zeros(0), 1.0)
+    return min(scored.log_p + float(np.log(fitter.kinds)), 0.0)
 
 
-def weight(hypothesis: Hypothesis, index: int) -> float:
+def wald_statistic(hypothesis: Hypothesis, index: int) -> float:
     """Give a member's squared size in units of its covariance, under the noise of the whole hypothesis."""
     covariance = hypothesis.covariance(index)
     scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
@@ -68,8 +68,8 @@ def weight(hypothesis: Hypothesis, index: int) -> float:
     return float(values @ np.linalg.solve(covariance / np.outer(scale, scale), values))
 
 
-def merit(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
+def bic_gain(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
     rows = max(len(one.torque) for one in trial.fit.joints)
     freedom = trial.freedom(index) + trial.members[index].searched
-    return rise(now, trial) - freedom * float(np.log(rows))
+    return likelihood_ratio(now, trial) - freedom * float(np.log(rows))

@@ -11,20 +11,22 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import Weights
-from ..regression.ar_noise import learn_noise
+from ..regression.ar_noise import fit_ar_noise
 from ..regression.gls import Fit, degrees_taken
 from ..regression.rows import JointRows, extended
-from .fitter import Bench
-from .hypothesis import Hypothesis, Scored
+from .fitter import HypothesisFitter
+from .hypothesis import Hypothesis, ScoredCandidate
 
 Effect = Mapping[int, Weights]
 """Torque per joint (from 0) and row, N m or N."""
 
 
-def foreseen(bench: Bench, now: Hypothesis, scans: Sequence[Scored]) -> list[float]:
+def predicted_likelihood_ratios(
+    fitter: HypothesisFitter, now: Hypothesis, scans: Sequence[ScoredCandidate]
+) -> list[float]:
     """Give by how much each candidate of a scan may raise twice the log-likelihood."""
-    rows = extended(bench.base, bench.columns(now.members))
-    columns = bench.columns([one.candidate for one in scans])
+    rows = extended(fitter.base, fitter.columns(now.members))
+    columns = fitter.columns([one.candidate for one in scans])
     effects = (
         {joint: own[rows[joint].rows] @ one.values for joint, own in kind.items()}
         for one, kind in zip(scans, columns, strict=True)
@@ -46,7 +48,7 @@ def _rise(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
         likely = part.noise.log_likelihood(left, rows.place)
         if joint in effect:
             residual = left if seen is now else seen.joints[joint].missed(without, seen_values)
-            learned = learn_noise(residual, rows.place, taken=degrees_taken(rows, joints))
+            learned = fit_ar_noise(residual, rows.place, taken=degrees_taken(rows, joints))
             likely = max(likely, learned.log_likelihood(left, rows.place))
         total += likely
     return 2.0 * (total - now.log_likelihood)

@@ -12,9 +12,9 @@ import numpy as np
 from scipy.optimize import root_scalar
 
 from ...arrays import Vector
-from ...numerics.chi2_tail import log_chance
+from ...numerics.chi2_tail import log_chi2_tail
 from ..regression.score_test import Score
-from .fitter import Bench
+from .fitter import HypothesisFitter
 from .grid import between, neighbours
 from .hypothesis import Candidate, Hypothesis, allowed
 
@@ -30,7 +30,9 @@ NEARLY = 1.96
 """Deviations of a scalar within which 95 % of its values lie."""
 
 
-def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False) -> Candidate:
+def refine_scalars(
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False
+) -> Candidate:
     """Settle a candidate's scalars between its grid points, on top of a hypothesis.
 
     Parameters
@@ -40,32 +42,32 @@ def refined(bench: Bench, under: Hypothesis, candidate: Candidate, *, on_trial: 
     """
     for name in candidate.scalars:
         if name in candidate.cause.yielded:
-            candidate = _yielding(bench, under, candidate, name)
+            candidate = _yielding(fitter, under, candidate, name)
         elif name not in candidate.cause.unrefined:
-            candidate, seen = _refined(bench, under, candidate, name)
+            candidate, seen = _refined(fitter, under, candidate, name)
             if not on_trial:
-                candidate = _told(bench, under, candidate, name, seen)
+                candidate = _told(fitter, under, candidate, name, seen)
     return candidate
 
 
-def told(bench: Bench, under: Hypothesis, candidate: Candidate) -> Candidate:
+def with_deviations(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate) -> Candidate:
     """Tell how well a candidate's scalars are known where they are, on top of a hypothesis."""
     for name, here in candidate.scalars.items():
         if name not in (*candidate.cause.yielded, *candidate.cause.unrefined):
-            points, _ = _grid(bench, candidate, name)
+            points, _ = _grid(fitter, candidate, name)
             trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
-            found = bench.scored(under, trials)
+            found = fitter.scored(under, trials)
             seen = {trial.scalars[name]: one.statistic for trial, one in zip(trials, found, strict=True)}
-            candidate = _told(bench, under, candidate, name, seen)
+            candidate = _told(fitter, under, candidate, name, seen)
     return candidate
 
 
-def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+def _yielding(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
     """Build the columns where they yield the size that they are built for."""
 
     @cache
     def off(size: float) -> float:
-        (found,) = bench.scored(under, [_at(candidate, name, size)])
+        (found,) = fitter.scored(under, [_at(candidate, name, size)])
         return float(found.values[0]) - size
 
     here = candidate.scalars[name]
@@ -77,21 +79,21 @@ def _yielding(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) 
 
 
 def _refined(
-    bench: Bench, under: Hypothesis, candidate: Candidate, name: str
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
 ) -> tuple[Candidate, Mapping[float, float]]:
     """Settle one scalar, and give the statistics of all values that were tried."""
-    points, ends = _grid(bench, candidate, name)
+    points, ends = _grid(fitter, candidate, name)
     if name in candidate.cause.onset:
-        candidate = _begun(bench, under, candidate, name)
+        candidate = _begun(fitter, under, candidate, name)
     here = candidate.scalars[name]
     low, high = np.clip(neighbours(points, here), *ends)
     if name in candidate.cause.onset and here not in points:
-        low, high = here - _row(bench), here + _row(bench)
+        low, high = here - _row(fitter), here + _row(fitter)
     seen: dict[float, float] = {}
     for _ in range(2):
         values = between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
-        found = bench.scored(under, trials)
+        found = fitter.scored(under, trials)
         ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
         best = ranks.index(max(ranks))
         here = trials[best].scalars[name]
@@ -100,41 +102,41 @@ def _refined(
     return _at(candidate, name, here), seen
 
 
-def _begun(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
+def _begun(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
     """Let a candidate that is not there by luck begin to act at the likeliest row of all.
 
     The likelihood of an instant has narrow peaks: under noise that remembers for long a step shows where it
     is, and hardly later. No grid that is scanned with all else is as fine.
     """
-    (alone,) = bench.scored(under, [candidate])
-    if log_chance(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
+    (alone,) = fitter.scored(under, [candidate])
+    if log_chi2_tail(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
         return candidate
-    time, rows = bench.look.time, np.arange(1, len(bench.look.time))
+    time, rows = fitter.dataset.time, np.arange(1, len(fitter.dataset.time))
     throughout, some = _at(candidate, name, -np.inf), candidate.cause.onset[name]
-    worth = np.array([one.statistic for one in bench.scored_from(under, throughout, some, rows)])
+    worth = np.array([one.statistic for one in fitter.scored_from(under, throughout, some, rows)])
     peaks: list[int] = []
     for place in np.argsort(-worth, kind="stable"):
         if len(peaks) < LIKELY and all(abs(time[rows[place]] - time[rows[one]]) > APART for one in peaks):
             peaks.append(int(place))
     trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
-    found = bench.scored(under, trials)
+    found = fitter.scored(under, trials)
     ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
     return trials[ranks.index(max(ranks))]
 
 
-def _row(bench: Bench) -> float:
+def _row(fitter: HypothesisFitter) -> float:
     """Give the time from row to row, s."""
-    return float(np.median(np.diff(bench.look.time)))
+    return float(np.median(np.diff(fitter.dataset.time)))
 
 
 def _told(
-    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, seen: Mapping[float, float]
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, seen: Mapping[float, float]
 ) -> Candidate:
     """Tell how well a settled scalar is known, from what other values are worth."""
     here = candidate.scalars[name]
-    deviation, slope = _spread(bench, under, candidate, name, neighbours(sorted(seen), here))
+    deviation, slope = _spread(fitter, under, candidate, name, neighbours(sorted(seen), here))
     if name in candidate.cause.onset:
-        seen = {**seen, **_farther(bench, under, candidate, name)}
+        seen = {**seen, **_farther(fitter, under, candidate, name)}
     return replace(
         candidate,
         deviations={**candidate.deviations, name: max(deviation, _reach(seen, here))},
@@ -142,36 +144,40 @@ def _told(
     )
 
 
-def _farther(bench: Bench, under: Hypothesis, candidate: Candidate, name: str) -> dict[float, float]:
+def _farther(
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
+) -> dict[float, float]:
     """Give what a settled instant and others before and after it are worth."""
     values = (candidate.scalars[name] + AROUND).tolist()
-    found = bench.scored(under, [_at(candidate, name, value) for value in values])
+    found = fitter.scored(under, [_at(candidate, name, value) for value in values])
     return {value: one.statistic for value, one in zip(values, found, strict=True)}
 
 
-def _grid(bench: Bench, candidate: Candidate, name: str) -> tuple[list[float], tuple[float, float]]:
+def _grid(
+    fitter: HypothesisFitter, candidate: Candidate, name: str
+) -> tuple[list[float], tuple[float, float]]:
     """Give the points that a scalar was scanned at, and its ends, one step beyond them.
 
     What is settled again and again may not wander off.
     """
     here = candidate.scalars[name]
     # What is believed may have changed since it was chosen, and the grid with it.
-    scanned = [one.scalars.get(name, here) for one in bench.suspicion.of(candidate.cause, candidate.site)]
+    scanned = [one.scalars.get(name, here) for one in fitter.suspicion.of(candidate.cause, candidate.site)]
     points = sorted({*scanned} or {here})
     return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 
 
 def _spread(
-    bench: Bench, under: Hypothesis, candidate: Candidate, name: str, around: tuple[float, float]
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, around: tuple[float, float]
 ) -> tuple[float, Vector]:
     """Read a scalar's deviation off the curvature of the profile likelihood, and the values' slope."""
     here = candidate.scalars[name]
     step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
-    low, middle, high = _beside(bench, under, candidate, name, step)
+    low, middle, high = _beside(fitter, under, candidate, name, step)
     for _ in range(7):
         if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
             break
-        wider = _beside(bench, under, candidate, name, 2.0 * step)
+        wider = _beside(fitter, under, candidate, name, 2.0 * step)
         if min(one.clear_share for one in wider) <= 0.0:
             break
         step, (low, middle, high) = 2.0 * step, wider
@@ -182,9 +188,11 @@ def _spread(
     return float(step / np.sqrt(drop)), slope
 
 
-def _beside(bench: Bench, under: Hypothesis, candidate: Candidate, name: str, step: float) -> list[Score]:
+def _beside(
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, step: float
+) -> list[Score]:
     here = candidate.scalars[name]
-    return bench.scored(under, [_at(candidate, name, here + shift) for shift in (-step, 0.0, step)])
+    return fitter.scored(under, [_at(candidate, name, here + shift) for shift in (-step, 0.0, step)])
 
 
 def _at(candidate: Candidate, name: str, value: float) -> Candidate:

@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .confounding import BESIDE_SHARE, left_over
-from .entry_test import Key, best_addition, clear_enough, stays, with_candidate
-from .fitter import Bench
+from .confounding import BESIDE_SHARE, is_masked
+from .entry_test import Key, best_entry, is_significant, passes_exit_test, with_candidate
+from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
-from .joint_refinement import settled
-from .likelihood_ratio import merit, rise
+from .joint_refinement import refine_jointly
+from .likelihood_ratio import bic_gain, likelihood_ratio
 
 Keys = frozenset[Key]
 """The kinds of a hypothesis's members."""
@@ -50,31 +50,31 @@ class Selection:
     through: frozenset[Keys] = frozenset()
 
 
-def select(
-    bench: Bench, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
+def search_stepwise(
+    fitter: HypothesisFitter, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
 ) -> Selection:
     """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
-    return continued(bench, _begun(bench, start), {}, progress)
+    return continue_search(fitter, _begun(fitter, start), {}, progress)
 
 
-def confirmed(
-    bench: Bench, found: Selection, progress: Callable[[float], None] | None = None
+def confirm(
+    fitter: HypothesisFitter, found: Selection, progress: Callable[[float], None] | None = None
 ) -> Selection | None:
     """Search on from what was found under another noise; None where not all of that holds its place."""
     if not found.chosen.members:
         return None
-    begun, kept = _begun(bench, found.chosen.members), frozenset(found.chosen.by_key)
-    if _challenged(bench, begun.chosen, [], {}) is not None:
+    begun, kept = _begun(fitter, found.chosen.members), frozenset(found.chosen.by_key)
+    if _challenged(fitter, begun.chosen, [], {}) is not None:
         return None
     begun = replace(begun, steps=(*found.steps, *begun.steps), through=frozenset({kept}))
-    more = continued(bench, begun, {}, progress)
+    more = continue_search(fitter, begun, {}, progress)
     return more if kept <= more.chosen.by_key.keys() else None
 
 
-def continued(
-    bench: Bench,
+def continue_search(
+    fitter: HypothesisFitter,
     so_far: Selection,
-    given_up: dict[Key, float],
+    excluded_kinds: dict[Key, float],
     progress: Callable[[float], None] | None = None,
     *,
     known: Collection[Keys] = (),
@@ -90,43 +90,43 @@ def continued(
     for number in range(len(now.members), MOST):
         if progress is not None:
             progress(number / MOST)
-        better = best_addition(bench, now, given_up)
+        better = best_entry(fitter, now, excluded_kinds)
         if better is None:
             break
-        steps.append(Step("added", better.members[-1], rise(now, better)))
-        larger = settled(bench, better)
+        steps.append(Step("added", better.members[-1], likelihood_ratio(now, better)))
+        larger = refine_jointly(fitter, better)
         if now.members and now.possible and not larger.possible:
             # Beside it nature would not allow what was found before.
-            steps.append(Step("dropped", better.members[-1], rise(now, better)))
-            given_up[better.members[-1].key] = np.inf
-            bench.believe(now)
+            steps.append(Step("dropped", better.members[-1], likelihood_ratio(now, better)))
+            excluded_kinds[better.members[-1].key] = np.inf
+            fitter.believe(now)
             continue
-        for now in _defended(bench, larger, steps, given_up):
+        for now in _defended(fitter, larger, steps, excluded_kinds):
             through.add(frozenset(now.by_key))
             if frozenset(now.by_key) in known:
                 return Selection(so_far.none, now, tuple(steps), frozenset(through))
     return Selection(so_far.none, now, tuple(steps), frozenset(through))
 
 
-def _begun(bench: Bench, start: Sequence[Candidate]) -> Selection:
+def _begun(fitter: HypothesisFitter, start: Sequence[Candidate]) -> Selection:
     """Begin a search with causes that are known; with none, from the standard model."""
-    none = bench.tried(())
-    bench.believe(none)
-    now = settled(bench, bench.tried(tuple(start))) if start else none
+    none = fitter.tried(())
+    fitter.believe(none)
+    now = refine_jointly(fitter, fitter.tried(tuple(start))) if start else none
     return Selection(none, now, tuple(Step("kept", one, 0.0) for one in start))
 
 
-def begun_with(bench: Bench, now: Hypothesis, cause: str) -> Hypothesis | None:
+def start_with(fitter: HypothesisFitter, now: Hypothesis, cause: str) -> Hypothesis | None:
     """Give a hypothesis with one cause of the whole robot besides; None where it is not clear enough."""
-    scans = bench.scanned(now, bench.suspicion.of_kind((cause, ())))
-    trials = [with_candidate(bench, now, one) for one in scans]
-    clear = (one for one in trials if one.possible and clear_enough(bench, now, one, bench.kinds))
+    scans = fitter.scanned(now, fitter.suspicion.of_kind((cause, ())))
+    trials = [with_candidate(fitter, now, one) for one in scans]
+    clear = (one for one in trials if one.possible and is_significant(fitter, now, one, fitter.kinds))
     first = next(clear, None)
-    return None if first is None else settled(bench, first)
+    return None if first is None else refine_jointly(fitter, first)
 
 
 def _defended(
-    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
+    fitter: HypothesisFitter, now: Hypothesis, steps: list[Step], excluded_kinds: dict[Key, float]
 ) -> Iterator[Hypothesis]:
     """Let every member defend its place against being dropped and against its rivals; give what that leaves.
 
@@ -136,16 +136,16 @@ def _defended(
     yield now
     settled_before = [now.by_key.keys()]
     for _ in range(2 * MOST):
-        changed = _challenged(bench, now, steps, given_up)
+        changed = _challenged(fitter, now, steps, excluded_kinds)
         if changed is None:
             return
         if len(changed.members) == len(now.members):
             # What was swapped out is not believed any more, even where the new one is left alone.
-            bench.believe(bench.tried(changed.members[:-1], changed))
-            now = settled(bench, changed)
+            fitter.believe(fitter.tried(changed.members[:-1], changed))
+            now = refine_jointly(fitter, changed)
         else:
-            bench.believe(changed)
-            now = bench.tried(changed.members, changed)
+            fitter.believe(changed)
+            now = fitter.tried(changed.members, changed)
         yield now
         if now.by_key.keys() in settled_before:
             return
@@ -153,29 +153,29 @@ def _defended(
 
 
 def _challenged(
-    bench: Bench, now: Hypothesis, steps: list[Step], given_up: dict[Key, float]
+    fitter: HypothesisFitter, now: Hypothesis, steps: list[Step], excluded_kinds: dict[Key, float]
 ) -> Hypothesis | None:
-    less = bench.less(now)
-    brings = [rise(without, now) for without in less]
+    less = fitter.less(now)
+    brings = [likelihood_ratio(without, now) for without in less]
     weak = [
         index
         for index, without in enumerate(less)
-        if not stays(bench, without, now, index) or left_over(bench, now, index, without)
+        if not passes_exit_test(fitter, without, now, index) or is_masked(fitter, now, index, without)
     ]
     if weak:
         least = min(weak, key=lambda index: brings[index])
         steps.append(Step("dropped", now.members[least], brings[least]))
-        given_up[now.members[least].key] = np.inf
+        excluded_kinds[now.members[least].key] = np.inf
         return less[least]
     for index, member in enumerate(now.members):
-        closed = {**given_up, member.key: np.inf}
+        closed = {**excluded_kinds, member.key: np.inf}
         if not member.cause.event:
             # What acts at picked instants only does not take the place of what acts all the time.
-            closed |= {one.key: np.inf for one in bench.candidates if one.cause.event}
-        hurdle = merit(less[index], now, index) + BETTER
-        rival = best_addition(bench, less[index], closed, RIVALS, hurdle)
+            closed |= {one.key: np.inf for one in fitter.candidates if one.cause.event}
+        hurdle = bic_gain(less[index], now, index) + BETTER
+        rival = best_entry(fitter, less[index], closed, RIVALS, hurdle)
         if rival is not None:
-            steps.append(Step("swapped", rival.members[-1], rise(now, rival)))
-            given_up[member.key] = BESIDE_SHARE * brings[index]
+            steps.append(Step("swapped", rival.members[-1], likelihood_ratio(now, rival)))
+            excluded_kinds[member.key] = BESIDE_SHARE * brings[index]
             return rival
     return None

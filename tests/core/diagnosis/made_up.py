@@ -9,7 +9,7 @@ from tests.core.diagnosis.scenes import Effect
 from veritorque.core.arrays import Samples
 from veritorque.core.diagnosis.causes.protocol import Cause, Scalars
 from veritorque.core.diagnosis.causes.shared.common import NOTHING, OwnJointCause
-from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
 from veritorque.core.dynamics.terms.effect import OneJointTerm
 from veritorque.core.robot.model import RobotModel
@@ -47,13 +47,13 @@ class MadeUpCause(OwnJointCause):
     units = ()
     experiment = "any other motion"
 
-    def sites(self, look, believed):
+    def sites(self, dataset, operating_point):
         return [(JOINT,)]
 
-    def grid(self, look, believed, site):
+    def grid(self, dataset, operating_point, site):
         return self.points
 
-    def term(self, look, believed, site, scalars):
+    def term(self, dataset, operating_point, site, scalars):
         return MadeUpTerm(site[0], type(self).make, scalars)
 
     def possible(self, solved):
@@ -97,8 +97,8 @@ def candidate(cause: Cause, scalars: Scalars | None = None) -> Candidate:
     return Candidate(cause, (JOINT,), scalars or {}, 1.0)
 
 
-def nothing_found(bench: Bench) -> Hypothesis:
+def nothing_found(fitter: HypothesisFitter) -> Hypothesis:
     """Fit the model alone, and believe what it finds."""
-    none = bench.tried(())
-    bench.believe(none)
+    none = fitter.tried(())
+    fitter.believe(none)
     return none

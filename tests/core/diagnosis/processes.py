@@ -5,7 +5,7 @@ from scipy.linalg import solve_toeplitz, toeplitz
 from scipy.signal import lfilter
 from scipy.stats import chi2
 
-from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise
 
 WHITE: tuple[float, ...] = ()
 SLOW = (0.9,)
@@ -20,14 +20,14 @@ def autocovariance(weights: tuple[float, ...], count: int) -> np.ndarray:
     return np.array([response[: LONG - lag] @ response[lag:] for lag in range(count)])
 
 
-def exact_noise(weights: tuple[float, ...]) -> JointNoise:
+def exact_noise(weights: tuple[float, ...]) -> ARNoise:
     """Give the best predictors from 0, 1, ... p past values, from the normal equations."""
     gamma = autocovariance(weights, len(weights) + 1)
     predictors = [np.zeros(0)] + [
         solve_toeplitz(gamma[:order], gamma[1 : order + 1]) for order in range(1, len(weights) + 1)
     ]
     variances = [gamma[0] - one @ gamma[1 : len(one) + 1] for one in predictors]
-    return JointNoise(tuple(predictors), np.sqrt(variances))
+    return ARNoise(tuple(predictors), np.sqrt(variances))
 
 
 def dense_covariance(weights: tuple[float, ...], place: np.ndarray) -> np.ndarray:

@@ -11,8 +11,8 @@ from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from tests.tools import Motion, pinocchio_torque, random_bodies
 from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, Site
-from veritorque.core.diagnosis.dataset.dataset import Look, look_at
-from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
+from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.estimate.gaussian_prior import Belief
@@ -39,8 +39,8 @@ Effect = Callable[[MotionState], np.ndarray]
 class Scene:
     """Hold a look and what is believed."""
 
-    look: Look
-    believed: Prediction
+    dataset: Dataset
+    operating_point: Prediction
 
 
 def skew_arm() -> RobotModel:
@@ -94,8 +94,8 @@ def scene_of(time: np.ndarray, position: np.ndarray, torque: np.ndarray) -> Scen
     """Look at a log of the skew arm, its last fifth held out, and believe its true bodies."""
     robot = skew_arm()
     log = log_from_arrays("scene", time, position, torque)
-    look = look_at(standard_model(robot), (log,), held_out=frozenset({(0, 4)}), blocks=5)
-    return Scene(look, Prediction(standard_model(robot, ("rigid_body",)), bodies_of_skew_arm().ravel()))
+    dataset = build_dataset(standard_model(robot), (log,), held_out=frozenset({(0, 4)}), blocks=5)
+    return Scene(dataset, Prediction(standard_model(robot, ("rigid_body",)), bodies_of_skew_arm().ravel()))
 
 
 def bodies_of_skew_arm() -> np.ndarray:
@@ -105,8 +105,8 @@ def bodies_of_skew_arm() -> np.ndarray:
 
 def first_choice(cause: Cause, scene: Scene) -> tuple[Site, Scalars]:
     """Give a cause's first site and grid point."""
-    site = cause.sites(scene.look, scene.believed)[0]
-    return site, cause.grid(scene.look, scene.believed, site)[0]
+    site = cause.sites(scene.dataset, scene.operating_point)[0]
+    return site, cause.grid(scene.dataset, scene.operating_point, site)[0]
 
 
 def change_with_measurement(cause: Cause, scene: Scene) -> float:
@@ -115,11 +115,11 @@ def change_with_measurement(cause: Cause, scene: Scene) -> float:
     A cause may look at the residual to choose where to search, so that a little change is no fault; a column
     that holds the measured torque changes by about as much.
     """
-    look, (site, scalars) = scene.look, first_choice(cause, scene)
-    noise = np.random.default_rng(5).normal(size=look.torque.shape) * 0.5 * np.std(look.torque, axis=0)
+    dataset, (site, scalars) = scene.dataset, first_choice(cause, scene)
+    noise = np.random.default_rng(5).normal(size=dataset.torque.shape) * 0.5 * np.std(dataset.torque, axis=0)
     both = [
-        one.columns([cause.term(one, scene.believed, site, scalars)])[0]
-        for one in (look, replace(look, torque=look.torque + noise))
+        one.columns([cause.term(one, scene.operating_point, site, scalars)])[0]
+        for one in (dataset, replace(dataset, torque=dataset.torque + noise))
     ]
     before, after = (np.hstack([one[joint] for joint in sorted(one)]) for one in both)
     return float(np.linalg.norm(after - before) / np.linalg.norm(before))
@@ -146,12 +146,12 @@ def look_at_arm(position: np.ndarray, torque: np.ndarray) -> Scene:
     model, time = standard_model(skew_arm()), np.arange(len(position)) / ARM_RATE_HZ
     truth = true_parameters(model)
     log = log_from_arrays("arm", time, position, torque)
-    look = look_at(model, (log,), held_out=frozenset({(0, 4)}), blocks=5)
-    return Scene(look, Prediction(model, truth))
+    dataset = build_dataset(model, (log,), held_out=frozenset({(0, 4)}), blocks=5)
+    return Scene(dataset, Prediction(model, truth))
 
 
-def bench_of(scene: Scene, causes: Sequence[Cause], belief: Belief | None = None) -> Bench:
+def bench_of(scene: Scene, causes: Sequence[Cause], belief: Belief | None = None) -> HypothesisFitter:
     """Put a scene, what is suspected and what is believed beforehand on a bench."""
-    model = scene.believed.model
+    model = scene.operating_point.model
     plan = ColumnPlan(model, base_model(model).kept)
-    return Bench(scene.look, plan, causes, belief)
+    return HypothesisFitter(scene.dataset, plan, causes, belief)

@@ -7,7 +7,7 @@ import pytest
 
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
-from veritorque.core.diagnosis.diagnose import Question, diagnose
+from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.extension.cure import cures, extended_base, taken_along
 from veritorque.core.log.reader import read_log
@@ -27,10 +27,12 @@ def foreign(state):
     return 0.3 * (state.velocity[:, 0] * state.velocity[:, 2])[:, None] * [0.0, 1.0, 0.0]
 
 
-def asked(scene: Scene) -> Question:
-    model = scene.believed.model
+def asked(scene: Scene) -> DiagnosisProblem:
+    model = scene.operating_point.model
     plan = ColumnPlan(model, base_model(model).kept)
-    return Question(plan, (scene.look.motions[0].log,), frozenset({(0, 4), (0, 9), (0, 14), (0, 19)}), 20)
+    return DiagnosisProblem(
+        plan, (scene.dataset.motions[0].log,), frozenset({(0, 4), (0, 9), (0, 14), (0, 19)}), 20
+    )
 
 
 @cache
@@ -40,7 +42,7 @@ def diagnosed(effect: Effect | None) -> Diagnosis:
 
 def test_nothing_is_found_in_the_shipped_log_of_an_arm_that_is_as_described():
     held = frozenset((0, block) for block in (4, 9, 14, 19))
-    found = diagnose(Question(world().plan, (read_log(EXAMPLE),), held, 20))
+    found = diagnose(DiagnosisProblem(world().plan, (read_log(EXAMPLE),), held, 20))
     assert (found.verdict, found.findings) == ("nothing_found", ())
     np.testing.assert_array_equal(found.residual_before, found.residual_after)
 
@@ -79,22 +81,22 @@ def sprung_and_jerked_where_held_out(state):
 
 def test_other_blocks_are_held_out_from_the_search_where_one_of_them_hides_what_no_other_shows():
     found, asked_for = diagnosed(sprung_and_jerked_where_held_out), asked(measured_arm()).held_out
-    assert found.look.held_out_blocks.isdisjoint(asked_for)
-    assert len(found.look.held_out_blocks) == len(asked_for)
+    assert found.dataset.held_out_blocks.isdisjoint(asked_for)
+    assert len(found.dataset.held_out_blocks) == len(asked_for)
     assert {step.action for step in found.selection.steps} == {"added"}
 
 
 def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():
     found = diagnosed(jerked)
     assert found.verdict == "unexplained"
-    assert "something happened then" in found.stranger.statement
+    assert "something happened then" in found.unnamed_pattern.statement
 
 
 def test_a_finding_says_what_it_brings_on_rows_that_no_fit_has_seen_beside_what_was_to_be_expected():
     (one,) = diagnosed(hidden).findings
-    (unseen,) = (part for part in one.evidence if part.statistic == "unseen likelihood ratio")
-    expected = float(unseen.statement.split("there ")[1].split()[0])
-    assert 0.6 < unseen.value / expected < 1.6
+    (holdout,) = (part for part in one.evidence if part.statistic == "unseen likelihood ratio")
+    expected = float(holdout.statement.split("there ")[1].split()[0])
+    assert 0.6 < holdout.value / expected < 1.6
 
 
 def test_the_curve_of_a_finding_shows_what_it_takes_away():
@@ -114,7 +116,7 @@ def test_the_cure_joins_the_model_under_its_own_name():
     found = diagnosed(hidden)
     (term,) = cures(found)
     assert taken_along(found) == ""
-    base = base_model(measured_arm().believed.model)
+    base = base_model(measured_arm().operating_point.model)
     whole = extended_base(base, (term,))
     assert len(whole.kept) == len(base.kept) + 1
     assert whole.model.terms[-1].name == term.name
@@ -131,14 +133,14 @@ def test_the_same_logs_give_the_same_diagnosis():
 def test_a_pattern_that_no_listed_cause_has_is_told_without_a_name_and_makes_the_verdict():
     found = diagnosed(foreign)
     assert (found.verdict, found.findings, cures(found)) == ("unexplained", (), ())
-    assert found.stranger.joint == 2
-    assert "the product of the speeds of joints 1 and 3" in found.stranger.statement
-    assert found.stranger.log10_p < -10.0
+    assert found.unnamed_pattern.joint == 2
+    assert "the product of the speeds of joints 1 and 3" in found.unnamed_pattern.statement
+    assert found.unnamed_pattern.log10_p < -10.0
 
 
 def test_nothing_strange_is_told_where_nothing_is_left():
-    assert diagnosed(None).stranger is None
-    assert diagnosed(hidden).stranger is None
+    assert diagnosed(None).unnamed_pattern is None
+    assert diagnosed(hidden).unnamed_pattern is None
 
 
 @pytest.mark.parametrize("joint", [1, 2, 3])

@@ -55,11 +55,11 @@ def hung(_rng, position, _torque):
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
 @pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung])
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
-    rows = measured_arm(hidden).look.motions[0].log.source.data
+    rows = measured_arm(hidden).dataset.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()
     kind = spoil(np.random.default_rng(4), position, torque)
     scene = look_at_arm(position, torque)
-    assert kind in {one.kind for one in scene.look.motions[0].log.defects}
+    assert kind in {one.kind for one in scene.dataset.motions[0].log.defects}
     found = diagnose(asked(scene))
     told = ["dropped_samples"] if spoil is stalled else []
     said = [*told, *([] if hidden is None else ["spring_compensator"])]

@@ -23,10 +23,10 @@ from tests.core.diagnosis.scenes import (
     scene_of,
     spoilt_scenes,
 )
-from veritorque.core.diagnosis.causes.protocol import Cause, Solved
-from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, RAW_CAUSES
-from veritorque.core.diagnosis.causes.repairs import MendsLog, MendsRobot, mends
-from veritorque.core.diagnosis.causes.sample_check import RawCause
+from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
+from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, SAMPLE_CHECKS
+from veritorque.core.diagnosis.causes.repairs import CorrectsLog, CorrectsRobot, corrects
+from veritorque.core.diagnosis.causes.sample_check import SampleCheck
 from veritorque.core.diagnosis.checks.figure import STAND_IN
 from veritorque.core.diagnosis.residual.coordinates import coordinate, coordinate_names
 from veritorque.core.log.model import whole_rows
@@ -54,7 +54,7 @@ BALL = from_mass_properties(1.0, np.array([0.1, 0.2, 0.3]), 0.01 * np.eye(3))
 """Ten equal numbers are no body."""
 
 every_cause = pytest.mark.parametrize("cause", BY_ID.values(), ids=BY_ID)
-every_raw_cause = pytest.mark.parametrize("cause", RAW_CAUSES, ids=lambda one: one.id)
+every_raw_cause = pytest.mark.parametrize("cause", SAMPLE_CHECKS, ids=lambda one: one.id)
 every_torque_cause = pytest.mark.parametrize("cause", AGAINST_REFERENCE, ids=lambda one: one.id)
 
 
@@ -73,18 +73,22 @@ def parked() -> Scene:
 
 @every_torque_cause
 def test_a_joint_that_never_moves_leaves_every_cause_with_finite_columns(cause, parked):
-    for site in cause.sites(parked.look, parked.believed):
-        for scalars in cause.grid(parked.look, parked.believed, site):
-            (columns,) = parked.look.columns([cause.term(parked.look, parked.believed, site, scalars)])
+    for site in cause.sites(parked.dataset, parked.operating_point):
+        for scalars in cause.grid(parked.dataset, parked.operating_point, site):
+            (columns,) = parked.dataset.columns(
+                [cause.term(parked.dataset, parked.operating_point, site, scalars)]
+            )
             assert all(np.isfinite(one).all() for one in columns.values())
 
 
-def solved(cause: Cause, scene: Scene, value: float) -> Solved:
+def solved(cause: Cause, scene: Scene, value: float) -> FittedCause:
     """Give all linear parameters at the cause's first site the same value, known to a fifth."""
     site, scalars = first_choice(cause, scene)
-    count = len(cause.term(scene.look, scene.believed, site, scalars).parameters(scene.look.robot))
+    count = len(
+        cause.term(scene.dataset, scene.operating_point, site, scalars).parameters(scene.dataset.robot)
+    )
     covariance = (0.2 * value) ** 2 * np.eye(count) if np.isfinite(value) else np.eye(count)
-    return Solved(site, np.full(count, value), covariance, scalars, dict.fromkeys(scalars, 0.1))
+    return FittedCause(site, np.full(count, value), covariance, scalars, dict.fromkeys(scalars, 0.1))
 
 
 def base_name(name: str) -> str:
@@ -110,7 +114,7 @@ def test_a_file_of_causes_holds_one_cause_of_its_own_name_and_the_catalogue_has_
 
 
 def test_the_catalogue_has_no_cause_twice_and_none_without_a_file():
-    listed = [one.id for one in (*CAUSES, *RAW_CAUSES)]
+    listed = [one.id for one in (*CAUSES, *SAMPLE_CHECKS)]
     assert len(set(listed)) == len(listed)
     assert sorted(BY_ID) == FILES
 
@@ -151,32 +155,32 @@ def test_a_cause_is_shown_over_a_coordinate_that_there_is(cause, scene):
     name = STAND_IN.get(cause.coordinate, cause.coordinate)
     if name == "other_velocity":
         name = "velocity_of_joint_2"
-    assert name in coordinate_names(scene.look)
-    assert coordinate(scene.look, scene.believed, name, 1) is not None
+    assert name in coordinate_names(scene.dataset)
+    assert coordinate(scene.dataset, scene.operating_point, name, 1) is not None
 
 
 @every_torque_cause
 def test_sites_are_joints_of_the_robot_each_named_once(cause, scene):
-    sites = cause.sites(scene.look, scene.believed)
+    sites = cause.sites(scene.dataset, scene.operating_point)
     assert sites
     assert len(set(sites)) == len(sites)
-    assert all(1 <= joint <= scene.look.joints for site in sites for joint in site)
+    assert all(1 <= joint <= scene.dataset.joints for site in sites for joint in site)
 
 
 def test_terms_of_different_causes_and_sites_have_different_names_so_that_none_replaces_another(scene):
-    look, believed = scene.look, scene.believed
+    dataset, operating_point = scene.dataset, scene.operating_point
     names = [
-        cause.term(look, believed, site, cause.grid(look, believed, site)[0]).name
+        cause.term(dataset, operating_point, site, cause.grid(dataset, operating_point, site)[0]).name
         for cause in CAUSES
-        for site in cause.sites(look, believed)
+        for site in cause.sites(dataset, operating_point)
     ]
     assert len(set(names)) == len(names)
 
 
 @every_torque_cause
 def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scene):
-    for site in cause.sites(scene.look, scene.believed):
-        grid = cause.grid(scene.look, scene.believed, site)
+    for site in cause.sites(scene.dataset, scene.operating_point):
+        grid = cause.grid(scene.dataset, scene.operating_point, site)
         assert grid
         assert len({frozenset(one.items()) for one in grid}) == len(grid)
         assert {frozenset(one) for one in grid} == {frozenset(grid[0])}
@@ -186,7 +190,7 @@ def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scen
 @every_torque_cause
 def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
     site, scalars = first_choice(cause, scene)
-    grid = cause.grid(scene.look, scene.believed, site)
+    grid = cause.grid(scene.dataset, scene.operating_point, site)
     assert len(grid) <= cause.trials(grid, scalars) < np.inf
 
 
@@ -194,7 +198,7 @@ def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
 def test_what_a_cause_leaves_or_keeps_out_is_another_that_a_search_could_add(cause, scene):
     """It may leave what looks like itself only where it could be at another joint, too."""
     others = {one.id for one in CAUSES} - {cause.id}
-    elsewhere = {cause.id} if len(cause.sites(scene.look, scene.believed)) > 1 else set()
+    elsewhere = {cause.id} if len(cause.sites(scene.dataset, scene.operating_point)) > 1 else set()
     assert set(cause.excludes) <= others
     assert set(cause.leaves) <= others | elsewhere
 
@@ -208,19 +212,19 @@ def test_causes_that_keep_each_other_out_are_told_to_be_confused_with_each_other
 
 @every_torque_cause
 def test_a_scan_gives_finite_columns_of_one_width_that_are_not_all_nothing(cause, scene):
-    look, believed = scene.look, scene.believed
-    site = cause.sites(look, believed)[-1]
-    grid = cause.grid(look, believed, site)
-    terms = [cause.term(look, believed, site, scalars) for scalars in grid]
-    widths = {len(term.parameters(look.robot)) for term in terms}
+    dataset, operating_point = scene.dataset, scene.operating_point
+    site = cause.sites(dataset, operating_point)[-1]
+    grid = cause.grid(dataset, operating_point, site)
+    terms = [cause.term(dataset, operating_point, site, scalars) for scalars in grid]
+    widths = {len(term.parameters(dataset.robot)) for term in terms}
     assert len(widths) == 1
-    for columns in look.columns(terms):
+    for columns in dataset.columns(terms):
         assert columns
-        assert set(columns) <= set(range(look.joints))
+        assert set(columns) <= set(range(dataset.joints))
         for column in columns.values():
-            assert column.shape == (len(look.time), *widths)
+            assert column.shape == (len(dataset.time), *widths)
             assert np.isfinite(column).all()
-    assert any(np.abs(column).max() > 0.0 for one in look.columns(terms) for column in one.values())
+    assert any(np.abs(column).max() > 0.0 for one in dataset.columns(terms) for column in one.values())
 
 
 @every_torque_cause
@@ -272,32 +276,32 @@ def test_a_finding_is_one_sentence_that_names_the_joint_and_a_number_with_its_un
 def repair_of(cause: Cause, scene: Scene) -> tuple[tuple[int, ...], dict[str, float]]:
     """Give joints and numbers of a small finding."""
     found = solved(cause, scene, 1e-3)
-    joints = found.site or tuple(range(1, scene.look.joints + 1))
-    return joints, dict(cause.numbers(scene.look, found))
+    joints = found.site or tuple(range(1, scene.dataset.joints + 1))
+    return joints, dict(cause.numbers(scene.dataset, found))
 
 
 @every_torque_cause
 def test_a_repair_is_one_sentence_from_numbers_that_a_document_can_hold(cause, scene):
     joints, numbers = repair_of(cause, scene)
-    text = cause.repair(scene.look.robot, joints, numbers)
+    text = cause.repair(scene.dataset.robot, joints, numbers)
     assert text[0].isupper()
     assert not text.endswith(".")
     assert len(text) < 240
     assert not re.search(r"nan|inf\b|\d\.?\d*e\+", text)
     assert all(np.isfinite(value) for value in numbers.values())
-    assert mends(cause) == "model" or re.search(r"\d", text)
+    assert corrects(cause) == "model" or re.search(r"\d", text)
 
 
 @every_torque_cause
 def test_a_repair_changes_what_it_says_and_can_be_done_from_the_numbers_alone(cause, scene):
     joints, numbers = repair_of(cause, scene)
-    robot, (motion,) = scene.look.robot, scene.look.motions
-    assert mends(cause) in ("robot", "log", "model")
-    if isinstance(cause, MendsRobot):
-        assert differences(robot, cause.mended_robot(robot, joints, numbers))
-    if isinstance(cause, MendsLog):
+    robot, (motion,) = scene.dataset.robot, scene.dataset.motions
+    assert corrects(cause) in ("robot", "log", "model")
+    if isinstance(cause, CorrectsRobot):
+        assert differences(robot, cause.corrected_robot(robot, joints, numbers))
+    if isinstance(cause, CorrectsLog):
         rows = whole_rows(motion.log)
-        mended = cause.mended_rows(rows, joints, numbers)
+        mended = cause.corrected_rows(rows, joints, numbers)
         changed = [np.abs(mended.torque - rows.torque).max(), np.abs(mended.position - rows.position).max()]
         assert np.isfinite(changed).all()
         assert max(changed) > 0.0
@@ -305,18 +309,20 @@ def test_a_repair_changes_what_it_says_and_can_be_done_from_the_numbers_alone(ca
 
 
 @every_raw_cause
-def test_a_fault_of_the_samples_says_why_no_log_can_be_mended_of_it(cause: RawCause):
+def test_a_fault_of_the_samples_says_why_no_log_can_be_mended_of_it(cause: SampleCheck):
     assert cause.beyond_repair[0].isupper()
     assert not cause.beyond_repair.endswith(".")
     assert len(cause.beyond_repair.split()) > 5
 
 
 @every_raw_cause
-def test_a_fault_of_the_samples_is_found_where_it_is_and_not_in_samples_in_order(cause: RawCause):
+def test_a_fault_of_the_samples_is_found_where_it_is_and_not_in_samples_in_order(cause: SampleCheck):
     clean = eventful_scene()
-    assert cause.examine(clean.look, clean.believed) == ()
+    assert cause.examine(clean.dataset, clean.operating_point) == ()
     announced = dict(cause.units)
-    found = [one for spoilt in spoilt_scenes() for one in cause.examine(spoilt.look, spoilt.believed)]
+    found = [
+        one for spoilt in spoilt_scenes() for one in cause.examine(spoilt.dataset, spoilt.operating_point)
+    ]
     assert found
     for one in found:
         assert re.search(r"\d", one.statement)

@@ -13,9 +13,9 @@ from veritorque.core.diagnosis.regression.gls import Fit
 
 def with_garbage(scene: Scene) -> Scene:
     """Put torque that no arm needs into the rows that are held out."""
-    look = scene.look
-    garbage = 100.0 * np.random.default_rng(0).normal(size=look.torque.shape) * look.held_out[:, None]
-    return replace(scene, look=replace(look, torque=look.torque + garbage))
+    dataset = scene.dataset
+    garbage = 100.0 * np.random.default_rng(0).normal(size=dataset.torque.shape) * dataset.held_out[:, None]
+    return replace(scene, dataset=replace(dataset, torque=dataset.torque + garbage))
 
 
 def fitted(scene: Scene) -> Fit:
@@ -23,7 +23,7 @@ def fitted(scene: Scene) -> Fit:
 
 
 def test_some_rows_are_held_out():
-    assert 0.1 < measured_arm().look.held_out.mean() < 0.3
+    assert 0.1 < measured_arm().dataset.held_out.mean() < 0.3
 
 
 def test_a_fit_does_not_see_what_is_held_out():
@@ -35,10 +35,10 @@ def test_a_fit_does_not_see_what_is_held_out():
 def test_a_cause_settles_where_to_look_without_what_is_held_out(cause: Cause):
     """Neither its grid nor the columns built on it may depend on rows that are to judge it."""
     clean, spoilt = eventful_scene(), with_garbage(eventful_scene())
-    for site in cause.sites(clean.look, clean.believed):
-        grid = cause.grid(clean.look, clean.believed, site)
-        assert cause.grid(spoilt.look, spoilt.believed, site) == grid
-        terms = [cause.term(one.look, one.believed, site, grid[0]) for one in (clean, spoilt)]
-        before, after = clean.look.columns(terms)
+    for site in cause.sites(clean.dataset, clean.operating_point):
+        grid = cause.grid(clean.dataset, clean.operating_point, site)
+        assert cause.grid(spoilt.dataset, spoilt.operating_point, site) == grid
+        terms = [cause.term(one.dataset, one.operating_point, site, grid[0]) for one in (clean, spoilt)]
+        before, after = clean.dataset.columns(terms)
         for joint, column in before.items():
             np.testing.assert_array_equal(after[joint], column)

@@ -16,10 +16,10 @@ from tests.core.diagnosis.search import test_stepwise
 from veritorque.core.diagnosis.causes import external_contact
 from veritorque.core.diagnosis.causes.registry import BY_ID
 from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
-from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise
 from veritorque.core.diagnosis.regression.gls import refit
-from veritorque.core.diagnosis.regression.prewhitening import Whitened
-from veritorque.core.diagnosis.regression.rows import joint_rows
+from veritorque.core.diagnosis.regression.prewhitening import Prewhitened
+from veritorque.core.diagnosis.regression.rows import rows_of_joints
 from veritorque.core.diagnosis.search import stepwise as selection
 from veritorque.core.dynamics.terms.effect import OneJointTerm
 
@@ -40,8 +40,8 @@ class Measured(OneJointTerm):
 class Endogenous(TorqueGain):
     """Suspect a torque gain as one should not."""
 
-    def term(self, look, believed, site, scalars):
-        return Measured(site[0], look.torque)
+    def term(self, dataset, operating_point, site, scalars):
+        return Measured(site[0], dataset.torque)
 
 
 def test_a_column_of_measured_torque_is_seen():
@@ -69,7 +69,7 @@ def test_a_column_of_measured_torque_is_seen():
 def test_rows_taken_for_independent_are_seen(law, monkeypatch):
     law()
     monkeypatch.setattr(
-        JointNoise,
+        ARNoise,
         "whitening",
         lambda noise, place: csr_array(identity(len(place)) / noise.deviations[0]),
     )
@@ -80,8 +80,8 @@ def test_rows_taken_for_independent_are_seen(law, monkeypatch):
 def test_a_row_that_looks_across_a_gap_is_seen(monkeypatch):
     law = test_ar_noise.test_a_row_after_a_gap_knows_nothing_of_the_rows_before_it
     law()
-    honest = JointNoise.whitening
-    monkeypatch.setattr(JointNoise, "whitening", lambda noise, place: honest(noise, np.arange(len(place))))
+    honest = ARNoise.whitening
+    monkeypatch.setattr(ARNoise, "whitening", lambda noise, place: honest(noise, np.arange(len(place))))
     with pytest.raises(AssertionError):
         law()
 
@@ -90,11 +90,11 @@ def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
     law = test_gls.test_what_free_columns_can_stand_for_does_not_reach_the_parameters
     law(Equations())
 
-    def without_standstill(look, columns, mask):
-        bare = tuple(csr_array((len(look.time), 0)) for _ in range(look.joints))
-        return joint_rows(replace(look, sticking=bare), columns, mask)
+    def without_standstill(dataset, columns, mask):
+        bare = tuple(csr_array((len(dataset.time), 0)) for _ in range(dataset.joints))
+        return rows_of_joints(replace(dataset, sticking=bare), columns, mask)
 
-    monkeypatch.setattr(gls_world, "joint_rows", without_standstill)
+    monkeypatch.setattr(gls_world, "rows_of_joints", without_standstill)
     with pytest.raises(AssertionError):
         law(Equations())
 
@@ -102,7 +102,7 @@ def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
 def test_friction_at_rest_that_is_taken_out_row_by_row_is_seen(monkeypatch):
     law = partial(test_gls.test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it, 0)
     law()
-    monkeypatch.setattr(Whitened, "missed", lambda white, rows, values: rows.missed(values))
+    monkeypatch.setattr(Prewhitened, "missed", lambda white, rows, values: rows.missed(values))
     with pytest.raises(AssertionError):
         law()
 
@@ -121,8 +121,8 @@ def test_a_fit_that_sees_what_is_held_out_is_seen(monkeypatch):
     honest = test_held_out.bench_of
 
     def all_rows(scene, causes):
-        seen = replace(scene.look, held_out=np.zeros_like(scene.look.held_out))
-        return honest(replace(scene, look=seen), causes)
+        seen = replace(scene.dataset, held_out=np.zeros_like(scene.dataset.held_out))
+        return honest(replace(scene, dataset=seen), causes)
 
     monkeypatch.setattr(test_held_out, "bench_of", all_rows)
     with pytest.raises(AssertionError):
@@ -134,7 +134,7 @@ def test_a_search_that_looks_at_what_is_held_out_is_seen(monkeypatch):
         test_held_out.test_a_cause_settles_where_to_look_without_what_is_held_out, BY_ID["external_contact"]
     )
     law()
-    monkeypatch.setattr(external_contact, "fitted_rows", lambda look: look.clear)
+    monkeypatch.setattr(external_contact, "fitted_rows", lambda dataset: dataset.clear)
     with pytest.raises(AssertionError):
         law()
 
@@ -143,6 +143,6 @@ def test_a_search_that_never_looks_back_is_seen(monkeypatch):
     law = test_stepwise.test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found
     law()
     monkeypatch.setattr(test_stepwise, "misled", test_stepwise.misled.__wrapped__)
-    monkeypatch.setattr(selection, "_defended", lambda bench, now, *rest: [now])
+    monkeypatch.setattr(selection, "_defended", lambda fitter, now, *rest: [now])
     with pytest.raises(AssertionError):
         law()

@@ -33,9 +33,9 @@ class WaveTerm(OneJointTerm):
 class BuiltOn(WaveTerm):
     """Say what it was built on, so that it is built anew once something else is believed."""
 
-    def __init__(self, joint: int, waves: Mapping[float, float], believed: Prediction) -> None:
+    def __init__(self, joint: int, waves: Mapping[float, float], operating_point: Prediction) -> None:
         super().__init__(joint, waves)
-        object.__setattr__(self, "believed", believed)
+        object.__setattr__(self, "believed", operating_point)
 
 
 class WaveCause(OwnJointCause):
@@ -45,10 +45,10 @@ class WaveCause(OwnJointCause):
     units = (("amplitude", "N m"),)
     experiment = "any other motion"
 
-    def sites(self, look, believed):
+    def sites(self, dataset, operating_point):
         return [(JOINT,)]
 
-    def term(self, look, believed, site, scalars):
+    def term(self, dataset, operating_point, site, scalars):
         return WaveTerm(site[0], self.waves)
 
     def statement(self, solved):

@@ -9,7 +9,7 @@ from veritorque.app.schemas.diagnosis import Finding as FindingSchema
 from veritorque.app.schemas.diagnosis import NotIdentifiable as NotIdentifiableSchema
 from veritorque.core.diagnosis.causes.protocol import Quantity
 from veritorque.core.diagnosis.causes.registry import BY_ID
-from veritorque.core.diagnosis.result import Curve, Evidence, Finding, Gain, NotIdentifiable, Rival
+from veritorque.core.diagnosis.result import Alternative, Curve, Evidence, Finding, Gain, NotIdentifiable
 from veritorque.core.document.finding import finding_row, not_identifiable_row, title_of
 from veritorque.core.document.numbers import plain
 
@@ -27,8 +27,8 @@ def finding(**changes):
         "explained_fraction": 0.4,
         "quantities": (Quantity("amplitude", 4, "N m", -0.5, 0.05), Quantity("phase", 4, "rad", 0.0, 0.1)),
         "evidence": (Evidence("Rise", "likelihood ratio", 40.0),),
-        "ambiguous_with": (Rival("encoder_eccentricity", (4,), 38.0, "alike", "add a payload"),),
-        "refuted": (Rival("torque_gain", (4,), 9.0, "less", ""),),
+        "ambiguous_with": (Alternative("encoder_eccentricity", (4,), 38.0, "alike", "add a payload"),),
+        "refuted": (Alternative("torque_gain", (4,), 9.0, "less", ""),),
         "gain": Gain(np.ones(4), np.full(4, 0.5), np.full(4, 50.0), 50.0, (40.0, 60.0)),
         "curve": Curve("position", "rad", 4, *([bins] * 5), direction=np.zeros(3)),
         "member": None,
@@ -73,7 +73,7 @@ def test_rivals_are_named_in_words_with_the_experiment_that_separates_them():
 
 
 def test_what_acts_on_other_joints_only_is_not_called_refuted():
-    rivals = tuple(Rival("torque_gain", joints, 9.0, "less", "") for joints in ((4,), (2,), (), (3, 4)))
+    rivals = tuple(Alternative("torque_gain", joints, 9.0, "less", "") for joints in ((4,), (2,), (), (3, 4)))
     assert [one["joints"] for one in row(finding(refuted=rivals))["refuted"]] == [[4], [], [3, 4]]
 
 

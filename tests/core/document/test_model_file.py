@@ -35,7 +35,7 @@ def made_of(model: DynamicModel, seed: int = 0) -> IdentifiedRobot:
 
 def extended(*terms: Term) -> IdentifiedRobot:
     scene = eventful_scene()
-    model = standard_model(scene.look.robot)
+    model = standard_model(scene.dataset.robot)
     return made_of(DynamicModel(model.robot, (*model.terms, *terms)))
 
 
@@ -64,7 +64,7 @@ def test_every_term_that_a_diagnosis_knows_comes_back_with_its_torque(term):
     again = read_model(write_model(found))
     assert again.model.parameters == found.model.parameters
     assert [one.name for one in again.model.terms] == [one.name for one in found.model.terms]
-    state = eventful_scene().look.stretches[0].state
+    state = eventful_scene().dataset.stretches[0].state
     ours, theirs = (one.model.terms[-1].series(found.robot, state) for one in (found, again))
     # The believed torque is computed by the plain recursion after reading, by the compiled one before.
     np.testing.assert_allclose(theirs, ours, rtol=0, atol=1e-9 * max(1.0, float(np.abs(ours).max())))
@@ -77,24 +77,24 @@ def test_the_terms_that_the_file_knows_are_those_of_the_folder():
 
 def test_a_prediction_that_several_terms_share_is_written_once_and_shared_again():
     scene = eventful_scene()
-    found = extended(TorqueGain(1, scene.believed), TorqueGain(2, scene.believed))
+    found = extended(TorqueGain(1, scene.operating_point), TorqueGain(2, scene.operating_point))
     text = write_model(found)
     assert len(json.loads(text)["beliefs"]) == 1
     first, second = read_model(text).model.terms[-2:]
     assert first.believed is second.believed
-    np.testing.assert_array_equal(first.believed.standard, scene.believed.standard)
+    np.testing.assert_array_equal(first.believed.standard, scene.operating_point.standard)
 
 
 def test_a_prediction_comes_back_with_what_joined_it_and_with_what_that_is_built_on():
     scene = eventful_scene()
-    friction = (LoadFriction(1, scene.believed), np.array([0.2]))
-    acted = replace(scene.believed, joined=(friction,))
+    friction = (LoadFriction(1, scene.operating_point), np.array([0.2]))
+    acted = replace(scene.operating_point, joined=(friction,))
     scaled = replace(acted, joined=(friction, (TorqueGain(1, acted), np.array([0.1]))))
     found = extended(Delay(0, scaled, 0.02))
     again = read_model(write_model(found))
-    state = scene.look.stretches[0].state
+    state = scene.dataset.stretches[0].state
     ours, theirs = (one.model.terms[-1].series(found.robot, state) for one in (found, again))
-    plain = Delay(0, scene.believed, 0.02).series(found.robot, state)
+    plain = Delay(0, scene.operating_point, 0.02).series(found.robot, state)
     assert np.abs(ours - plain).max() > 1e-3
     np.testing.assert_allclose(theirs, ours, rtol=0, atol=1e-9 * max(1.0, float(np.abs(ours).max())))
 
@@ -157,7 +157,7 @@ def test_a_file_that_cannot_be_used_is_refused_with_what_was_seen(text):
 
 def test_a_prediction_within_a_prediction_is_refused_rather_than_lost():
     scene = eventful_scene()
-    inner = DynamicModel(scene.look.robot, (TorqueGain(1, scene.believed),))
+    inner = DynamicModel(scene.dataset.robot, (TorqueGain(1, scene.operating_point),))
     with pytest.raises(RobotError, match="another one"):
         write_model(extended(TorqueGain(1, Prediction(inner, np.ones(1)))))
 

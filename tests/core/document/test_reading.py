@@ -132,7 +132,7 @@ def extension():
     whole = np.concatenate([numbers, *added.values()])
     extended = IdentifiedRobot(model, whole, ("in_combination",) * len(whole))
     mended = replace(
-        EncoderOffsetCause().mended_robot(robot, (2,), {"offset": ERROR}),
+        EncoderOffsetCause().corrected_robot(robot, (2,), {"offset": ERROR}),
         couplings=(MOTOR,),
     )
     diagnosis = {

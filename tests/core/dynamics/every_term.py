@@ -9,7 +9,7 @@ import numpy as np
 from tests.core.diagnosis.scenes import eventful_scene
 from veritorque.core.diagnosis.causes.protocol import Cause
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE
-from veritorque.core.diagnosis.checks.unnamed_pattern import Unlisted
+from veritorque.core.diagnosis.checks.unnamed_pattern import UnnamedPatternCause
 from veritorque.core.dynamics.model import STANDARD_TERMS
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.term import Term
@@ -35,16 +35,16 @@ def cures_by_cause(robot: RobotModel | None = None) -> tuple[tuple[Cause, Term],
     bodies are those of the scene's arm, on another robot where one is given.
     """
     scene = eventful_scene()
-    own = scene.believed
+    own = scene.operating_point
     model = own.model if robot is None else replace(own.model, robot=robot)
     believed = Prediction(model, own.standard, inverse_dynamics)
-    warm = replace(scene.look.state, temperature=np.full_like(scene.look.state.position, 30.0))
-    looks = (scene.look, replace(scene.look, state=warm))
+    warm = replace(scene.dataset.state, temperature=np.full_like(scene.dataset.state.position, 30.0))
+    looks = (scene.dataset, replace(scene.dataset, state=warm))
     return tuple(
         (cause, cause.term(look, believed, site, scalars))
         for look in looks
         for cause in AGAINST_REFERENCE
-        if look is scene.look or cause.id == "friction_temperature"
+        if look is scene.dataset or cause.id == "friction_temperature"
         for site in [cause.sites(look, own)[-1]]
         for grid in [cause.grid(look, own, site)]
         for place in sorted({0, len(grid) // 8, len(grid) // 2, len(grid) - 1})
@@ -60,10 +60,11 @@ def cures(robot: RobotModel | None = None) -> tuple[Term, ...]:
 @cache
 def traces() -> tuple[Term, ...]:
     """Give every pattern that has no cause, each with the last numbers that a search would try."""
-    scene, suspect = eventful_scene(), Unlisted()
-    site = suspect.sites(scene.look, scene.believed)[-1]
-    grid = (*suspect.grid(scene.look, scene.believed, site), suspect.switching(np.array([0.5, 1.5, 2.0])))
-    terms = [suspect.term(scene.look, scene.believed, site, one) for one in grid]
+    scene, suspect = eventful_scene(), UnnamedPatternCause()
+    site = suspect.sites(scene.dataset, scene.operating_point)[-1]
+    switching = suspect.switching(np.array([0.5, 1.5, 2.0]))
+    grid = (*suspect.grid(scene.dataset, scene.operating_point, site), switching)
+    terms = [suspect.term(scene.dataset, scene.operating_point, site, one) for one in grid]
     return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
 
 

@@ -50,7 +50,7 @@ def test_a_search_tries_every_pattern_that_has_no_cause():
 @pytest.mark.parametrize("name", SEARCHED)
 def test_a_searched_term_keeps_the_contract_of_all_terms(name):
     scene = eventful_scene()
-    robot, state = scene.look.robot, scene.look.stretches[0].state
+    robot, state = scene.dataset.robot, scene.dataset.stretches[0].state
     terms = searched(name)
     assert terms
     for term in terms:

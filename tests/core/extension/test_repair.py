@@ -9,7 +9,7 @@ from tests.core.diagnosis.scenes import skew_arm
 from tests.core.estimate.worlds import wrist_robot
 from tests.tools import random_bodies, random_motion
 from veritorque.core.diagnosis.causes.registry import BY_ID
-from veritorque.core.diagnosis.causes.repairs import mends
+from veritorque.core.diagnosis.causes.repairs import corrects
 from veritorque.core.document.numbers import plain
 from veritorque.core.document.repairs import read_repairs, repaired_description
 from veritorque.core.dynamics.model import standard_model
@@ -57,7 +57,7 @@ def torque(robot: RobotModel, position: np.ndarray) -> np.ndarray:
 
 
 def test_every_cause_that_mends_the_description_is_repaired_here():
-    assert set(REPAIRS) == {name for name, one in BY_ID.items() if mends(one) == "robot"}
+    assert set(REPAIRS) == {name for name, one in BY_ID.items() if corrects(one) == "robot"}
 
 
 @every_repair

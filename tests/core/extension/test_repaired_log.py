@@ -9,7 +9,7 @@ import pytest
 
 from tests.core.estimate.worlds import planar_robot
 from veritorque.core.diagnosis.causes.registry import BY_ID
-from veritorque.core.diagnosis.causes.repairs import mends
+from veritorque.core.diagnosis.causes.repairs import corrects
 from veritorque.core.errors import LogError
 from veritorque.core.extension.repair import Repair
 from veritorque.core.extension.repaired_log import repaired_log
@@ -101,7 +101,9 @@ def mended(log: JointLog, repairs: list[Repair], robot: RobotModel | None = None
 
 
 def test_every_cause_that_mends_a_log_is_repaired_here():
-    assert {*FAULTS, "encoder_eccentricity"} == {name for name, one in BY_ID.items() if mends(one) == "log"}
+    assert {*FAULTS, "encoder_eccentricity"} == {
+        name for name, one in BY_ID.items() if corrects(one) == "log"
+    }
 
 
 @every_fault

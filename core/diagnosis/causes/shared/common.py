@@ -9,8 +9,8 @@ import numpy as np
 
 from ....dynamics.prediction import Prediction
 from ....robot.model import RobotModel
-from ...dataset.dataset import Look
-from ..protocol import Confusion, Cure, Numbers, Quantity, Scalars, Site, Solved
+from ...dataset.dataset import Dataset
+from ..protocol import Confusion, Cure, FittedCause, Numbers, Quantity, Scalars, Site
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""
@@ -42,14 +42,14 @@ class OwnJointCause:
     yielded: ClassVar[tuple[str, ...]] = ()
     inexact: ClassVar[float] = 0.05
 
-    def sites(self, look: Look, believed: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List every joint."""
-        del believed
-        return [(joint,) for joint in range(1, look.joints + 1)]
+        del operating_point
+        return [(joint,) for joint in range(1, dataset.joints + 1)]
 
-    def grid(self, look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan nothing."""
-        del look, believed, site
+        del dataset, operating_point, site
         return NOTHING
 
     def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
@@ -57,11 +57,11 @@ class OwnJointCause:
         del scalars
         return float(len(grid))
 
-    def possible(self, solved: Solved) -> bool:
+    def possible(self, solved: FittedCause) -> bool:
         """Allow any finite value, and a rotor, if any, that is heavy."""
         return bool(np.isfinite(solved.values).all()) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 
-    def quantities(self, solved: Solved) -> tuple[Quantity, ...]:
+    def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the linear parameters in order, then those scalars that were scanned."""
         joint = solved.site[0] if solved.site else None
         names = [name for name, _ in self.units if name not in solved.scalars][: len(solved.values)]
@@ -76,9 +76,9 @@ class OwnJointCause:
             Quantity(name, joint, solved.unit(unit), *both[name]) for name, unit in self.units if name in both
         )
 
-    def numbers(self, look: Look, solved: Solved) -> Numbers:
+    def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the reported numbers."""
-        del look
+        del dataset
         return {one.name: one.value for one in self.quantities(solved)}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
@@ -87,11 +87,11 @@ class OwnJointCause:
         return "The model has its torque as a further term; the description and the log stay as they are"
 
 
-def motor_inertias(look: Look, believed: Prediction, site: Site) -> Sequence[Scalars]:
+def motor_inertias(dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
     """Scan the inertia that turns with a joint's motor, where the fit cannot tell it from the link's."""
-    if believed.rotor(site[0]) != 0.0:
+    if operating_point.rotor(site[0]) != 0.0:
         return NOTHING
-    least = float(believed.slopes(look.state, site[0] - 1)[2][:, site[0] - 1].min())
+    least = float(operating_point.slopes(dataset.state, site[0] - 1)[2][:, site[0] - 1].min())
     return [{"motor_inertia": share * least} for share in MOTOR_SHARES] if least > 0.0 else NOTHING
 
 

@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 
 from ....arrays import JointSeries, Samples, Vector
 from ....dynamics.terms.contact import Span, swell
-from ....numerics.chi2_tail import log_chance
+from ....numerics.chi2_tail import log_chi2_tail
 
 SHORTEST, LONGEST = 0.2, 3.2
 """Lengths in s: shorter events are outliers, longer ones last."""
@@ -30,7 +30,12 @@ same, and rounding must not choose."""
 
 
 def find_events(
-    time: Samples, columns: np.ndarray, left: JointSeries, precisions: Sequence[csr_array], *, most: int
+    time: Samples,
+    columns: np.ndarray,
+    left: JointSeries,
+    inverse_covariances: Sequence[csr_array],
+    *,
+    most: int,
 ) -> list[Span]:
     """Find up to `most` spans that do not overlap, the best one first.
 
@@ -40,10 +45,10 @@ def find_events(
         Samples x columns x joints.
     left
         The residual in the same units.
-    precisions
+    inverse_covariances
         Per joint, the inverse covariance of its noise; zero where nothing may be looked at.
     """
-    search = _Search(time, columns, left, precisions)
+    search = _Search(time, columns, left, inverse_covariances)
     spans = search.spans()
     worths = search.worths(spans)
     hurdle = np.log(LUCK / max(TRIALS_OF_A_SPAN * len(spans), 1.0))
@@ -56,7 +61,7 @@ def find_events(
         first = int(np.argmax(worths >= (1.0 - ROUNDING) * worths.max()))
         span = search.refined(spans[first], found)
         worth = search.worth(span)
-        if worth < LEAST_SHARE * best or not log_chance(worth, freedom) < hurdle:
+        if worth < LEAST_SHARE * best or not log_chi2_tail(worth, freedom) < hurdle:
             break
         best = max(best, worth)
         found.append(span)
@@ -71,16 +76,16 @@ def _apart(span: Span, others: Sequence[Span]) -> bool:
 
 class _Search:
     def __init__(
-        self, time: Samples, columns: np.ndarray, left: JointSeries, precisions: Sequence[csr_array]
+        self, time: Samples, columns: np.ndarray, left: JointSeries, inverse_covariances: Sequence[csr_array]
     ) -> None:
         self.time, self.ordered = time, np.maximum.accumulate(time)
-        known = np.column_stack([one @ left[:, joint] for joint, one in enumerate(precisions)])
+        known = np.column_stack([one @ left[:, joint] for joint, one in enumerate(inverse_covariances)])
         self.gains = np.einsum("raj,rj->ra", columns, known)
         # What rows tell together with those 0, 1, ... rows before them, both ways at once.
         rows, count, _ = columns.shape
-        self.grams = np.zeros((rows, 1 + _reach(precisions), count, count))
+        self.grams = np.zeros((rows, 1 + _reach(inverse_covariances), count, count))
         for lag in range(self.grams.shape[1]):
-            self.grams[lag:, lag] = _grams(columns, precisions, lag)
+            self.grams[lag:, lag] = _grams(columns, inverse_covariances, lag)
 
     def spans(self) -> list[Span]:
         first, last = float(self.ordered[0]), float(self.ordered[-1])
@@ -142,13 +147,13 @@ class _Search:
         return span
 
 
-def _reach(precisions: Sequence[csr_array]) -> int:
+def _reach(inverse_covariances: Sequence[csr_array]) -> int:
     """Say how many rows apart the noise still ties two of them together."""
-    ties = [one.tocoo() for one in precisions]
+    ties = [one.tocoo() for one in inverse_covariances]
     return max(int(np.max(one.row - one.col, initial=0)) for one in ties)
 
 
-def _grams(columns: np.ndarray, precisions: Sequence[csr_array], lag: int) -> np.ndarray:
-    weights = np.column_stack([one.diagonal(-lag) for one in precisions])
+def _grams(columns: np.ndarray, inverse_covariances: Sequence[csr_array], lag: int) -> np.ndarray:
+    weights = np.column_stack([one.diagonal(-lag) for one in inverse_covariances])
     out = (columns[lag:] * weights[:, None, :]) @ np.swapaxes(columns[: len(columns) - lag], 1, 2)
     return np.asarray(out if lag == 0 else out + np.swapaxes(out, 1, 2))

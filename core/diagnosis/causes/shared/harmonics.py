@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ....arrays import Samples
-from ..protocol import Quantity, Scalars, Solved
+from ..protocol import FittedCause, Quantity, Scalars
 from .waves import amplitude_and_angle
 
 DISTINCT = 1.6
@@ -40,15 +40,17 @@ def harmonics(angle: Samples, *, lowest: float, highest: float, most: int) -> Se
     return [{"harmonic": lowest + step * number, "centre": centre} for number in range(count)]
 
 
-def wave_quantities(solved: Solved, unit: str) -> tuple[Quantity, ...]:
+def wave_quantities(solved: FittedCause, unit: str) -> tuple[Quantity, ...]:
     """Give amplitude, harmonic and phase of a wave of the given unit."""
     joint, flip = solved.site[0], np.array([1.0, -1.0])
-    amplitude, turned = amplitude_and_angle(flip * solved.values, solved.covariance * np.outer(flip, flip))
+    amplitude, with_other_holdout = amplitude_and_angle(
+        flip * solved.values, solved.covariance * np.outer(flip, flip)
+    )
     harmonic, centre = solved.scalars["harmonic"], solved.scalars["centre"]
     scatter = solved.deviations.get("harmonic", 0.0)
-    phase = (turned[0] - harmonic * centre + np.pi) % (2.0 * np.pi) - np.pi
+    phase = (with_other_holdout[0] - harmonic * centre + np.pi) % (2.0 * np.pi) - np.pi
     return (
         Quantity("amplitude", joint, solved.unit(unit), *amplitude),
         Quantity("harmonic", joint, "1", harmonic, scatter),
-        Quantity("phase", joint, "rad", phase, float(np.hypot(turned[1], centre * scatter))),
+        Quantity("phase", joint, "rad", phase, float(np.hypot(with_other_holdout[1], centre * scatter))),
     )

@@ -16,7 +16,11 @@ from tests.core.diagnosis.processes import (
 from tests.core.diagnosis.scenes import SHOVE, eventful_scene
 from veritorque.core.diagnosis.causes.shared.events import find_events
 from veritorque.core.diagnosis.regression.ar_noise import places
-from veritorque.core.diagnosis.regression.innovation_covariance import fitted_rows, misfit, precisions
+from veritorque.core.diagnosis.regression.innovation_covariance import (
+    fitted_rows,
+    inverse_covariances,
+    torque_residual,
+)
 from veritorque.core.dynamics.terms.contact import swell
 
 TIME = np.arange(0.0, 30.0, 0.02)
@@ -73,31 +77,31 @@ def test_noise_that_is_large_for_a_while_by_itself_is_hardly_ever_an_event():
 
 
 def test_slow_noise_is_not_taken_for_quick_noise_because_some_of_it_is_small():
-    look, mask = eventful_scene().look, fitted_rows(eventful_scene().look)
-    left = drawn((0.98,), np.random.default_rng(1), len(look.time), look.joints)
-    for joint, found in enumerate(precisions(look, left, mask)):
+    dataset, mask = eventful_scene().dataset, fitted_rows(eventful_scene().dataset)
+    left = drawn((0.98,), np.random.default_rng(1), len(dataset.time), dataset.joints)
+    for joint, found in enumerate(inverse_covariances(dataset, left, mask)):
         rows = np.flatnonzero(mask[:, joint])
-        white = exact_noise((0.98,)).whitening(places(look.follows(rows)))
+        white = exact_noise((0.98,)).whitening(places(dataset.follows(rows)))
         for span in ((1.0, 4.0), (5.0, 8.0)):
-            shape = swell(look.time, span)
+            shape = swell(dataset.time, span)
             exact = float(np.sum((white @ shape[rows]) ** 2))
             assert 0.4 * exact < shape @ found @ shape < 2.5 * exact
 
 
 def test_a_channel_that_is_dead_leaves_finite_weights():
-    look, mask = eventful_scene().look, fitted_rows(eventful_scene().look)
-    left = np.random.default_rng(2).normal(size=look.torque.shape)
+    dataset, mask = eventful_scene().dataset, fitted_rows(eventful_scene().dataset)
+    left = np.random.default_rng(2).normal(size=dataset.torque.shape)
     left[:, 1] = 0.0
-    assert all(np.isfinite(one.data).all() for one in precisions(look, left, mask))
+    assert all(np.isfinite(one.data).all() for one in inverse_covariances(dataset, left, mask))
 
 
 def test_the_noise_of_a_misfit_does_not_know_what_happens_once():
-    look, believed = eventful_scene().look, eventful_scene().believed
-    left, mask = misfit(look, believed), fitted_rows(look)
-    found = precisions(look, left, mask)
-    pushed = (look.time > SHOVE[0]) & (look.time < SHOVE[1])
+    dataset, operating_point = eventful_scene().dataset, eventful_scene().operating_point
+    left, mask = torque_residual(dataset, operating_point), fitted_rows(dataset)
+    found = inverse_covariances(dataset, left, mask)
+    pushed = (dataset.time > SHOVE[0]) & (dataset.time < SHOVE[1])
     calm = left - np.where(pushed[:, None], left, 0.0)
-    for joint, (one, other) in enumerate(zip(found, precisions(look, calm, mask), strict=True)):
+    for joint, (one, other) in enumerate(zip(found, inverse_covariances(dataset, calm, mask), strict=True)):
         assert not one[~mask[:, joint]].count_nonzero()
         ratio = one.diagonal()[mask[:, joint]] / other.diagonal()[mask[:, joint]]
         assert np.all((ratio > 0.5) & (ratio < 2.0))

@@ -11,7 +11,7 @@ from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoa
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.diagnosis.search.grid import neighbours
 from veritorque.core.diagnosis.search.hypothesis import Candidate
-from veritorque.core.diagnosis.search.profile_likelihood import refined
+from veritorque.core.diagnosis.search.profile_likelihood import refine_scalars
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 
@@ -40,22 +40,27 @@ def test_friction_tells_the_rotor_that_no_fit_tells_from_its_link():
 
 def test_a_rotor_is_never_heavier_than_all_that_turns():
     scene = measured_arm()
-    shares = [one["motor_inertia"] for one in FrictionLoadDependent().grid(scene.look, scene.believed, (1,))]
-    least = scene.believed.slopes(scene.look.state, 0)[2][:, 0].min()
+    shares = [
+        one["motor_inertia"]
+        for one in FrictionLoadDependent().grid(scene.dataset, scene.operating_point, (1,))
+    ]
+    least = scene.operating_point.slopes(scene.dataset.state, 0)[2][:, 0].min()
     farthest = neighbours(shares, shares[-1])[1]
     assert 0.9 * least < farthest < least
 
 
 def test_a_rotor_that_was_searched_for_once_is_settled_where_no_grid_has_it_any_more():
-    bench = bench_of(measured_arm(), (FrictionLoadDependent(),))
-    none = nothing_found(bench)
-    found = refined(bench, none, Candidate(FrictionLoadDependent(), (3,), {"motor_inertia": 0.1}, 1.0))
+    fitter = bench_of(measured_arm(), (FrictionLoadDependent(),))
+    none = nothing_found(fitter)
+    found = refine_scalars(
+        fitter, none, Candidate(FrictionLoadDependent(), (3,), {"motor_inertia": 0.1}, 1.0)
+    )
     assert 0.05 <= found.scalars["motor_inertia"] <= 0.2
 
 
 @pytest.mark.parametrize(("joint", "points"), [(1, 4), (3, 1)], ids=["unknown", "known"])
 def test_a_rotor_is_searched_for_only_where_it_is_one_with_the_link(joint, points):
     scene = measured_arm()
-    grid = FrictionLoadDependent().grid(scene.look, scene.believed, (joint,))
+    grid = FrictionLoadDependent().grid(scene.dataset, scene.operating_point, (joint,))
     assert len(grid) == points
     assert {name for scalars in grid for name in scalars} == ({"motor_inertia"} if points > 1 else set())

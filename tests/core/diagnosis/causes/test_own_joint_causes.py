@@ -16,7 +16,7 @@ from veritorque.core.diagnosis.causes.friction_presliding import FrictionPreslid
 from veritorque.core.diagnosis.causes.friction_temperature import FrictionTemperature
 from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
 from veritorque.core.diagnosis.causes.joint_coupling import JointCoupling
-from veritorque.core.diagnosis.causes.protocol import Cause, Solved
+from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
 from veritorque.core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
 from veritorque.core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
 from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
@@ -24,7 +24,7 @@ from veritorque.core.diagnosis.causes.torque_gain_nonlinear import TorqueGainNon
 from veritorque.core.diagnosis.causes.torque_offset_drift import TorqueOffsetDrift
 from veritorque.core.diagnosis.causes.torque_ripple import TorqueRipple
 from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
-from veritorque.core.diagnosis.dataset.dataset import Look, look_at
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.coulomb import Coulomb
@@ -67,7 +67,7 @@ ALIKE = 0.75
 
 
 @pytest.fixture(scope="module")
-def scene() -> tuple[Look, Prediction]:
+def scene() -> tuple[Dataset, Prediction]:
     """Look at 20 s of a three-joint robot's motion; the torque is pinocchio's."""
     robot, bodies = (
         random_robot(np.random.default_rng(1), 3, prismatic=0.0),
@@ -77,29 +77,29 @@ def scene() -> tuple[Look, Prediction]:
     state = swinging(3, 20.0)
     torque = pinocchio_torque(robot, bodies, Motion(state.position, state.velocity, state.acceleration))
     log = log_from_arrays("scene", np.asarray(state.time), state.position, torque)
-    look = look_at(standard_model(robot), (log,), held_out=frozenset(), blocks=5)
-    return look, Prediction(standard_model(robot, ("rigid_body",)), bodies.ravel())
+    dataset = build_dataset(standard_model(robot), (log,), held_out=frozenset(), blocks=5)
+    return dataset, Prediction(standard_model(robot, ("rigid_body",)), bodies.ravel())
 
 
-def solved(cause: Cause, look: Look, believed: Prediction, values: list[float]) -> Solved:
+def solved(cause: Cause, dataset: Dataset, operating_point: Prediction, values: list[float]) -> FittedCause:
     """Make a solution at the cause's first site and grid point."""
-    site = cause.sites(look, believed)[0]
-    scalars = cause.grid(look, believed, site)[0]
-    count = len(cause.term(look, believed, site, scalars).parameters(look.robot))
+    site = cause.sites(dataset, operating_point)[0]
+    scalars = cause.grid(dataset, operating_point, site)[0]
+    count = len(cause.term(dataset, operating_point, site, scalars).parameters(dataset.robot))
     assert count == len(values)
-    return Solved(site, np.array(values), 0.01 * np.eye(count), scalars, dict.fromkeys(scalars, 0.1))
+    return FittedCause(site, np.array(values), 0.01 * np.eye(count), scalars, dict.fromkeys(scalars, 0.1))
 
 
-def as_found(cause: Cause, look: Look, believed: Prediction, value: float) -> Solved:
+def as_found(cause: Cause, dataset: Dataset, operating_point: Prediction, value: float) -> FittedCause:
     """Give all linear parameters the same value."""
-    site = cause.sites(look, believed)[0]
-    term = cause.term(look, believed, site, cause.grid(look, believed, site)[0])
-    return solved(cause, look, believed, [value] * len(term.parameters(look.robot)))
+    site = cause.sites(dataset, operating_point)[0]
+    term = cause.term(dataset, operating_point, site, cause.grid(dataset, operating_point, site)[0])
+    return solved(cause, dataset, operating_point, [value] * len(term.parameters(dataset.robot)))
 
 
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.id)
 def test_a_cause_says_in_one_sentence_which_joint_and_how_much(
-    cause: Cause, scene: tuple[Look, Prediction]
+    cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
     found = as_found(cause, *scene, 2.0)
     text = cause.statement(found)
@@ -120,7 +120,7 @@ def test_a_cause_names_rivals_with_an_experiment_each(cause: Cause) -> None:
 
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.id)
 def test_the_numbers_of_a_finding_come_with_unit_and_deviation(
-    cause: Cause, scene: tuple[Look, Prediction]
+    cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
     quantities = cause.quantities(as_found(cause, *scene, 2.0))
     assert len({one.name for one in quantities}) == len(quantities)
@@ -134,14 +134,14 @@ def test_the_numbers_of_a_finding_come_with_unit_and_deviation(
     ids=lambda cause: cause.id,
 )
 def test_nature_does_not_allow_friction_springs_and_inertia_of_the_wrong_sign(
-    cause: Cause, scene: tuple[Look, Prediction]
+    cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
     assert cause.possible(as_found(cause, *scene, 2.0))
     assert not cause.possible(as_found(cause, *scene, -2.0))
 
 
 def test_a_coupling_may_lack_inertia_within_its_uncertainty_but_not_everything(
-    scene: tuple[Look, Prediction],
+    scene: tuple[Dataset, Prediction],
 ) -> None:
     assert JointCoupling().possible(solved(JointCoupling(), *scene, [-0.1, 2.0, 2.0]))
     assert not JointCoupling().possible(solved(JointCoupling(), *scene, [-0.1, 0.1, 0.1]))
@@ -149,12 +149,12 @@ def test_a_coupling_may_lack_inertia_within_its_uncertainty_but_not_everything(
 
 @pytest.mark.parametrize("cause", SCANNED, ids=lambda cause: cause.id)
 def test_neighbours_of_a_grid_are_so_alike_that_nothing_between_them_is_missed(
-    cause: Cause, scene: tuple[Look, Prediction]
+    cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
-    look, believed = scene
-    grid = cause.grid(look, believed, (2,))
-    found = look.columns([cause.term(look, believed, (2,), scalars) for scalars in grid])
-    model = np.hstack([columns[1] for columns in look.columns([Offset(), Viscous(), Coulomb()])])
+    dataset, operating_point = scene
+    grid = cause.grid(dataset, operating_point, (2,))
+    found = dataset.columns([cause.term(dataset, operating_point, (2,), scalars) for scalars in grid])
+    model = np.hstack([columns[1] for columns in dataset.columns([Offset(), Viscous(), Coulomb()])])
     for one, other, here, there in zip(found, found[1:], grid, grid[1:], strict=False):
         if here.get("side") == there.get("side"):
             spans = [np.linalg.qr(_left(columns[1], model))[0] for columns in (one, other)]
@@ -165,30 +165,34 @@ def _left(columns: np.ndarray, model: np.ndarray) -> np.ndarray:
     return np.asarray(columns - model @ np.linalg.lstsq(model, columns, rcond=None)[0])
 
 
-def test_ripple_is_looked_for_as_far_as_the_band_shows_it(scene: tuple[Look, Prediction]) -> None:
-    look, believed = scene
-    highest = max(scalars["harmonic"] for scalars in TorqueRipple().grid(look, believed, (1,)))
-    assert highest * look.speed[0] < 2.0 * np.pi * look.band_hz < 3.0 * highest * look.speed[0]
+def test_ripple_is_looked_for_as_far_as_the_band_shows_it(scene: tuple[Dataset, Prediction]) -> None:
+    dataset, operating_point = scene
+    highest = max(scalars["harmonic"] for scalars in TorqueRipple().grid(dataset, operating_point, (1,)))
+    assert highest * dataset.speed[0] < 2.0 * np.pi * dataset.band_hz < 3.0 * highest * dataset.speed[0]
 
 
-def test_only_joints_without_a_declared_rotor_may_miss_one(scene: tuple[Look, Prediction]) -> None:
+def test_only_joints_without_a_declared_rotor_may_miss_one(scene: tuple[Dataset, Prediction]) -> None:
     assert RotorInertiaMissing().sites(*scene) == [(1,)]
 
 
-def test_a_declared_coupling_is_not_suspected(scene: tuple[Look, Prediction]) -> None:
-    look, believed = scene
-    assert set(JointCoupling().sites(look, believed)) == {(1, 2), (2, 3), (1, 3)}
-    declared = replace(look.robot, couplings=(Coupling("wrist", 3, (2, 3), (1.0, 1.0)),))
-    assert set(JointCoupling().sites(replace(look, robot=declared), believed)) == {(1, 2), (1, 3)}
+def test_a_declared_coupling_is_not_suspected(scene: tuple[Dataset, Prediction]) -> None:
+    dataset, operating_point = scene
+    assert set(JointCoupling().sites(dataset, operating_point)) == {(1, 2), (2, 3), (1, 3)}
+    declared = replace(dataset.robot, couplings=(Coupling("wrist", 3, (2, 3), (1.0, 1.0)),))
+    assert set(JointCoupling().sites(replace(dataset, robot=declared), operating_point)) == {(1, 2), (1, 3)}
 
 
-def test_friction_follows_the_logged_temperature_where_there_is_one(scene: tuple[Look, Prediction]) -> None:
-    look, believed = scene
+def test_friction_follows_the_logged_temperature_where_there_is_one(
+    scene: tuple[Dataset, Prediction],
+) -> None:
+    dataset, operating_point = scene
     cause = FrictionTemperature()
-    assert all("time_constant" in scalars for scalars in cause.grid(look, believed, (1,)))
-    warm = replace(look, state=replace(look.state, temperature=np.full_like(look.state.position, 30.0)))
-    assert list(cause.grid(warm, believed, (1,))) == [{}]
-    found = Solved((1,), np.array([0.1, 0.2]), np.eye(2), {}, {})
+    assert all("time_constant" in scalars for scalars in cause.grid(dataset, operating_point, (1,)))
+    warm = replace(
+        dataset, state=replace(dataset.state, temperature=np.full_like(dataset.state.position, 30.0))
+    )
+    assert list(cause.grid(warm, operating_point, (1,))) == [{}]
+    found = FittedCause((1,), np.array([0.1, 0.2]), np.eye(2), {}, {})
     assert [one.unit for one in cause.quantities(found)] == ["N m/K", "N m s/rad/K"]
 
 
@@ -205,7 +209,8 @@ def test_a_wave_about_the_middle_of_the_range_is_reported_with_its_phase_at_zero
     parts = amplitude * np.array([np.cos(at_centre), -np.sin(at_centre)])
     scalars = {"harmonic": harmonic, "centre": centre}
     found = {
-        one.name: one.value for one in wave_quantities(Solved((1,), parts, np.eye(2), scalars, {}), "N m")
+        one.name: one.value
+        for one in wave_quantities(FittedCause((1,), parts, np.eye(2), scalars, {}), "N m")
     }
     angle = np.linspace(-3.0, 3.0, 20)
     wave = found["amplitude"] * np.cos(found["harmonic"] * angle + found["phase"])
@@ -218,13 +223,13 @@ def test_the_deviation_of_a_phase_holds_that_of_the_harmonic() -> None:
     draws = rng.multivariate_normal(parts, covariance, 4000)
     turns = 6.0 + scatter * rng.normal(size=4000)
     phases = [
-        wave_quantities(Solved((1,), one, covariance, {"harmonic": float(h), "centre": 1.5}, {}), "N m")[
+        wave_quantities(FittedCause((1,), one, covariance, {"harmonic": float(h), "centre": 1.5}, {}), "N m")[
             2
         ].value
         for one, h in zip(draws, turns, strict=True)
     ]
     stated = wave_quantities(
-        Solved((1,), parts, covariance, {"harmonic": 6.0, "centre": 1.5}, {"harmonic": scatter}), "N m"
+        FittedCause((1,), parts, covariance, {"harmonic": 6.0, "centre": 1.5}, {"harmonic": scatter}), "N m"
     )[2].standard_deviation
     # 4000 draws know a deviation to 1.1 %.
     assert stated == pytest.approx(np.std(phases), rel=0.05)

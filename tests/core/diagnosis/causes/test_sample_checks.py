@@ -7,17 +7,17 @@ import pytest
 
 from veritorque.core.diagnosis.causes.dropped_samples import DroppedSamples
 from veritorque.core.diagnosis.causes.encoder_quantization import EncoderQuantization
-from veritorque.core.diagnosis.causes.sample_check import RawCause, RawFinding
+from veritorque.core.diagnosis.causes.sample_check import SampleCheck, SampleFinding
 from veritorque.core.diagnosis.causes.timestamp_jitter import TimestampJitter
-from veritorque.core.diagnosis.dataset.dataset import Look, look_at
-from veritorque.core.diagnosis.regression.innovation_covariance import fitted_rows, misfit
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
+from veritorque.core.diagnosis.regression.innovation_covariance import fitted_rows, torque_residual
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.model import Joint, Link, RobotModel
 
-CHECKS: dict[str, RawCause] = {
+CHECKS: dict[str, SampleCheck] = {
     one.id: one for one in (TimestampJitter(), DroppedSamples(), EncoderQuantization())
 }
 RATE_HZ, SECONDS = 250.0, 20.0
@@ -32,7 +32,7 @@ def two_wheels() -> RobotModel:
     return RobotModel("wheels", links, joints, np.array([0.0, 0.0, -9.81]))
 
 
-def believed() -> Prediction:
+def operating_point() -> Prediction:
     robot = two_wheels()
     bodies = np.zeros((2, 10))
     bodies[:, [0, 3, 5]] = INERTIA[:, None]
@@ -63,14 +63,14 @@ def recorded(
     return log_from_arrays("wheels", real if honest else stamps, position[kept], torque[kept])
 
 
-def findings(cause: str, log: JointLog) -> tuple[RawFinding, ...]:
-    held = believed()
+def findings(cause: str, log: JointLog) -> tuple[SampleFinding, ...]:
+    held = operating_point()
     return CHECKS[cause].examine(looked_at(log), held)
 
 
 @cache
-def looked_at(log: JointLog) -> Look:
-    return look_at(believed().model, (log,), held_out=frozenset(), blocks=5)
+def looked_at(log: JointLog) -> Dataset:
+    return build_dataset(operating_point().model, (log,), held_out=frozenset(), blocks=5)
 
 
 @pytest.mark.parametrize("cause", sorted(CHECKS))
@@ -119,7 +119,7 @@ def test_a_coarse_encoder_is_found_on_its_own_joint_with_its_step():
     ("cause", "fault"), [("timestamp_jitter", {"jitter": 4e-4}), ("encoder_quantization", {"step": 5e-3})]
 )
 def test_the_share_of_a_fault_is_what_it_really_adds(cause, fault):
-    held = believed()
+    held = operating_point()
     spoilt, clean = recorded(**fault), recorded()
     (found,) = findings(cause, spoilt)
     really = 1.0 - _mean_square(looked_at(clean), held) / _mean_square(looked_at(spoilt), held)
@@ -134,6 +134,6 @@ def test_the_deviation_of_the_scatter_is_honest(seed):
     assert abs(std.value - 2e-4) < 3.5 * std.standard_deviation < 5e-5
 
 
-def _mean_square(look: Look, held: Prediction) -> np.ndarray:
-    left, mask = misfit(look, held), fitted_rows(look)
+def _mean_square(dataset: Dataset, held: Prediction) -> np.ndarray:
+    left, mask = torque_residual(dataset, held), fitted_rows(dataset)
     return (left**2 * mask).sum(axis=0) / mask.sum(axis=0)

@@ -12,7 +12,7 @@ from veritorque.core.diagnosis.causes.external_contact import ExternalContact
 from veritorque.core.diagnosis.causes.gravity_misalignment import GravityMisalignment
 from veritorque.core.diagnosis.causes.kinematic_error import KinematicError
 from veritorque.core.diagnosis.causes.payload_change import PayloadChange
-from veritorque.core.diagnosis.causes.protocol import Solved
+from veritorque.core.diagnosis.causes.protocol import FittedCause
 from veritorque.core.diagnosis.causes.shared.sites import end_links, revolute_joints
 from veritorque.core.diagnosis.causes.shared.waves import amplitude_and_angle
 from veritorque.core.dynamics.terms.contact import WRENCH
@@ -20,9 +20,9 @@ from veritorque.core.dynamics.terms.contact import WRENCH
 SPANS = {"start_1": 3.0, "end_1": 3.5, "start_2": 8.0, "end_2": 8.4}
 
 
-def solved(values, scalars, *, deviation=0.01, site=(6,)) -> Solved:
+def solved(values, scalars, *, deviation=0.01, site=(6,)) -> FittedCause:
     values = np.asarray(values, dtype=float)
-    return Solved(site, values, deviation**2 * np.eye(len(values)), scalars, {})
+    return FittedCause(site, values, deviation**2 * np.eye(len(values)), scalars, {})
 
 
 def test_a_contact_whose_moment_no_lever_explains_is_impossible():
@@ -70,10 +70,10 @@ def test_amplitude_and_angle_scatter_as_stated():
     rng = np.random.default_rng(2)
     mean, covariance = np.array([1.0, -2.0]), np.array([[4e-3, 1e-3], [1e-3, 1e-3]])
     drawn = rng.multivariate_normal(mean, covariance, 20_000)
-    (size, wide), (angle, turned) = amplitude_and_angle(mean, covariance)
+    (size, wide), (angle, with_other_holdout) = amplitude_and_angle(mean, covariance)
     assert (size, angle) == pytest.approx((np.hypot(1.0, 2.0), np.arctan2(-2.0, 1.0)))
     assert wide == pytest.approx(np.std(np.hypot(*drawn.T)), rel=0.03)
-    assert turned == pytest.approx(np.std(np.arctan2(drawn[:, 1], drawn[:, 0])), rel=0.03)
+    assert with_other_holdout == pytest.approx(np.std(np.arctan2(drawn[:, 1], drawn[:, 0])), rel=0.03)
 
 
 def test_the_phase_of_an_eccentric_disc_is_that_of_a_sine():
@@ -82,7 +82,7 @@ def test_the_phase_of_an_eccentric_disc_is_that_of_a_sine():
 
 
 def test_a_tilt_that_an_arm_cannot_feel_is_not_reported():
-    open_axis = Solved((), np.array([0.0, 0.02]), np.diag([1e10, 1e-6]), {}, {})
+    open_axis = FittedCause((), np.array([0.0, 0.02]), np.diag([1e10, 1e-6]), {}, {})
     cause = GravityMisalignment()
     assert [one.name for one in cause.quantities(open_axis)] == ["tilt_y"]
     assert "x axis" not in cause.statement(open_axis)

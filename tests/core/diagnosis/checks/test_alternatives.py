@@ -8,8 +8,8 @@ import pytest
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
-from veritorque.core.diagnosis.checks.alternatives import Standing, weighed
-from veritorque.core.diagnosis.search.fitter import Bench
+from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
+from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
 from veritorque.core.diagnosis.search.stepwise import Selection
 
@@ -23,60 +23,60 @@ ENDING = wave_cause("ending", {QUICKER: 1.0, SLOW: 2.0})
 
 
 @cache
-def two_waves() -> tuple[Bench, Hypothesis]:
+def two_waves() -> tuple[HypothesisFitter, Hypothesis]:
     """Hide a strong and a weak wave; suspect them, and something that resembles the weak one."""
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
-    return bench, nothing_found(bench)
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
+    return fitter, nothing_found(fitter)
 
 
 def weighed_from(
-    start: tuple[Bench, Hypothesis], *members: Candidate
-) -> tuple[list[str], Selection, list[Standing]]:
+    start: tuple[HypothesisFitter, Hypothesis], *members: Candidate
+) -> tuple[list[str], Selection, list[Comparison]]:
     """Weigh what is put there; give the names that remain, with everything else."""
-    bench, none = start
-    selection, standings = weighed(bench, Selection(none, bench.tried(members), ()))
-    return [one.cause.id for one in selection.chosen.members], selection, standings
+    fitter, none = start
+    selection, comparisons = compare_alternatives(fitter, Selection(none, fitter.tried(members), ()))
+    return [one.cause.id for one in selection.chosen.members], selection, comparisons
 
 
 def test_what_was_hidden_stands_against_all_rivals():
-    names, selection, standings = weighed_from(two_waves(), candidate(STRONG), candidate(WEAK))
+    names, selection, comparisons = weighed_from(two_waves(), candidate(STRONG), candidate(WEAK))
     assert names == ["strong", "weak"]
     assert selection.steps == ()
-    assert all(one.margin > 6.0 for one in standings)
+    assert all(one.margin > 6.0 for one in comparisons)
 
 
 def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record():
-    names, selection, standings = weighed_from(two_waves(), candidate(STRONG), candidate(STOPGAP))
+    names, selection, comparisons = weighed_from(two_waves(), candidate(STRONG), candidate(STOPGAP))
     assert names == ["strong"]
     assert [(one.action, one.candidate.cause.id) for one in selection.steps] == [("dropped", "stopgap")]
-    assert len(standings) == 1
+    assert len(comparisons) == 1
 
 
 @cache
-def a_wave_beside_one_that_ends() -> tuple[Bench, Hypothesis]:
+def a_wave_beside_one_that_ends() -> tuple[HypothesisFitter, Hypothesis]:
     """Add to the weak wave what its rival has besides, but only on the rows that are fitted."""
 
     def effect(state):
         seen = (state.time < HELD_OUT_FROM)[:, None]
         return wave_effect({QUICK: 0.6, QUICKER: 0.2})(state) + seen * wave_effect({SLOW: 0.4})(state)
 
-    bench = bench_of(measured_arm(effect), (STRONG, WEAK, ENDING))
-    return bench, nothing_found(bench)
+    fitter = bench_of(measured_arm(effect), (STRONG, WEAK, ENDING))
+    return fitter, nothing_found(fitter)
 
 
 def test_a_rival_that_does_not_hold_on_unseen_rows_refutes_nothing():
-    names, _, standings = weighed_from(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
+    names, _, comparisons = weighed_from(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
     assert names == ["strong", "weak"]
-    (told,) = (one for one in standings[1].refuted if one.cause == "ending")
-    assert told.statistic > standings[1].statistic + 6.0
-    assert "no fit has seen" in told.why
+    (with_deviations,) = (one for one in comparisons[1].refuted if one.cause == "ending")
+    assert with_deviations.statistic > comparisons[1].statistic + 6.0
+    assert "no fit has seen" in with_deviations.why
 
 
 def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
     """Alone it is a finding with a rival that explains more, and the report says so."""
-    names, _, (standing,) = weighed_from(two_waves(), candidate(STOPGAP))
+    names, _, (compare_member,) = weighed_from(two_waves(), candidate(STOPGAP))
     assert names == ["stopgap"]
-    assert standing.margin < -6.0
+    assert compare_member.margin < -6.0
 
 
 @pytest.mark.parametrize(
@@ -87,8 +87,8 @@ def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, ri
     clip, push = made_up("clip", now_and_then), made_up("push", now_and_then)
     type(clip).leaves, type(push).event = leaves, True
     scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))
-    bench = bench_of(scene, (clip, push))
-    *_, (found,) = weighed_from((bench, nothing_found(bench)), candidate(clip))
+    fitter = bench_of(scene, (clip, push))
+    *_, (found,) = weighed_from((fitter, nothing_found(fitter)), candidate(clip))
     assert ["push" for _ in range(rival)] == [one.cause for one in found.ambiguous]
 
 
@@ -102,5 +102,5 @@ def test_a_name_that_a_pattern_without_one_beats_by_far_is_given_up(spoilt, kept
         return [product(state) + spoilt * np.sin(QUICK * state.position[:, 1])]
 
     cause = made_up("alike", columns)
-    bench = bench_of(measured_arm(on_joint(product)), (cause,))
-    assert weighed_from((bench, nothing_found(bench)), candidate(cause))[0] == kept
+    fitter = bench_of(measured_arm(on_joint(product)), (cause,))
+    assert weighed_from((fitter, nothing_found(fitter)), candidate(cause))[0] == kept

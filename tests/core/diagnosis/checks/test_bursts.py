@@ -12,8 +12,8 @@ BEGIN, END = 6.0, 6.8
 
 
 def seen(effect=None, seed=6):
-    bench = bench_of(measured_arm(effect, seed=seed), ())
-    return burst(bench.look, bench.residual(nothing_found(bench)))
+    fitter = bench_of(measured_arm(effect, seed=seed), ())
+    return burst(fitter.dataset, fitter.residual(nothing_found(fitter)))
 
 
 @pytest.mark.parametrize("height", [1.0, -3.0])
@@ -32,25 +32,28 @@ def test_single_spikes_are_no_burst():
 
 @pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY, (0.98,)])
 def test_noise_has_no_bursts_whatever_it_remembers(weights):
-    look = measured_arm().look
+    dataset = measured_arm().dataset
     for seed in range(20):
         rng = np.random.default_rng(seed)
-        assert burst(look, drawn(weights, rng, len(look.time), look.joints)) is None
+        assert burst(dataset, drawn(weights, rng, len(dataset.time), dataset.joints)) is None
 
 
 def test_heavy_tails_have_no_bursts():
-    look = measured_arm().look
+    dataset = measured_arm().dataset
     for seed in range(20):
-        assert burst(look, np.random.default_rng(seed).standard_t(3, (len(look.time), look.joints))) is None
+        assert (
+            burst(dataset, np.random.default_rng(seed).standard_t(3, (len(dataset.time), dataset.joints)))
+            is None
+        )
 
 
 def test_what_is_larger_in_half_of_the_log_is_no_burst():
-    look = measured_arm().look
-    noise = np.random.default_rng(0).normal(size=(len(look.time), look.joints))
-    noise[look.time > 10.0] *= 30.0
-    assert burst(look, noise) is None
+    dataset = measured_arm().dataset
+    noise = np.random.default_rng(0).normal(size=(len(dataset.time), dataset.joints))
+    noise[dataset.time > 10.0] *= 30.0
+    assert burst(dataset, noise) is None
 
 
 def test_a_channel_that_is_dead_has_no_bursts():
-    look = measured_arm().look
-    assert burst(look, np.zeros((len(look.time), look.joints))) is None
+    dataset = measured_arm().dataset
+    assert burst(dataset, np.zeros((len(dataset.time), dataset.joints))) is None

@@ -5,9 +5,9 @@ import pytest
 
 from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
-from veritorque.core.diagnosis.checks.change_points import switchings
-from veritorque.core.diagnosis.checks.kurtosis import kurtosis, level_keeper
-from veritorque.core.diagnosis.checks.lack_of_fit import best_stranger
+from veritorque.core.diagnosis.checks.change_points import switching_candidates
+from veritorque.core.diagnosis.checks.kurtosis import bounded_residual, kurtosis
+from veritorque.core.diagnosis.checks.lack_of_fit import best_unnamed_pattern
 
 SIZE = 0.2
 """Of the switching torque, N m."""
@@ -20,8 +20,8 @@ def switching(state):
 
 
 def kept(effect, seed):
-    bench = bench_of(measured_arm(effect, seed=seed), ())
-    return level_keeper(bench.look, bench.residual(nothing_found(bench)))
+    fitter = bench_of(measured_arm(effect, seed=seed), ())
+    return bounded_residual(fitter.dataset, fitter.residual(nothing_found(fitter)))
 
 
 @pytest.mark.parametrize("seed", [6, 7])
@@ -38,9 +38,9 @@ def test_noise_keeps_to_no_levels(seed):
 
 
 def switched(effect, seed):
-    bench = bench_of(measured_arm(effect, seed=seed), ())
-    none = nothing_found(bench)
-    return best_stranger(bench, none, switchings(bench, none, bench.residual(none)))
+    fitter = bench_of(measured_arm(effect, seed=seed), ())
+    none = nothing_found(fitter)
+    return best_unnamed_pattern(fitter, none, switching_candidates(fitter, none, fitter.residual(none)))
 
 
 @pytest.mark.parametrize("share", [1.0, 0.25])

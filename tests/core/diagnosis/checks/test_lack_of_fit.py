@@ -6,7 +6,7 @@ from scipy.signal import lsim
 
 from tests.core.diagnosis.made_up import JOINT, candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
-from veritorque.core.diagnosis.checks.lack_of_fit import best_stranger, strangers
+from veritorque.core.diagnosis.checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from veritorque.core.diagnosis.search.hypothesis import Hypothesis
 
 RHYTHM = 0.4
@@ -45,8 +45,8 @@ WORDS = {
 
 
 def found_beside_nothing(effect: Effect | None, seed: int) -> Hypothesis | None:
-    bench = bench_of(measured_arm(effect, seed=seed), ())
-    return best_stranger(bench, nothing_found(bench), strangers(bench))
+    fitter = bench_of(measured_arm(effect, seed=seed), ())
+    return best_unnamed_pattern(fitter, nothing_found(fitter), unnamed_candidates(fitter))
 
 
 @pytest.mark.parametrize("seed", [6, 7])
@@ -67,10 +67,10 @@ def test_nothing_is_told_of_a_residual_that_is_noise(seed):
 
 def test_nothing_is_left_to_tell_once_a_cause_with_the_very_column_is_there():
     cause = made_up("product", lambda state, scalars: [product(state)])
-    bench = bench_of(measured_arm(on_joint(product)), (cause,))
-    nothing_found(bench)
-    explained = bench.tried((candidate(cause),))
-    assert best_stranger(bench, explained, strangers(bench)) is None
+    fitter = bench_of(measured_arm(on_joint(product)), (cause,))
+    nothing_found(fitter)
+    explained = fitter.tried((candidate(cause),))
+    assert best_unnamed_pattern(fitter, explained, unnamed_candidates(fitter)) is None
 
 
 def test_a_pattern_reports_no_numbers_since_they_would_mean_nothing_elsewhere():

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tests.core.diagnosis.scenes import Scene, bench_of, look_at_arm, measured_arm
-from veritorque.core.diagnosis.dataset.dataset import Look
+from veritorque.core.diagnosis.dataset.dataset import Dataset
 from veritorque.core.log.model import whole_rows
 from veritorque.core.signals.recipe import FilterOptions
 
@@ -15,36 +15,36 @@ SPIKES = (4.0, 8.0, 12.0)
 """When each joint's position has a spike, s."""
 
 
-def left_over(scene: Scene) -> np.ndarray:
+def is_masked(scene: Scene) -> np.ndarray:
     """Give the RMS per joint of what a plain fit leaves, but for the rows next to the log's ends."""
-    bench = bench_of(scene, ())
-    left, look = bench.residual(bench.tried(())), scene.look
-    inner = look.usable & ((look.time > 0.2) & (look.time < look.time[-1] - 0.2))[:, None]
+    fitter = bench_of(scene, ())
+    left, dataset = fitter.residual(fitter.tried(())), scene.dataset
+    inner = dataset.usable & ((dataset.time > 0.2) & (dataset.time < dataset.time[-1] - 0.2))[:, None]
     return np.sqrt(np.sum(left**2 * inner, axis=0) / inner.sum(axis=0))
 
 
 def with_spikes(scene: Scene) -> Scene:
     """Put a spike of half a radian on one sample of every joint's position."""
-    rows = whole_rows(scene.look.motions[0].log)
+    rows = whole_rows(scene.dataset.motions[0].log)
     position = rows.position.copy()
     position[np.searchsorted(rows.time, SPIKES), [0, 1, 2]] += 0.5
     return look_at_arm(position, rows.torque)
 
 
-def median_order(look: Look) -> int:
-    return look.motions[0].recipe.median_order
+def median_order(dataset: Dataset) -> int:
+    return dataset.motions[0].recipe.median_order
 
 
 def test_a_torque_that_the_model_explains_leaves_nothing_at_turning_points_neither():
     scene = measured_arm(noise=1e-6)
-    assert median_order(scene.look) == 1
-    assert (left_over(scene) < NEGLIGIBLE).all()
+    assert median_order(scene.dataset) == 1
+    assert (is_masked(scene) < NEGLIGIBLE).all()
 
 
 def test_spikes_of_positions_are_cut_and_the_tips_of_turning_points_with_them_where_there_are_some(
     monkeypatch,
 ):
     scene = with_spikes(measured_arm(noise=1e-6))
-    assert median_order(scene.look) == 5
+    assert median_order(scene.dataset) == 5
     monkeypatch.setattr(FilterOptions, "median_order", 1)
-    assert (left_over(scene) < 0.5 * left_over(with_spikes(measured_arm(noise=1e-6)))).all()
+    assert (is_masked(scene) < 0.5 * is_masked(with_spikes(measured_arm(noise=1e-6)))).all()

@@ -11,11 +11,11 @@ SPAN = (6.0, 6.8)
 
 def look_with(disturbed, noise):
     """Look at the arm with other noise, something of so many N m added at the samples within the span."""
-    motion = measured_arm().look.motions[0].log.source.rows(0, int(20.0 * ARM_RATE_HZ))
+    motion = measured_arm().dataset.motions[0].log.source.rows(0, int(20.0 * ARM_RATE_HZ))
     torque = motion.torque + noise(np.random.default_rng(5), motion.torque.shape)
     inside = (motion.time > SPAN[0]) & (motion.time < SPAN[1])
     torque[inside, 1] += disturbed(np.count_nonzero(inside))
-    return look_at_arm(motion.position, torque).look
+    return look_at_arm(motion.position, torque).dataset
 
 
 def normal(rng, shape):

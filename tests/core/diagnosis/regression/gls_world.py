@@ -8,12 +8,12 @@ from scipy.sparse import csr_array, hstack
 
 from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, dense_covariance, drawn, exact_noise
 from tests.core.diagnosis.scenes import eventful_scene
-from veritorque.core.diagnosis.dataset.dataset import Look
-from veritorque.core.diagnosis.regression.ar_noise import JointNoise
-from veritorque.core.diagnosis.regression.rows import Columns, JointRows, extended, joint_rows
+from veritorque.core.diagnosis.dataset.dataset import Dataset
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise
+from veritorque.core.diagnosis.regression.rows import Columns, JointRows, extended, rows_of_joints
 
 PROCESSES = (WHITE, SLOW, WAVY)
-NOISE: tuple[JointNoise, ...] = tuple(exact_noise(weights) for weights in PROCESSES)
+NOISE: tuple[ARNoise, ...] = tuple(exact_noise(weights) for weights in PROCESSES)
 BASE = np.array([1.0, -2.0, 0.5, 3.0])
 FREE = 3
 """Columns of any size on the second joint."""
@@ -30,8 +30,8 @@ class Equations:
 
     def __init__(self, seed: int = 0, effect: np.ndarray | float = 0.0, *, free: int = FREE) -> None:
         rng = np.random.default_rng(seed)
-        look = eventful_scene().look
-        self.count = len(look.time)
+        dataset = eventful_scene().dataset
+        self.count = len(dataset.time)
         self.mask = rng.random((self.count, 3)) > 0.03
         self.base = tuple(smooth(rng, self.count, len(BASE)) for _ in range(3))
         noise = np.hstack([drawn(weights, rng, self.count) for weights in PROCESSES])
@@ -39,18 +39,18 @@ class Equations:
         torque = np.column_stack([one @ BASE for one in self.base]) + noise + effect
         torque[:, 1] += self.free @ np.arange(1.0, free + 1.0)
         none = csr_array((self.count, 0))
-        self.look: Look = replace(look, torque=torque, sticking=(none, csr_array(self.free), none))
+        self.dataset: Dataset = replace(dataset, torque=torque, sticking=(none, csr_array(self.free), none))
         self.joints: tuple[JointRows, ...] = self.again()
 
     def again(self) -> tuple[JointRows, ...]:
         """Take the rows anew, after a change of the look."""
-        return joint_rows(self.look, self.base, self.mask)
+        return rows_of_joints(self.dataset, self.base, self.mask)
 
     def with_rests(self) -> tuple[JointRows, ...]:
         """Let friction be anything on all joints for half of the time, in short stretches."""
         rests = short_polynomials(self.count)
-        sticking = tuple(csr_array(hstack([one, rests])) for one in self.look.sticking)
-        return joint_rows(replace(self.look, sticking=sticking), self.base, self.mask)
+        sticking = tuple(csr_array(hstack([one, rests])) for one in self.dataset.sticking)
+        return rows_of_joints(replace(self.dataset, sticking=sticking), self.base, self.mask)
 
     def with_columns(self, *columns: Columns) -> tuple[JointRows, ...]:
         """Append candidates' columns."""
@@ -66,7 +66,7 @@ class Equations:
             own = [one.get(joint, nothing) for one in columns]
             free = self.free if joint == 1 else np.zeros_like(self.free)
             parts.append(np.hstack([self.base[joint], *own, free])[kept])
-            torque.append(self.look.torque[kept, joint])
+            torque.append(self.dataset.torque[kept, joint])
             covariances.append(dense_covariance(PROCESSES[joint], rows.place))
         return np.vstack(parts), np.concatenate(torque), block_diag(*covariances)
 

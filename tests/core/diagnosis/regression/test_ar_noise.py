@@ -13,7 +13,7 @@ from tests.core.diagnosis.processes import (
     exact_noise,
     ljung_box,
 )
-from veritorque.core.diagnosis.regression.ar_noise import HIGHEST_ORDER, JointNoise, learn_noise, places
+from veritorque.core.diagnosis.regression.ar_noise import HIGHEST_ORDER, ARNoise, fit_ar_noise, places
 
 every_process = pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY], ids=["white", "slow", "wavy"])
 GAPS = np.array([True] * 25 + [False] + [True] * 4 + [False] * 2 + [True, False] + [True] * 26)
@@ -28,7 +28,7 @@ def runs(mask: np.ndarray) -> np.ndarray:
     return places(np.diff(np.flatnonzero(mask), prepend=-2) == 1)
 
 
-def log_likelihood(noise: JointNoise, series: np.ndarray, place: np.ndarray) -> float:
+def log_likelihood(noise: ARNoise, series: np.ndarray, place: np.ndarray) -> float:
     white = noise.whitened(series[:, None], place)[:, 0]
     return -0.5 * float(white @ white) - noise.log_deviations(place) - 0.5 * len(series) * np.log(2.0 * np.pi)
 
@@ -49,7 +49,7 @@ def test_noise_of_one_kind_departs_from_another_by_the_likelihood_it_loses_on_av
 def test_what_was_learned_from_coloured_noise_makes_it_white(weights, seed):
     series = drawn(weights, np.random.default_rng(seed), 3000)
     place = one_run(len(series))
-    white = learn_noise(series[:, 0], place).whitened(series, place)[:, 0]
+    white = fit_ar_noise(series[:, 0], place).whitened(series, place)[:, 0]
     assert ljung_box(white, fitted=HIGHEST_ORDER) > 1e-3
     assert np.var(white) == pytest.approx(1.0, abs=0.02)
     if weights:
@@ -70,7 +70,7 @@ def test_the_likelihood_of_gappy_rows_is_that_of_the_dense_normal_distribution(w
 def test_whatever_is_learned_is_one_stationary_process(weights):
     """The covariance that the whitening implies depends on the lag alone, from the first row on."""
     series = drawn(weights, np.random.default_rng(2), 600)[:, 0]
-    noise = learn_noise(series, one_run(600))
+    noise = fit_ar_noise(series, one_run(600))
     whitening = noise.whitened(np.eye(60), one_run(60))
     root = np.linalg.solve(whitening, np.eye(60))
     covariance = root @ root.T
@@ -101,7 +101,7 @@ def test_gaps_do_not_bias_what_is_learned():
     rng = np.random.default_rng(4)
     kept = rng.random(20_000) > 0.05
     series = drawn(SLOW, rng, 20_000)[kept, 0]
-    found = learn_noise(series, runs(kept), order=1)
+    found = fit_ar_noise(series, runs(kept), order=1)
     assert found.predictors[1][0] == pytest.approx(SLOW[0], abs=0.02)
     assert found.deviations[1] == pytest.approx(1.0, abs=0.02)
 
@@ -112,14 +112,14 @@ def test_the_deviation_allows_for_what_a_fit_took_out():
     basis = np.linalg.qr(rng.normal(size=(600, 60)))[0]
     left = rng.normal(size=(600, 200))
     left -= basis @ (basis.T @ left)
-    found = [learn_noise(one, one_run(600), order=0, taken=60.0).deviations[0] ** 2 for one in left.T]
+    found = [fit_ar_noise(one, one_run(600), order=0, taken=60.0).deviations[0] ** 2 for one in left.T]
     assert np.mean(found) == pytest.approx(1.0, abs=4.0 * np.std(found) / np.sqrt(len(found)))
 
 
 def test_the_order_is_no_higher_than_a_short_series_allows():
-    assert learn_noise(np.random.default_rng(6).normal(size=100), one_run(100)).order == 3
+    assert fit_ar_noise(np.random.default_rng(6).normal(size=100), one_run(100)).order == 3
 
 
 def test_rows_that_stand_alone_are_taken_for_independent():
     series, place = np.random.default_rng(7).normal(size=500), np.zeros(500, dtype=int)
-    assert learn_noise(series, place).order == 0
+    assert fit_ar_noise(series, place).order == 0

@@ -8,8 +8,8 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array
 
 from tests.core.diagnosis.regression.gls_world import BASE, FREE, NOISE, Equations, smooth
-from veritorque.core.diagnosis.regression.gls import fit, leaves_too_much, refit
-from veritorque.core.diagnosis.regression.rows import joint_rows
+from veritorque.core.diagnosis.regression.gls import fit, noise_absorbs_effect, refit
+from veritorque.core.diagnosis.regression.rows import rows_of_joints
 
 CLOSE = 1e-6
 """The ridge of 1e-10 of a column's own square, times the condition of the columns."""
@@ -42,7 +42,7 @@ def test_a_fit_under_known_noise_is_the_generalised_least_squares_of_dense_matri
 
 def test_what_free_columns_can_stand_for_does_not_reach_the_parameters(equations):
     other = Equations()
-    other.look.torque[:, 1] += other.free @ np.array([1e3, -1e3, 1e3])
+    other.dataset.torque[:, 1] += other.free @ np.array([1e3, -1e3, 1e3])
     moved = fit(other.again(), NOISE, rounds=0)
     np.testing.assert_allclose(moved.values, fit(equations.joints, NOISE, rounds=0).values, rtol=1e-8)
 
@@ -52,10 +52,14 @@ def test_what_a_model_has_at_rest_does_not_change_how_likely_it_is():
     rows = Equations(free=2)
     apart = 1e-3 * rows.free[:, 1]
     rows.free[:, 1] = rows.free[:, 0] + apart
-    alike = replace(rows.look, sticking=(rows.look.sticking[0], csr_array(rows.free), rows.look.sticking[2]))
+    alike = replace(
+        rows.dataset, sticking=(rows.dataset.sticking[0], csr_array(rows.free), rows.dataset.sticking[2])
+    )
     at_rest = 3e5 * apart[:, None] * np.random.default_rng(7).normal(size=len(BASE))
     heavy = (rows.base[0], rows.base[1] + at_rest, rows.base[2])
-    plain, resting = (fit(joint_rows(alike, base, rows.mask), NOISE, rounds=0) for base in (rows.base, heavy))
+    plain, resting = (
+        fit(rows_of_joints(alike, base, rows.mask), NOISE, rounds=0) for base in (rows.base, heavy)
+    )
     assert resting.log_likelihood == pytest.approx(plain.log_likelihood, abs=1.0)
 
 
@@ -128,7 +132,7 @@ def test_parameters_scatter_as_their_covariance_says(ordinary):
 
 
 def test_a_fit_of_what_is_there_leaves_the_noise_no_more_than_an_ordinary_one(equations):
-    assert not leaves_too_much(equations.joints, fit(equations.joints))
+    assert not noise_absorbs_effect(equations.joints, fit(equations.joints))
 
 
 @pytest.mark.parametrize("ordinary", [False, True])

@@ -9,9 +9,9 @@ from scipy.stats import binom, chi2, kstest
 
 from tests.core.diagnosis.regression.gls_world import NOISE, Equations, smooth
 from veritorque.core.diagnosis.regression.gls import fit
-from veritorque.core.diagnosis.regression.nuisance import free_of, independent
+from veritorque.core.diagnosis.regression.nuisance import independent, nuisance_of
 from veritorque.core.diagnosis.regression.rows import Columns, JointRows, extended
-from veritorque.core.diagnosis.regression.score_test import score, score_from
+from veritorque.core.diagnosis.regression.score_test import score, score_onsets
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def test_a_score_is_what_fitting_the_candidate_gains(equations):
 def test_no_candidate_promises_more_than_is_left_where_columns_run_nearly_parallel():
     equations, rng = Equations(), np.random.default_rng(4)
     one, other = smooth(rng, equations.count, 2).T
-    equations.look.torque[:, 0] += 100.0 * other  # 1e6 of each of the two columns, less each other
+    equations.dataset.torque[:, 0] += 100.0 * other  # 1e6 of each of the two columns, less each other
     parallel = {0: np.column_stack([one, one + 1e-4 * other])}
     rows = extended(equations.again(), [parallel])
     found = fit(rows, NOISE, rounds=0)
@@ -75,7 +75,7 @@ def with_a_rest_within_another(joints: tuple[JointRows, ...]) -> tuple[JointRows
     rng, columns = np.random.default_rng(7), np.zeros((len(joints[0].rows), 3))
     for column, begin, end in ((0, 50, 90), (0, 200, 210), (1, 130, 140), (2, 135, 240)):
         columns[begin:end, column] = rng.normal(size=end - begin)
-    return (replace(joints[0], free=free_of(independent(csr_array(columns)))), *joints[1:])
+    return (replace(joints[0], free=nuisance_of(independent(csr_array(columns)))), *joints[1:])
 
 
 @pytest.mark.parametrize("rests", ["moving", "resting half of the time", "resting within another rest"])
@@ -91,7 +91,7 @@ def test_columns_that_begin_to_act_at_a_row_score_as_if_they_were_written_so(equ
         for start in starts
     ]
     written = score(before, joints, begun)
-    for at_once, one in zip(score_from(before, joints, whole, starts), written, strict=True):
+    for at_once, one in zip(score_onsets(before, joints, whole, starts), written, strict=True):
         assert at_once.statistic == pytest.approx(one.statistic, rel=1e-6, abs=1e-6)
         np.testing.assert_allclose(at_once.values, one.values, rtol=1e-5, atol=1e-8)
 

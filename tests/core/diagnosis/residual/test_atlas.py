@@ -12,7 +12,7 @@ from veritorque.core.diagnosis.residual.atlas import BINS, atlas
 def test_noise_depends_on_no_coordinate_whatever_its_colour(kind):
     here = world()
     residual, noise = here.left(here.noise(kind, seed=21))
-    found = atlas(here.look, residual, here.believed, noise).dependences
+    found = atlas(here.dataset, residual, here.operating_point, noise).dependences
     p_values = np.array([one.p_value for one in found])
     assert p_values.min() > 1e-3 / len(found)
     # Dependences share rows: a tenth below 0.1 is allowed the scatter of a fifth of their number.
@@ -31,9 +31,9 @@ def test_noise_depends_on_no_coordinate_whatever_its_colour(kind):
 )
 def test_a_function_of_a_coordinate_is_found_over_that_coordinate_first(name, effect):
     here = world()
-    disturbance = on_joint(here, 2, effect(here.look.state, 1)) + here.noise("white", seed=22)
+    disturbance = on_joint(here, 2, effect(here.dataset.state, 1)) + here.noise("white", seed=22)
     residual, noise = here.left(disturbance)
-    found = atlas(here.look, residual, here.believed, noise)
+    found = atlas(here.dataset, residual, here.operating_point, noise)
     first = min((one for one in found.dependences if one.joint == 2), key=lambda one: one.p_value)
     assert first.coordinate == name
     assert first.p_value < 1e-9
@@ -42,12 +42,12 @@ def test_a_function_of_a_coordinate_is_found_over_that_coordinate_first(name, ef
 
 def test_the_bins_show_the_function_that_was_put_in():
     here = world()
-    position = here.look.state.position[:, 1]
+    position = here.dataset.state.position[:, 1]
     disturbance = on_joint(here, 2, np.cos(17.0 * position))
     residual, noise = here.left(disturbance + 0.2 * here.noise("white", seed=23))
-    shown = atlas(here.look, residual, here.believed, noise).over("position", 2)
+    shown = atlas(here.dataset, residual, here.operating_point, noise).over("position", 2)
     assert np.corrcoef(shown.mean, np.cos(17.0 * shown.centre))[0, 1] > 0.9
-    assert shown.count.sum() == here.look.clear[:, 1].sum()
+    assert shown.count.sum() == here.dataset.clear[:, 1].sum()
     assert len(shown.mean) == BINS == shown.degrees_of_freedom + 1
     assert (np.diff(shown.centre) > 0.0).all()
 
@@ -59,7 +59,7 @@ def test_the_standard_errors_are_the_scatter_of_the_bins(kind):
     for seed in range(30, 42):
         drawn = here.noise(kind, seed)
         _, noise = here.left(drawn)
-        shown = atlas(here.look, drawn, here.believed, noise[:1] * 7)
+        shown = atlas(here.dataset, drawn, here.operating_point, noise[:1] * 7)
         scatter.append([one.mean for one in shown.dependences if one.coordinate == "position"])
         told.append([one.standard_error for one in shown.dependences if one.coordinate == "position"])
     ratio = np.sqrt(np.mean(np.square(told)) / np.mean(np.square(scatter)))
@@ -70,19 +70,19 @@ def test_the_standard_errors_are_the_scatter_of_the_bins(kind):
 def test_rows_near_reversals_do_not_count():
     here = world()
     residual, noise = here.left(here.noise("white", seed=24))
-    away = atlas(here.look, residual, here.believed, noise).over("travel", 1)
-    assert away.count.sum() == here.look.clear[:, 0].sum() < here.look.usable[:, 0].sum()
+    away = atlas(here.dataset, residual, here.operating_point, noise).over("travel", 1)
+    assert away.count.sum() == here.dataset.clear[:, 0].sum() < here.dataset.usable[:, 0].sum()
 
 
 def test_a_spectrum_holds_the_residuals_power_and_white_noise_lies_on_its_floor():
     here = world()
     drawn = here.noise("white", seed=25)
     _, noise = here.left(drawn)
-    found = atlas(here.look, drawn, here.believed, noise)
+    found = atlas(here.dataset, drawn, here.operating_point, noise)
     for one in found.spectra:
-        usable = here.look.usable[:, one.joint - 1]
+        usable = here.dataset.usable[:, one.joint - 1]
         power = np.trapezoid(one.density, one.frequency_hz)
         assert power == pytest.approx(np.mean(drawn[usable, one.joint - 1] ** 2), rel=0.15)
-        below = (one.frequency_hz > 1.0) & (one.frequency_hz < 0.7 * here.look.band_hz)
+        below = (one.frequency_hz > 1.0) & (one.frequency_hz < 0.7 * here.dataset.band_hz)
         # a dozen windows: the mean over the band scatters by a few per cent
         assert np.mean(one.density[below] / one.floor[below]) == pytest.approx(1.0, abs=0.25)

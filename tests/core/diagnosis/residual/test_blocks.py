@@ -66,7 +66,7 @@ def test_a_residual_of_zeros_leaves_nothing_to_predict():
 
 
 def test_blocks_are_contiguous_and_nearly_equal():
-    block = row_blocks(world().look)
+    block = row_blocks(world().dataset)
     assert set(np.diff(block)) == {0, 1}
     sizes = np.bincount(block)
     assert len(sizes) == BLOCKS

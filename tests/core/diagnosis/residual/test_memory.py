@@ -6,13 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import toeplitz
 
-from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise
 from veritorque.core.diagnosis.residual.memory import covariance_of_sums, memory, spectrum
 
 
-def _first_order(weight: float, deviation: float = 1.0) -> JointNoise:
+def _first_order(weight: float, deviation: float = 1.0) -> ARNoise:
     before = deviation / np.sqrt(1.0 - weight**2)
-    return JointNoise((np.zeros(0), np.array([weight])), np.array([before, deviation]))
+    return ARNoise((np.zeros(0), np.array([weight])), np.array([before, deviation]))
 
 
 @given(weight=st.floats(-0.9, 0.95), deviation=st.floats(0.1, 10.0))

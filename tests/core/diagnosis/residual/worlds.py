@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import lfilter
 
-from veritorque.core.diagnosis.dataset.dataset import Look, look_at
-from veritorque.core.diagnosis.regression.ar_noise import JointNoise
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise
 from veritorque.core.diagnosis.regression.gls import fit
-from veritorque.core.diagnosis.regression.rows import joint_rows
+from veritorque.core.diagnosis.regression.rows import rows_of_joints
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.log.reader import read_log
@@ -27,23 +27,23 @@ RATE_HZ = 250.0
 class World:
     """Hold a look, what is believed, and the model's own torque at the look's rows."""
 
-    look: Look
-    believed: Prediction
+    dataset: Dataset
+    operating_point: Prediction
     plan: ColumnPlan
     torque: np.ndarray
 
-    def left(self, disturbance: np.ndarray) -> tuple[np.ndarray, tuple[JointNoise, ...]]:
+    def left(self, disturbance: np.ndarray) -> tuple[np.ndarray, tuple[ARNoise, ...]]:
         """Add a disturbance (rows x joints) to the model's torque and fit: residual and noise models."""
-        look = replace(self.look, torque=self.torque + disturbance)
-        columns = look.observed(self.plan)
-        found = fit(joint_rows(look, columns, look.clear))
+        dataset = replace(self.dataset, torque=self.torque + disturbance)
+        columns = dataset.observed(self.plan)
+        found = fit(rows_of_joints(dataset, columns, dataset.clear))
         predicted = np.column_stack([one @ found.values for one in columns])
-        return look.torque - predicted, tuple(one.noise for one in found.joints)
+        return dataset.torque - predicted, tuple(one.noise for one in found.joints)
 
     def noise(self, kind: str, seed: int) -> np.ndarray:
         """Draw noise at the log's rate and pass it through the look's filter; of unit RMS per joint."""
-        segment = self.look.motions[0].segments[0]
-        raw = drawn(kind, np.random.default_rng(seed), segment.samples, self.look.joints)
+        segment = self.dataset.motions[0].segments[0]
+        raw = drawn(kind, np.random.default_rng(seed), segment.samples, self.dataset.joints)
         rows = segment.parallel.apply(np.ascontiguousarray(raw.T), 0, segment.kept).T
         return rows / np.std(rows, axis=0)
 
@@ -67,13 +67,13 @@ def world() -> World:
     """Look at the shipped log, and believe what a fit to it finds."""
     model = standard_model(builtin_robot("yumi-left"))
     plan = ColumnPlan(model, base_model(model).kept)
-    look = look_at(model, (read_log(EXAMPLE),), held_out=frozenset(), blocks=20)
-    columns = look.observed(plan)
-    found = fit(joint_rows(look, columns, look.clear))
+    dataset = build_dataset(model, (read_log(EXAMPLE),), held_out=frozenset(), blocks=20)
+    columns = dataset.observed(plan)
+    found = fit(rows_of_joints(dataset, columns, dataset.clear))
     standard = np.zeros(len(model.parameters))
     standard[list(plan.columns)] = found.values
     torque = np.column_stack([one @ found.values for one in columns])
-    return World(look, Prediction(model, standard), plan, torque)
+    return World(dataset, Prediction(model, standard), plan, torque)
 
 
 def on_joint(world: World, joint: int, effect: np.ndarray) -> np.ndarray:

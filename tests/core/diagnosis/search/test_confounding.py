@@ -5,8 +5,8 @@ import pytest
 
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
-from veritorque.core.diagnosis.search.confounding import left_over
-from veritorque.core.diagnosis.search.likelihood_ratio import rise
+from veritorque.core.diagnosis.search.confounding import is_masked
+from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 
 
 def waves(state):
@@ -35,9 +35,9 @@ LIKE_LUCK, CLEAR = 0.06, 0.08
 )
 def test_a_push_is_told_from_what_a_strong_cause_leaves(always, once, far_less, expected):
     effect = on_joint(lambda state: always * waves(state) + once * push(state))
-    bench = bench_of(measured_arm(effect), ())
-    none = nothing_found(bench)
-    less, other = (bench.added(none, candidate(one)) for one in (ALWAYS, ONCE))
-    both = bench.added(less, candidate(ONCE))
-    assert (rise(less, both) < 0.05 * rise(other, both)) is far_less
-    assert left_over(bench, both, 1, less) is expected
+    fitter = bench_of(measured_arm(effect), ())
+    none = nothing_found(fitter)
+    less, other = (fitter.added(none, candidate(one)) for one in (ALWAYS, ONCE))
+    both = fitter.added(less, candidate(ONCE))
+    assert (likelihood_ratio(less, both) < 0.05 * likelihood_ratio(other, both)) is far_less
+    assert is_masked(fitter, both, 1, less) is expected

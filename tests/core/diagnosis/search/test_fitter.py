@@ -10,9 +10,9 @@ from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_j
 from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
 from veritorque.core.diagnosis.causes.payload_change import PayloadChange
 from veritorque.core.diagnosis.causes.registry import BY_ID
-from veritorque.core.diagnosis.checks.holdout_outliers import turned
-from veritorque.core.diagnosis.search.fitter import Bench
-from veritorque.core.diagnosis.search.hypothesis import Hypothesis, Scored
+from veritorque.core.diagnosis.checks.holdout_outliers import with_other_holdout
+from veritorque.core.diagnosis.search.fitter import HypothesisFitter
+from veritorque.core.diagnosis.search.hypothesis import Hypothesis, ScoredCandidate
 
 TRUE, NEAR = 7.0, 6.5
 """Waves per radian: what is there, and what resembles it."""
@@ -24,11 +24,11 @@ def wave(state, scalars):
     return [np.sin(scalars["rate"] * state.position[:, 1])]
 
 
-def scanned(allowed) -> Scored:
+def scanned(allowed) -> ScoredCandidate:
     """Scan both waves, of which nature allows those that are given."""
     cause = made_up("wave", wave, RATES, allowed=lambda one: one["rate"] in allowed)
-    bench = bench_of(measured_arm(WAVE), (cause,))
-    (found,) = bench.scanned(nothing_found(bench))
+    fitter = bench_of(measured_arm(WAVE), (cause,))
+    (found,) = fitter.scanned(nothing_found(fitter))
     return found
 
 
@@ -87,18 +87,18 @@ def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
 
 def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
     """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
-    bench = bench_of(measured_arm(WAVE), ())
-    bench.believe(nothing_found(bench))
+    fitter = bench_of(measured_arm(WAVE), ())
+    fitter.believe(nothing_found(fitter))
     member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
-    whole = bench.tried((member,))
-    (found,) = bench.scanned(bench.beneath(whole, len(whole.members) - 1), [member])
+    whole = fitter.tried((member,))
+    (found,) = fitter.scanned(fitter.beneath(whole, len(whole.members) - 1), [member])
     np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
 
 
 def at_rest(torque) -> float:
     """Give the second joint's share of error at rest where a torque is there that the model lacks."""
-    bench = bench_of(measured_arm(on_joint(torque)), ())
-    return float(bench.at_rest(nothing_found(bench))[1])
+    fitter = bench_of(measured_arm(on_joint(torque)), ())
+    return float(fitter.at_rest(nothing_found(fitter))[1])
 
 
 def test_what_is_missed_only_while_a_joint_turns_round_is_friction_at_rest():
@@ -111,20 +111,20 @@ def test_what_is_missed_all_along_the_motion_is_not():
 
 
 def test_what_was_believed_comes_back_with_everything_that_was_built_on_it():
-    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
-    none = nothing_found(bench)
-    suspected, found = bench.candidates, bench.scanned(none)
-    believe_before = bench.remembered()
-    bench.believe(replace(none, fit=replace(none.fit, values=2.0 * none.fit.values)))
-    assert not np.allclose(bench.scanned(none)[0].values, found[0].values)
+    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(fitter)
+    suspected, found = fitter.candidates, fitter.scanned(none)
+    believe_before = fitter.remembered()
+    fitter.believe(replace(none, fit=replace(none.fit, values=2.0 * none.fit.values)))
+    assert not np.allclose(fitter.scanned(none)[0].values, found[0].values)
     believe_before()
-    assert bench.candidates == suspected
-    assert np.array_equal(bench.scanned(none)[0].values, found[0].values)
+    assert fitter.candidates == suspected
+    assert np.array_equal(fitter.scanned(none)[0].values, found[0].values)
 
 
-def believed_times(bench: Bench, none: Hypothesis, factor: float) -> None:
+def believed_times(fitter: HypothesisFitter, none: Hypothesis, factor: float) -> None:
     """Believe in bodies so many times as heavy as those that were found."""
-    bench.believe(replace(none, fit=replace(none.fit, values=factor * none.fit.values)))
+    fitter.believe(replace(none, fit=replace(none.fit, values=factor * none.fit.values)))
 
 
 class Counted(type(BY_ID["torque_gain_nonlinear"])):
@@ -133,41 +133,41 @@ class Counted(type(BY_ID["torque_gain_nonlinear"])):
     id = "counted"
     built: ClassVar[list[float]] = []
 
-    def grid(self, look, believed, site):
+    def grid(self, dataset, operating_point, site):
         return [{"point": float(point)} for point in range(40)]
 
-    def term(self, look, believed, site, scalars):
+    def term(self, dataset, operating_point, site, scalars):
         self.built.append(scalars["point"])
-        return super().term(look, believed, site, scalars)
+        return super().term(dataset, operating_point, site, scalars)
 
 
-def built_anew(bench: Bench, none: Hypothesis) -> int:
+def built_anew(fitter: HypothesisFitter, none: Hypothesis) -> int:
     """Count the columns that a scan has to build under what is believed now."""
     Counted.built.clear()
-    bench.scanned(none)
+    fitter.scanned(none)
     return len(Counted.built)
 
 
 def test_a_belief_that_hardly_differs_ranks_with_the_columns_of_the_one_before():
-    bench = bench_of(measured_arm(WAVE), (Counted(),))
-    none = nothing_found(bench)
+    fitter = bench_of(measured_arm(WAVE), (Counted(),))
+    none = nothing_found(fitter)
     built = []
     for factor in (1.0, 1.005, 1.1):
-        believed_times(bench, none, factor)
-        built.append(built_anew(bench, none))
+        believed_times(fitter, none, factor)
+        built.append(built_anew(fitter, none))
     # Three joints have forty points each; the best of each joint is built anew.
     assert built == [120, 3, 120]
 
 
 def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_without_building_columns_again():
     scene = measured_arm(WAVE)
-    bench = bench_of(scene, (Counted(),))
-    bench.scanned(nothing_found(bench))
-    look = turned(scene.look)
-    other, own = bench.with_look(look), bench_of(replace(scene, look=look), (Counted(),))
+    fitter = bench_of(scene, (Counted(),))
+    fitter.scanned(nothing_found(fitter))
+    dataset = with_other_holdout(scene.dataset)
+    other, own = fitter.with_look(dataset), bench_of(replace(scene, dataset=dataset), (Counted(),))
     none, alone = nothing_found(other), nothing_found(own)
     np.testing.assert_array_equal(none.fit.values, alone.fit.values)
-    assert not np.array_equal(none.fit.values, bench.tried(()).fit.values)
+    assert not np.array_equal(none.fit.values, fitter.tried(()).fit.values)
     # The best of each of three joints, under what is believed now.
     assert built_anew(other, none) == 3
     pairs = zip(other.scanned(none), own.scanned(alone), strict=True)
@@ -175,50 +175,50 @@ def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_withou
 
 
 def test_a_belief_that_differs_on_one_joint_ranks_anew_what_is_suspected_of_that_joint_alone():
-    bench = bench_of(measured_arm(WAVE), (Counted(),))
-    none = nothing_found(bench)
-    bench.scanned(none)
-    parameters = [bench.plan.model.parameters[one] for one in bench.plan.columns]
+    fitter = bench_of(measured_arm(WAVE), (Counted(),))
+    none = nothing_found(fitter)
+    fitter.scanned(none)
+    parameters = [fitter.plan.model.parameters[one] for one in fitter.plan.columns]
     (rubs,) = (place for place, one in enumerate(parameters) if (one.symbol, one.joint) == ("FC", 2))
     values = none.fit.values.copy()
     values[rubs] += 5.0
-    bench.believe(replace(none, fit=replace(none.fit, values=values)))
+    fitter.believe(replace(none, fit=replace(none.fit, values=values)))
     # The best of the other two joints are built anew.
-    assert built_anew(bench, none) == 40 + 2
+    assert built_anew(fitter, none) == 40 + 2
 
 
 def test_the_best_of_a_scan_are_scored_with_the_columns_of_what_is_believed():
-    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
-    none = nothing_found(bench)
-    before = {one.candidate.key: one.values for one in bench.scanned(none)}
-    believed_times(bench, none, 1.005)
-    for one in bench.scanned(none):
+    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(fitter)
+    before = {one.candidate.key: one.values for one in fitter.scanned(none)}
+    believed_times(fitter, none, 1.005)
+    for one in fitter.scanned(none):
         np.testing.assert_allclose(one.values, before[one.candidate.key] / 1.005**3, rtol=1e-6)
 
 
 def test_what_is_fitted_has_the_columns_of_what_is_believed_however_little_that_differs():
-    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
-    none = nothing_found(bench)
-    (first, *_) = (one.candidate for one in bench.scanned(none))
-    before = bench.added(none, first).fit.values[-1]
-    believed_times(bench, none, 1.01)
-    after = bench.added(none, first).fit.values[-1]
+    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(fitter)
+    (first, *_) = (one.candidate for one in fitter.scanned(none))
+    before = fitter.added(none, first).fit.values[-1]
+    believed_times(fitter, none, 1.01)
+    after = fitter.added(none, first).fit.values[-1]
     # A cube's coefficient falls by the cube of what its argument grows by.
     np.testing.assert_allclose(after, before / 1.01**3, rtol=0.02)
     assert after != before
 
 
 def test_a_scan_is_made_once_for_a_hypothesis():
-    bench = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
-    none = nothing_found(bench)
-    assert bench.scanned(none) is bench.scanned(none)
+    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    none = nothing_found(fitter)
+    assert fitter.scanned(none) is fitter.scanned(none)
 
 
 def test_two_causes_of_one_name_are_both_suspected_at_the_same_joint():
     """As a load that came within the log, and one that is there since the reference."""
-    bench = bench_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
-    nothing_found(bench)
-    last = [one for one in bench.candidates if one.site == (3,)]
+    fitter = bench_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
+    nothing_found(fitter)
+    last = [one for one in fitter.candidates if one.site == (3,)]
     assert {one.cause.throughout for one in last} == {True, False}
-    assert {one.cause.throughout for one in bench.suspicion.of_kind(last[0].key)} == {True, False}
-    assert {one.cause.throughout for one in bench.suspicion.of(last[0].cause, (3,))} == {True}
+    assert {one.cause.throughout for one in fitter.suspicion.of_kind(last[0].key)} == {True, False}
+    assert {one.cause.throughout for one in fitter.suspicion.of(last[0].cause, (3,))} == {True}

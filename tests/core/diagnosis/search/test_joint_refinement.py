@@ -6,9 +6,9 @@ import pytest
 from tests.core.diagnosis.made_up import candidate, nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
-from veritorque.core.diagnosis.search.joint_refinement import settled
-from veritorque.core.diagnosis.search.likelihood_ratio import rise
-from veritorque.core.diagnosis.search.stepwise import select
+from veritorque.core.diagnosis.search.joint_refinement import refine_jointly
+from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
+from veritorque.core.diagnosis.search.stepwise import search_stepwise
 
 QUICK, QUICKER, SLOW, OTHER = 7.0, 11.0, 4.5, 4.0
 
@@ -18,9 +18,9 @@ class Fickle(WaveCause):
 
     id = title = "fickle"
 
-    def term(self, look, believed, site, scalars):
-        believes = any(isinstance(one, BuiltOn) for one, _ in believed.joined)
-        return BuiltOn(site[0], {SLOW if believes else QUICK: 1.0}, believed)
+    def term(self, dataset, operating_point, site, scalars):
+        believes = any(isinstance(one, BuiltOn) for one, _ in operating_point.joined)
+        return BuiltOn(site[0], {SLOW if believes else QUICK: 1.0}, operating_point)
 
 
 @pytest.mark.parametrize(
@@ -28,13 +28,13 @@ class Fickle(WaveCause):
 )
 def test_what_is_found_is_believed_unless_that_takes_what_it_brings(share, kept):
     cause = Fickle()
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.3, SLOW: share})), (cause,))
-    none = nothing_found(bench)
-    found = bench.added(none, candidate(cause))
-    now = settled(bench, found)
-    assert rise(none, now) > 0.5 * rise(none, found) > 5.0
-    (columns,) = bench.columns(now.members)
-    angle = bench.look.state.position[:, 1]
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.3, SLOW: share})), (cause,))
+    none = nothing_found(fitter)
+    found = fitter.added(none, candidate(cause))
+    now = refine_jointly(fitter, found)
+    assert likelihood_ratio(none, now) > 0.5 * likelihood_ratio(none, found) > 5.0
+    (columns,) = fitter.columns(now.members)
+    angle = fitter.dataset.state.position[:, 1]
     like = [abs(np.corrcoef(columns[1][:, 0], np.sin(rate * angle))[0, 1]) for rate in (QUICK, SLOW)]
     assert (QUICK, SLOW)[int(np.argmax(like))] == kept
 
@@ -42,9 +42,9 @@ def test_what_is_found_is_believed_unless_that_takes_what_it_brings(share, kept)
 def test_what_was_swapped_out_is_not_believed_any_more_even_if_the_other_is_left_alone():
     nearly = wave_cause("nearly", {QUICK: 1.0, QUICKER: 1.0, OTHER: 0.5})
     causes = (Fickle(), wave_cause("quicker", {QUICKER: 1.0}), nearly)
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes)
-    found = select(bench)
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes)
+    found = search_stepwise(fitter)
     assert ("swapped", "fickle") in [(step.action, step.candidate.cause.id) for step in found.steps]
     assert [one.cause.id for one in found.chosen.members] == ["quicker", "fickle"]
-    (believed,) = [term.waves for term, _ in bench.believed.joined]
-    assert believed == {QUICKER: 1.0}
+    (operating_point,) = [term.waves for term, _ in fitter.operating_point.joined]
+    assert operating_point == {QUICKER: 1.0}

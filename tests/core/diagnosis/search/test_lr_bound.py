@@ -10,9 +10,9 @@ from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
 from veritorque.core.diagnosis.search.entry_test import RAISED, with_candidate
-from veritorque.core.diagnosis.search.fitter import Bench
-from veritorque.core.diagnosis.search.likelihood_ratio import rise
-from veritorque.core.diagnosis.search.lr_bound import foreseen
+from veritorque.core.diagnosis.search.fitter import HypothesisFitter
+from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
+from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratios
 from veritorque.core.estimate.gaussian_prior import Belief
 from veritorque.core.reduction.base import base_model
 
@@ -22,15 +22,15 @@ SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E
 STIFF: Effect = lambda state: np.sign(state.velocity) * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
 
 
-def free_bench(effect: Effect) -> Bench:
+def free_bench(effect: Effect) -> HypothesisFitter:
     """Suspect every cause where the rows alone tell the parameters."""
     return bench_of(measured_arm(effect), CAUSES)
 
 
-def believing_bench(effect: Effect) -> Bench:
+def believing_bench(effect: Effect) -> HypothesisFitter:
     """Suspect what may have changed since a reference whose parameters are known within a twentieth."""
     scene = measured_arm(effect)
-    values = base_model(scene.believed.model).base_of(scene.believed.standard)
+    values = base_model(scene.operating_point.model).base_of(scene.operating_point.standard)
     rows = np.diag(20.0 / np.maximum(np.abs(values), 1e-3))
     return bench_of(scene, AGAINST_REFERENCE, Belief(rows, rows @ values))
 
@@ -52,41 +52,41 @@ BENCHES = {
     ids=["wave", "large_wave", "drift"],
 )
 def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its_fit_finds_it(effect, cause):
-    bench = bench_of(measured_arm(effect), (cause,))
-    none = nothing_found(bench)
-    hidden = bench.scanned(none)[0]
-    brings = rise(none, with_candidate(bench, none, hidden))
+    fitter = bench_of(measured_arm(effect), (cause,))
+    none = nothing_found(fitter)
+    hidden = fitter.scanned(none)[0]
+    brings = likelihood_ratio(none, with_candidate(fitter, none, hidden))
     assert hidden.statistic < 0.2 * brings
-    assert foreseen(bench, none, [hidden])[0] == pytest.approx(brings, rel=0.15)
+    assert predicted_likelihood_ratios(fitter, none, [hidden])[0] == pytest.approx(brings, rel=0.15)
 
 
 def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
-    bench = bench_of(measured_arm(SPRUNG), CAUSES)
-    none = nothing_found(bench)
-    scans = bench.scanned(none)[:16]
-    brings = np.array([rise(none, with_candidate(bench, none, one)) for one in scans])
+    fitter = bench_of(measured_arm(SPRUNG), CAUSES)
+    none = nothing_found(fitter)
+    scans = fitter.scanned(none)[:16]
+    brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
     assert brings.max() > 100.0
-    assert np.all(brings < RAISED * np.maximum(foreseen(bench, none, scans), 5.0))
+    assert np.all(brings < RAISED * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0))
 
 
 def test_beside_what_is_found_already_only_the_rest_is_foreseen():
-    bench = bench_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
-    none = nothing_found(bench)
-    spring, ripple = bench.scanned(none)[:2]
+    fitter = bench_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
+    none = nothing_found(fitter)
+    spring, ripple = fitter.scanned(none)[:2]
     assert (spring.candidate.cause.id, ripple.candidate.cause.id) == ("spring_compensator", "torque_ripple")
-    beside = with_candidate(bench, none, spring)
-    again = next(one for one in bench.scanned(beside) if one.candidate.key == ripple.candidate.key)
-    assert foreseen(bench, none, [ripple])[0] > 100.0
-    assert foreseen(bench, beside, [again])[0] < 20.0
+    beside = with_candidate(fitter, none, spring)
+    again = next(one for one in fitter.scanned(beside) if one.candidate.key == ripple.candidate.key)
+    assert predicted_likelihood_ratios(fitter, none, [ripple])[0] > 100.0
+    assert predicted_likelihood_ratios(fitter, beside, [again])[0] < 20.0
 
 
 @pytest.mark.parametrize("make", BENCHES.values(), ids=BENCHES)
 @pytest.mark.parametrize("effect", [DRIFT, SPRUNG], ids=["drift", "sprung"])
 def test_of_no_effect_nothing_is_foreseen(make, effect):
-    bench = make(effect)
-    none = nothing_found(bench)
-    nothing = [replace(one, values=0.0 * one.values) for one in bench.scanned(none)[:8]]
-    np.testing.assert_allclose(foreseen(bench, none, nothing), 0.0, atol=5.0)
+    fitter = make(effect)
+    none = nothing_found(fitter)
+    nothing = [replace(one, values=0.0 * one.values) for one in fitter.scanned(none)[:8]]
+    np.testing.assert_allclose(predicted_likelihood_ratios(fitter, none, nothing), 0.0, atol=5.0)
 
 
 @pytest.mark.parametrize(
@@ -95,11 +95,11 @@ def test_of_no_effect_nothing_is_foreseen(make, effect):
     ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
 )
 def test_what_will_bring_most_is_foreseen_to(make, effect):
-    bench = make(effect)
-    none = nothing_found(bench)
-    scans = bench.scanned(none)[:16]
-    brings = np.array([rise(none, with_candidate(bench, none, one)) for one in scans])
-    reach = np.array(foreseen(bench, none, scans))
+    fitter = make(effect)
+    none = nothing_found(fitter)
+    scans = fitter.scanned(none)[:16]
+    brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
+    reach = np.array(predicted_likelihood_ratios(fitter, none, scans))
     assert brings.max() > 100.0
     assert reach[brings.argmax()] > 0.5 * brings.max()
     assert np.all(brings < RAISED * np.maximum(reach, 5.0))

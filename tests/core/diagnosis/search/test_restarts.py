@@ -7,9 +7,13 @@ import pytest
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
-from veritorque.core.diagnosis.checks.alternatives import INDIFFERENCE
-from veritorque.core.diagnosis.search.restarts import consolidated, criterion, reconsidered
-from veritorque.core.diagnosis.search.stepwise import Selection, select
+from veritorque.core.diagnosis.checks.alternatives import UNDECIDED
+from veritorque.core.diagnosis.search.restarts import (
+    bic,
+    restart_at_operating_point,
+    restart_from_common_cause,
+)
+from veritorque.core.diagnosis.search.stepwise import Selection, search_stepwise
 
 PARTS = ("first", "second", "third")
 RATES = (7.0, 11.0, 4.0)
@@ -22,15 +26,15 @@ def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, fur
     whole = wave_cause("whole", dict(zip(RATES, SIZES, strict=True)))
     type(whole).leaves, type(whole).excludes = leaves, excludes
     type(whole).sites = lambda *_: [()]
-    type(whole).term = lambda self, look, believed, _, scalars: super(type(whole), self).term(
-        look, believed, (2,), scalars
+    type(whole).term = lambda self, dataset, operating_point, _, scalars: super(type(whole), self).term(
+        dataset, operating_point, (2,), scalars
     )
-    bench = bench_of(
+    fitter = bench_of(
         measured_arm(wave_effect(dict(zip((*RATES, 15.0), sizes, strict=False)))), [*parts, whole, *further]
     )
-    none = nothing_found(bench)
-    members = tuple(one for name in first for one in bench.candidates if one.cause.id == name)
-    return bench, Selection(none, bench.tried(members), ())
+    none = nothing_found(fitter)
+    members = tuple(one for name in first for one in fitter.candidates if one.cause.id == name)
+    return fitter, Selection(none, fitter.tried(members), ())
 
 
 def named(selection):
@@ -38,10 +42,10 @@ def named(selection):
 
 
 def test_what_one_cause_explains_with_fewer_numbers_is_that_cause():
-    bench, found = found_one_by_one()
-    better = consolidated(bench, found)
+    fitter, found = found_one_by_one()
+    better = restart_from_common_cause(fitter, found)
     assert named(better) == ["whole"]
-    assert criterion(better.chosen) > criterion(found.chosen) + INDIFFERENCE
+    assert bic(better.chosen) > bic(found.chosen) + UNDECIDED
     assert [(step.action, step.candidate.cause.id) for step in better.steps] == [("swapped", "whole")]
 
 
@@ -51,45 +55,45 @@ def test_what_one_cause_explains_with_fewer_numbers_is_that_cause():
     ids=["it explains less", "it leaves but one of them", "there are not several"],
 )
 def test_otherwise_what_was_found_stays(case):
-    bench, found = found_one_by_one(**case)
-    believed = bench.believed
-    assert consolidated(bench, found) is found
-    assert bench.believed is believed
+    fitter, found = found_one_by_one(**case)
+    operating_point = fitter.operating_point
+    assert restart_from_common_cause(fitter, found) is found
+    assert fitter.operating_point is operating_point
 
 
 def test_a_search_that_begins_with_the_whole_goes_on_from_there():
-    bench, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
-    better = consolidated(bench, found)
+    fitter, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
+    better = restart_from_common_cause(fitter, found)
     assert named(better) == ["whole", "quickest"]
 
 
 def test_a_search_that_comes_to_where_the_first_one_went_on_from_ends_there():
-    bench, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
-    end = frozenset(consolidated(bench, found).chosen.by_key)
+    fitter, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
+    end = frozenset(restart_from_common_cause(fitter, found).chosen.by_key)
     found = replace(found, through=frozenset({end}))
-    assert consolidated(bench, found) is found
+    assert restart_from_common_cause(fitter, found) is found
 
 
 def test_a_search_that_stays_where_it_began_has_met_no_other():
-    bench, found = found_one_by_one()
-    better = consolidated(bench, found)
+    fitter, found = found_one_by_one()
+    better = restart_from_common_cause(fitter, found)
     found = replace(found, through=frozenset({frozenset(better.chosen.by_key)}))
-    assert named(consolidated(bench, found)) == ["whole"]
+    assert named(restart_from_common_cause(fitter, found)) == ["whole"]
 
 
 def test_a_search_tells_what_sets_of_causes_it_came_through():
     waves = (("quick", 7.0, 0.6), ("slow", 4.0, 0.3))
-    bench = bench_of(
+    fitter = bench_of(
         measured_arm(wave_effect({rate: size for _, rate, size in waves})),
         [wave_cause(name, {rate: 1.0}) for name, rate, _ in waves],
     )
-    quick, slow = (one.key for one in select(bench).chosen.members)
-    assert select(bench).through == {frozenset({quick}), frozenset({quick, slow})}
+    quick, slow = (one.key for one in search_stepwise(fitter).chosen.members)
+    assert search_stepwise(fitter).through == {frozenset({quick}), frozenset({quick, slow})}
 
 
 def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
-    bench, found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
-    better = consolidated(bench, found)
+    fitter, found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
+    better = restart_from_common_cause(fitter, found)
     assert named(better) == ["whole"]
 
 
@@ -98,24 +102,24 @@ class Flattering(WaveCause):
 
     id = title = "flattering"
 
-    def term(self, look, believed, site, scalars):
-        sizes = [float(value[0]) for one, value in believed.joined if isinstance(one, BuiltOn)]
+    def term(self, dataset, operating_point, site, scalars):
+        sizes = [float(value[0]) for one, value in operating_point.joined if isinstance(one, BuiltOn)]
         half = 1.0 if sizes else 0.5
         alone = any(size < 1.5 for size in sizes)
         waves = {7.0: 0.6} if alone else {7.0: 0.6 * half, 4.5: 0.3 * half, 11.0: 0.03 * half}
-        return BuiltOn(site[0], waves, believed)
+        return BuiltOn(site[0], waves, operating_point)
 
 
 def test_what_explains_less_once_it_is_believed_makes_way_for_what_it_hid():
     effect = wave_effect({7.0: 0.6, 4.5: 0.3})
-    bench = bench_of(measured_arm(effect), (Flattering(), wave_cause("slow", {4.5: 1.0})))
-    found = select(bench)
+    fitter = bench_of(measured_arm(effect), (Flattering(), wave_cause("slow", {4.5: 1.0})))
+    found = search_stepwise(fitter)
     assert named(found) == ["flattering"]
-    assert named(reconsidered(bench, found)) == ["flattering", "slow"]
+    assert named(restart_at_operating_point(fitter, found)) == ["flattering", "slow"]
 
 
 def test_where_nothing_was_hid_what_was_found_and_believed_stays():
-    bench = bench_of(measured_arm(wave_effect({7.0: 0.6, 4.5: 0.3})), (Flattering(),))
-    found, believed = select(bench), bench.believed
-    assert reconsidered(bench, found) is found
-    assert bench.believed is believed
+    fitter = bench_of(measured_arm(wave_effect({7.0: 0.6, 4.5: 0.3})), (Flattering(),))
+    found, operating_point = search_stepwise(fitter), fitter.operating_point
+    assert restart_at_operating_point(fitter, found) is found
+    assert fitter.operating_point is operating_point

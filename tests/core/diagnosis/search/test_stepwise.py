@@ -12,20 +12,19 @@ from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.protocol import Confusion
 from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
-from veritorque.core.diagnosis.checks.alternatives import standing, weighed
-from veritorque.core.diagnosis.search import fitter
+from veritorque.core.diagnosis.checks.alternatives import compare_alternatives, compare_member
 from veritorque.core.diagnosis.search import stepwise as search
 from veritorque.core.diagnosis.search.entry_test import (
     BESIDES,
     FURTHER_LEVEL,
     LEVEL,
     RAISED,
-    clear_enough,
-    stays,
+    is_significant,
+    passes_exit_test,
 )
-from veritorque.core.diagnosis.search.likelihood_ratio import log_p, merit, rise
-from veritorque.core.diagnosis.search.lr_bound import foreseen
-from veritorque.core.diagnosis.search.stepwise import Selection, confirmed, select
+from veritorque.core.diagnosis.search.likelihood_ratio import bic_gain, likelihood_ratio, log_p
+from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratios
+from veritorque.core.diagnosis.search.stepwise import Selection, confirm, search_stepwise
 
 QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -41,7 +40,7 @@ def names(selection: Selection) -> list[tuple[str, tuple[int, ...]]]:
 
 
 def searched(effect: Effect | None, seed: int) -> Selection:
-    return select(bench_of(measured_arm(effect, seed=seed), CAUSES))
+    return search_stepwise(bench_of(measured_arm(effect, seed=seed), CAUSES))
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -84,7 +83,7 @@ def spiky(state):
     ("effect", "named"), [(shoved, ["external_contact"]), (spiky, [])], ids=["shoved", "spiky"]
 )
 def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
-    found = select(bench_of(measured_arm(effect), (BY_ID["external_contact"],)))
+    found = search_stepwise(bench_of(measured_arm(effect), (BY_ID["external_contact"],)))
     assert [name for name, _ in names(found)] == named
 
 
@@ -96,13 +95,13 @@ def only_before_the_unseen_rows(state):
 
 def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_the_same():
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
-    bench = bench_of(measured_arm(only_before_the_unseen_rows), causes)
-    none = nothing_found(bench)
-    first, second = bench.scanned(none)
+    fitter = bench_of(measured_arm(only_before_the_unseen_rows), causes)
+    none = nothing_found(fitter)
+    first, second = fitter.scanned(none)
     assert first.candidate.cause.id == "quick"
-    (small,) = foreseen(bench, none, [second])
-    assert RAISED * small + BESIDES < merit(none, bench.added(none, first.candidate))
-    assert names(select(bench)) == [("quicker", (2,))]
+    (small,) = predicted_likelihood_ratios(fitter, none, [second])
+    assert RAISED * small + BESIDES < bic_gain(none, fitter.added(none, first.candidate))
+    assert names(search_stepwise(fitter)) == [("quicker", (2,))]
 
 
 def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_time():
@@ -110,9 +109,9 @@ def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_tim
     event = wave_cause("event", {QUICK: 1.0, QUICKER: 0.5})
     type(event).event = True
     effect = wave_effect({QUICK: 0.6, QUICKER: 0.3})
-    alone = select(bench_of(measured_arm(effect), (event,)))
+    alone = search_stepwise(bench_of(measured_arm(effect), (event,)))
     assert names(alone) == [("event", (2,))]
-    both = select(bench_of(measured_arm(effect), (lasting, event)))
+    both = search_stepwise(bench_of(measured_arm(effect), (lasting, event)))
     assert [(step.action, step.candidate.cause.id) for step in both.steps] == [
         ("added", "lasting"),
         ("added", "event"),
@@ -121,17 +120,17 @@ def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_tim
 
 
 def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most(monkeypatch):
-    bench = bench_of(
+    fitter = bench_of(
         measured_arm(wave_effect({QUICK: 0.6})),
         (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly_quick", {NEARLY_QUICK: 1.0})),
     )
-    in_turn = cycle(one.candidate for one in bench.scanned(nothing_found(bench)))
+    in_turn = cycle(one.candidate for one in fitter.scanned(nothing_found(fitter)))
 
-    def other_than_the_last(bench, now, *_given_up_and_limits):
-        return None if now.members else bench.added(now, next(in_turn))
+    def other_than_the_last(fitter, now, *_given_up_and_limits):
+        return None if now.members else fitter.added(now, next(in_turn))
 
-    monkeypatch.setattr(search, "best_addition", other_than_the_last)
-    assert [step.action for step in select(bench).steps] == ["added", "swapped", "swapped"]
+    monkeypatch.setattr(search, "best_entry", other_than_the_last)
+    assert [step.action for step in search_stepwise(fitter).steps] == ["added", "swapped", "swapped"]
 
 
 @cache
@@ -142,7 +141,7 @@ def misled() -> Selection:
         wave_cause("quicker", {QUICKER: 1.0}),
         wave_cause("stand_in", {QUICK: 1.0, QUICKER: 1.0, SLOW: 0.5}),
     )
-    return select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes))
+    return search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes))
 
 
 def test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found():
@@ -166,30 +165,30 @@ def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly
 ):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
     type(causes[0]).leaves = leaves
-    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
+    found = search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
     assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
 
 
-def weakly(bench, first, second):
+def weakly(fitter, first, second):
     """Tell whether a second cause is clear enough to be the first one, but not to be just another one."""
-    now = bench.tried((first,))
-    chance = log_p(now, bench.added(now, second)) + np.log(bench.kinds)
+    now = fitter.tried((first,))
+    chance = log_p(now, fitter.added(now, second)) + np.log(fitter.kinds)
     return np.log(FURTHER_LEVEL) < chance < np.log(LEVEL)
 
 
 def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_that():
     effect = lambda state: 0.3 * SPRUNG(state) + 0.045 * UNEVEN(state)  # noqa: E731  (a formula)
-    bench = bench_of(measured_arm(effect), CAUSES)
-    found = select(bench)
+    fitter = bench_of(measured_arm(effect), CAUSES)
+    found = search_stepwise(fitter)
     assert names(found) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
-    assert weakly(bench, *sorted(found.chosen.members, key=lambda one: one.site))
+    assert weakly(fitter, *sorted(found.chosen.members, key=lambda one: one.site))
 
 
 def test_one_that_shares_what_it_explains_with_the_first_has_to_be_clearer():
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly", {NEARLY_QUICK: 1.0}))
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, NEARLY_QUICK: 0.034})), causes)
-    assert names(select(bench)) == [("quick", (2,))]
-    assert weakly(bench, *bench.candidates)
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, NEARLY_QUICK: 0.034})), causes)
+    assert names(search_stepwise(fitter)) == [("quick", (2,))]
+    assert weakly(fitter, *fitter.candidates)
 
 
 def test_one_that_would_not_join_any_more_is_dropped_when_another_one_joins():
@@ -197,10 +196,10 @@ def test_one_that_would_not_join_any_more_is_dropped_when_another_one_joins():
     causes = [
         wave_cause(name, {rate: 1.0}) for name, rate in zip(("quick", "nearly", "new"), waves, strict=True)
     ]
-    bench = bench_of(measured_arm(wave_effect(waves)), causes)
-    nothing_found(bench)
-    first, second, _ = bench.candidates
-    found = select(bench, start=(first, second))
+    fitter = bench_of(measured_arm(wave_effect(waves)), causes)
+    nothing_found(fitter)
+    first, second, _ = fitter.candidates
+    found = search_stepwise(fitter, start=(first, second))
     assert names(found) == [("new", (2,)), ("quick", (2,))]
     assert ("dropped", "nearly") in {(step.action, step.candidate.cause.id) for step in found.steps}
 
@@ -210,32 +209,36 @@ def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
         made_up("one", lambda state, _: [np.sin(QUICK * state.position[:, 1])]),
         made_up("two", lambda state, _: [wave(QUICKER * state.position[:, 1]) for wave in (np.sin, np.cos)]),
     )
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), causes)
-    nothing_found(bench)
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), causes)
+    nothing_found(fitter)
     one, two = map(candidate, causes)
-    both, turned = bench.tried((two, one)), bench.tried((one, two))
-    assert merit(bench.tried((one,)), both, 0) == pytest.approx(merit(bench.tried((one,)), turned), abs=0.5)
-    assert merit(bench.tried((two,)), turned, 0) == pytest.approx(merit(bench.tried((two,)), both), abs=0.5)
+    both, with_other_holdout = fitter.tried((two, one)), fitter.tried((one, two))
+    assert bic_gain(fitter.tried((one,)), both, 0) == pytest.approx(
+        bic_gain(fitter.tried((one,)), with_other_holdout), abs=0.5
+    )
+    assert bic_gain(fitter.tried((two,)), with_other_holdout, 0) == pytest.approx(
+        bic_gain(fitter.tried((two,)), both), abs=0.5
+    )
 
 
 def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rivals():
     """As a size that was possible beside another cause, and is not once that one was given up."""
     columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
     cause = made_up("forbidden", columns, allowed=lambda scalars: False)
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
-    none = nothing_found(bench)
-    forbidden = bench.tried((candidate(cause),))
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
+    none = nothing_found(fitter)
+    forbidden = fitter.tried((candidate(cause),))
     assert not forbidden.possible
-    kept, standings = weighed(bench, Selection(none, forbidden, ()))
-    assert (names(kept), standings) == ([], [])
-    assert not stays(bench, none, forbidden, 0)
+    kept, comparisons = compare_alternatives(fitter, Selection(none, forbidden, ()))
+    assert (names(kept), comparisons) == ([], [])
+    assert not passes_exit_test(fitter, none, forbidden, 0)
 
 
 @pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
 def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
     type(causes[0]).excludes = keeps_out
-    found = select(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
+    found = search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
     assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
 
 
@@ -250,12 +253,12 @@ def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_th
     columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
     cause = made_up("noisy", columns, like_position_noise=like_noise)
     scene = measured_arm(wave_effect({QUICK: 0.04}))
-    look = replace(scene.look, position_share=np.array([0.9, share, 0.9]))
-    bench = bench_of(replace(scene, look=look), (cause,))
-    none = nothing_found(bench)
-    trial = bench.tried((candidate(cause),))
-    assert 0.1 < rise(none, trial) / len(trial.fit.joints[1].torque) < 0.5
-    assert clear_enough(bench, none, trial, kinds=1) == named
+    dataset = replace(scene.dataset, position_share=np.array([0.9, share, 0.9]))
+    fitter = bench_of(replace(scene, dataset=dataset), (cause,))
+    none = nothing_found(fitter)
+    trial = fitter.tried((candidate(cause),))
+    assert 0.1 < likelihood_ratio(none, trial) / len(trial.fit.joints[1].torque) < 0.5
+    assert is_significant(fitter, none, trial, kinds=1) == named
 
 
 @cache
@@ -267,24 +270,24 @@ def twins():
         wave_cause("other", {QUICK: 1.0}, Confusion("one", "they are the same", experiment)),
         wave_cause("far", {QUICKER: 1.0}),
     )
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
-    return select(bench), bench
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
+    return search_stepwise(fitter), fitter
 
 
 def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_equally_good():
-    selection, bench = twins()
+    selection, fitter = twins()
     ((name, site),) = names(selection)
-    (rival,) = standing(bench, selection.chosen, 0).ambiguous
+    (rival,) = compare_member(fitter, selection.chosen, 0).ambiguous
     assert {name, rival.cause} == {"one", "other"}
     assert rival.joints == site
     assert rival.separating_experiment == "move the joint while its twin rests"
     # Noise is learned from different starts, until it gains less than 0.03 per joint; six would be much.
-    assert standing(bench, selection.chosen, 0).margin == pytest.approx(0.0, abs=0.3)
+    assert compare_member(fitter, selection.chosen, 0).margin == pytest.approx(0.0, abs=0.3)
 
 
 def test_a_rival_that_explains_little_is_not_equally_good():
-    selection, bench = twins()
-    assert "far" not in {rival.cause for rival in standing(bench, selection.chosen, 0).ambiguous}
+    selection, fitter = twins()
+    assert "far" not in {rival.cause for rival in compare_member(fitter, selection.chosen, 0).ambiguous}
 
 
 @pytest.mark.parametrize(
@@ -302,18 +305,18 @@ def test_of_causes_that_noise_of_positions_passes_for_one_refutes_the_other_only
     )
     scene, harmless = (measured_arm(one) for one in (wave_effect({QUICK: 0.05, QUICKER: 0.05}), None))
     noise = residual_of(harmless)
-    bench = bench_of(replace(scene, look=replace(scene.look, position_torque=size * noise)), causes)
-    whole, part = (bench.tried((candidate(one),)) for one in causes)
-    none, rows = nothing_found(bench), len(whole.fit.joints[1].torque)
-    assert 0.3**2 < (merit(none, whole) - merit(none, part)) / rows < 0.9
-    found = standing(bench, whole, 0)
+    fitter = bench_of(replace(scene, dataset=replace(scene.dataset, position_torque=size * noise)), causes)
+    whole, part = (fitter.tried((candidate(one),)) for one in causes)
+    none, rows = nothing_found(fitter), len(whole.fit.joints[1].torque)
+    assert 0.3**2 < (bic_gain(none, whole) - bic_gain(none, part)) / rows < 0.9
+    found = compare_member(fitter, whole, 0)
     assert [one.cause for one in found.ambiguous] == ["part"] * named
     assert [one.cause for one in found.refuted] == ["part"] * (not named)
 
 
 def residual_of(scene):
-    bench = bench_of(scene, ())
-    return bench.residual(bench.tried(()))
+    fitter = bench_of(scene, ())
+    return fitter.residual(fitter.tried(()))
 
 
 def wave_of(*rates):
@@ -321,43 +324,43 @@ def wave_of(*rates):
 
 
 def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
-    bench = bench_of(measured_arm(BOTH, seed=5), CAUSES)
-    monkeypatch.setattr(fitter, "leaves_too_much", lambda *_rows_and_fit: True)
-    assert bench.needs_ordinary_noise(nothing_found(bench))
-    other = bench.with_ordinary_noise()
-    assert names(select(other)) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
-    assert bench.needs_ordinary_noise(nothing_found(bench))
+    fitter = bench_of(measured_arm(BOTH, seed=5), CAUSES)
+    monkeypatch.setattr(fitter_module, "noise_absorbs_effect", lambda *_rows_and_fit: True)
+    assert fitter.needs_ordinary_noise(nothing_found(fitter))
+    other = fitter.with_ordinary_noise()
+    assert names(search_stepwise(other)) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
+    assert fitter.needs_ordinary_noise(nothing_found(fitter))
 
 
-def found_with(bench, *members) -> Selection:
+def found_with(fitter, *members) -> Selection:
     """Pretend that a search found some causes."""
-    none = nothing_found(bench)
-    return Selection(none, bench.tried(members), ())
+    none = nothing_found(fitter)
+    return Selection(none, fitter.tried(members), ())
 
 
 def waves_searched_for(*others):
     quick, quicker = wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0})
-    bench = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), (quick, quicker, *others))
-    return bench, quick
+    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), (quick, quicker, *others))
+    return fitter, quick
 
 
 def test_under_another_noise_a_search_goes_on_from_what_holds_its_place_to_where_a_new_one_ends():
-    bench, quick = waves_searched_for()
-    again = confirmed(bench.with_ordinary_noise(), found_with(bench, candidate(quick)))
+    fitter, quick = waves_searched_for()
+    again = confirm(fitter.with_ordinary_noise(), found_with(fitter, candidate(quick)))
     assert again is not None
     assert [step.action for step in again.steps] == ["kept", "added"]
     assert {frozenset(name for name, _ in came) for came in again.through} == {
         frozenset({"quick"}),
         frozenset({"quick", "quicker"}),
     }
-    anew = select(bench.with_ordinary_noise())
+    anew = search_stepwise(fitter.with_ordinary_noise())
     assert names(again) == names(anew) == [("quick", (2,)), ("quicker", (2,))]
-    assert abs(rise(anew.chosen, again.chosen)) < 1.0
+    assert abs(likelihood_ratio(anew.chosen, again.chosen)) < 1.0
 
 
 def test_nothing_is_confirmed_where_one_of_what_was_found_has_to_give_way():
     slow = wave_cause("slow", {SLOW: 1.0})
-    bench, quick = waves_searched_for(slow)
-    false = found_with(bench, candidate(quick), candidate(slow))
-    assert confirmed(bench.with_ordinary_noise(), false) is None
-    assert confirmed(bench.with_ordinary_noise(), found_with(bench)) is None
+    fitter, quick = waves_searched_for(slow)
+    false = found_with(fitter, candidate(quick), candidate(slow))
+    assert confirm(fitter.with_ordinary_noise(), false) is None
+    assert confirm(fitter.with_ordinary_noise(), found_with(fitter)) is None
