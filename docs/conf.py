@@ -32,7 +32,7 @@ NAVIGATION = {
         "operating",
     ],
     "Reference": ["api", "options", "problems", "formats", "terms", "causes"],
-    "Explanation": ["method", "feasibility", "precision", "accuracy", "decisions"],
+    "Explanation": ["method", "feasibility", "precision", "accuracy", "limits", "decisions"],
 }
 
 _HERE = Path(__file__).parent
