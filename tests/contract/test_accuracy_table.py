@@ -1,4 +1,4 @@
-"""Make the README's accuracy table again, row by row, as docs/accuracy.md says that it was made.
+"""Make the table of docs/accuracy.md again, row by row, as that page says that it was made.
 
 The logs are public measurements kept beside the project; without them these tests skip and say so.
 """
@@ -50,8 +50,13 @@ ROWS: list[tuple[str, list[Cut], dict[str, object]]] = [
 
 
 def printed_rows() -> list[list[str]]:
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    (table,) = re.findall(r"^\| robot \| fitted, held out \|.*?\n\n", text, re.DOTALL | re.MULTILINE)
+    return rows_of("docs/accuracy.md", "| robot | fitted, held out |")
+
+
+def rows_of(page: str, head: str) -> list[list[str]]:
+    """Give the cells of the one table of a page whose head begins so."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    (table,) = re.findall(rf"^{re.escape(head)}.*?\n\n", text, re.DOTALL | re.MULTILINE)
     return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.strip().splitlines()[2:]]
 
 
@@ -92,6 +97,19 @@ def log_of(name: str, cut: Cut) -> JointLog:
 
 def test_the_table_has_the_rows_that_are_made_here():
     assert len(printed_rows()) == len(ROWS)
+
+
+def test_the_table_of_the_readme_shortens_the_one_of_the_page():
+    """Its rows hold the first two of every robot: error of all joints, and band of the held-out motion."""
+    rows = printed_rows()
+    firsts = [place for place, row in enumerate(rows) if row[0]]
+    shown = rows_of("README.md", "| robot | error at the default band |")
+    assert len(shown) == len(firsts) == 4
+    for (robot, *errors), first in zip(shown, firsts, strict=True):
+        assert rows[first][0].startswith(robot)
+        bands = [row[2].split("; ")[-1] for row in rows[first : first + 2]]
+        totals = [row[4] for row in rows[first : first + 2]]
+        assert errors == [f"{total} % ({band} Hz)" for total, band in zip(totals, bands, strict=True)]
 
 
 @pytest.mark.parametrize("number", range(len(ROWS)))

@@ -219,7 +219,8 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     told = re.findall(r"(?m)^ +.*?([+-]\d+\.\d) *$", page[page.index("What had been") :])
     assert len(told) == 4
     assert all(abs(float(z)) < 3.0 for z in told)  # one log in four hundred exceeds 3 per number
-    shown = re.search(r"```\n(The simulation of.*?)```", (demo.ROOT / "README.md").read_text(), re.DOTALL)
+    guide = (demo.ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    shown = re.search(r"```\n(The simulation of.*?)```", guide, re.DOTALL)
     assert all(is_printed(line, words) for line in shown.group(1).splitlines() if line[:1] != " ")
     report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
     assert "gets two things wrong" in report
