@@ -43,7 +43,7 @@ def test_a_result_of_files_is_simulated_in_mujoco(folder, capsys):
     assert "the bodies can exist" in told
     errors = [float(one) for one in re.findall(r"^ +\d  (\d+\.\d+)$", told, re.MULTILINE)]
     assert len(errors) == 7
-    assert max(errors) < 3.0  # the README's 1.2 to 1.7 % of rms, with room for another machine
+    assert max(errors) < 3.0  # the 1.2 to 1.7 % of rms of docs/accuracy.md, with room for another machine
     swung = ran("06", capsys)
     # bodies.json weighs 9.5 kg; what is identified is one robot of many with the same base parameters
     assert swung.startswith("7 joints")
