@@ -152,7 +152,7 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     before = identified(request.logs, options, Fitting(data, base), _within(tell, 0.0, 0.3))
     question = DiagnosisProblem(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
     found = find_causes(question, _within(tell, 0.3, 0.5))
-    plain = Fitting(data, base, belief=None if reference is None else reference.belief)
+    plain = Fitting(data, base, prior=None if reference is None else reference.prior)
     found, proof = _proven(found, options, plain, tell)
     as_it_is = None if reference is None else compared(reference, before, data.parts(before.observation))
     if not cures(found):

@@ -84,7 +84,7 @@ def diagnose(question: DiagnosisProblem, progress: Progress | None = None) -> Di
     selection, comparisons = _weighed(fitter, searched)
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
     after = fitter.residual(chosen)
-    before = fitter.residual(selection.none) if fitter.belief is None else fitter.residual(chosen, everyone)
+    before = fitter.residual(selection.none) if fitter.prior is None else fitter.residual(chosen, everyone)
     unnamed_pattern = _stranger(fitter, selection, after)
     unnamed = 0.0 if unnamed_pattern is None else unnamed_pattern.statistic
     unnamed_pattern = _clearer(unnamed_pattern, burst(dataset, after))
@@ -169,8 +169,8 @@ def _weighed(fitter: HypothesisFitter, found: Selection) -> tuple[Selection, lis
 def _bench(question: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
     """Lay out what is suspected, and what is believed beforehand."""
     reference = question.reference
-    causes, belief = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.belief)
-    return HypothesisFitter(dataset, question.plan, causes, belief)
+    causes, prior = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.prior)
+    return HypothesisFitter(dataset, question.plan, causes, prior)
 
 
 def _looked(question: DiagnosisProblem) -> tuple[list[Finding], Dataset]:

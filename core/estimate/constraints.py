@@ -100,16 +100,16 @@ def _masses_by_link(rows: tuple[tuple[int, float, float], ...]) -> dict[int, tup
 
 @dataclass(frozen=True, eq=False)
 class Prior:
-    """Believe standard parameters beforehand.
+    """Hold a prior of the standard parameters, towards which the programme pulls.
 
     Attributes
     ----------
     centre
-        The believed standard parameters.
+        The expected standard parameters.
     scale
         What counts as one unit of deviation, per parameter.
     source
-        Where the belief comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the
+        Where it comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the
         torques).
     """
 

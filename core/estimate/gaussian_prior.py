@@ -1,6 +1,6 @@
-"""Hold what is believed of coefficients before any row is seen, in the form of further rows.
+"""Hold a normal prior of coefficients in the form of further rows.
 
-A normal distribution about an earlier estimate is the same as equations whose errors have unit variance.
+A normal distribution about an earlier estimate is equal to equations whose errors have unit variance.
 Source: Gelman et al., Bayesian Data Analysis (2013), ch. 14.
 """
 
@@ -12,8 +12,8 @@ from ..arrays import Matrix, Vector, Weights
 
 
 @dataclass(frozen=True, eq=False)
-class Belief:
-    """Hold what is believed of the first columns' coefficients: white equations, rows @ values = target."""
+class GaussianPrior:
+    """Hold a normal prior of the first columns: equations of unit variance, rows @ values = target."""
 
     rows: Matrix
     target: Vector

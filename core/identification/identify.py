@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from ..estimate.constraints import Prior, default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
-from ..estimate.gaussian_prior import Belief
+from ..estimate.gaussian_prior import GaussianPrior
 from ..estimate.measured import Measured, weighted_system
 from ..estimate.system import System
 from ..log.model import JointLog
@@ -32,14 +32,14 @@ class Fitting:
     ----------
     sizes
         By name, what counts as one unit of deviation of parameters that the standard model has not.
-    belief
-        What is believed of the base parameters beforehand; None where nothing is.
+    prior
+        Normal prior of the base parameters; None for none.
     """
 
     data: Measured
     base: BaseModel
     sizes: Mapping[str, float] = field(default_factory=dict)
-    belief: Belief | None = None
+    prior: GaussianPrior | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ def fitted(
         observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
     used, system = weighted_system(data, observation, options.estimate)
-    system = _informed(system, fitting.belief)
+    system = _informed(system, fitting.prior)
     parts = data.parts(observation)[0]
     prior = default_prior(base.model, torque_scales(observation, parts), fitting.sizes)
     return Fitted(observation, used, system, prior, estimate(base, system, prior, options.estimate))
@@ -81,7 +81,7 @@ def identified(
     observation, used, system, prior = found.observation, found.used, found.system, found.prior
     answer, parts = found.estimate, data.parts(observation)
     tell("assess", 0.7)
-    known = None if fitting.belief is None else fitting.belief.rows
+    known = None if fitting.prior is None else fitting.prior.rows
     precision = assess(system, used.memory, used.columns_of, answer.base, known=known)
     essential = essential_parameters(system, precision)
     if options.essential:
@@ -93,7 +93,7 @@ def identified(
         lambda drawn: (
             estimate(
                 base,
-                _informed(drawn, fitting.belief),
+                _informed(drawn, fitting.prior),
                 prior,
                 options.estimate,
                 essential=essential.kept if options.essential else None,
@@ -129,5 +129,5 @@ def identified(
     )
 
 
-def _informed(system: System, belief: Belief | None) -> System:
-    return system if belief is None else system.informed(belief.rows, belief.target)
+def _informed(system: System, prior: GaussianPrior | None) -> System:
+    return system if prior is None else system.informed(prior.rows, prior.target)

@@ -14,7 +14,7 @@ from scipy.linalg import null_space, qr, solve_triangular
 from ..arrays import BaseParameters, EquationRows, LinkParameters, Matrix, Parameters
 from ..errors import RobotError
 from ..estimate.constraints import link_columns
-from ..estimate.gaussian_prior import Belief
+from ..estimate.gaussian_prior import GaussianPrior
 from ..estimate.system import RANK_TOLERANCE, System, column_scale
 from ..reduction.base import BaseModel
 from ..robot.inertia import link_parameters, pseudo_inertia
@@ -55,9 +55,9 @@ class Reference:
     rows: Matrix
 
     @property
-    def belief(self) -> Belief:
+    def prior(self) -> GaussianPrior:
         """Give it as equations."""
-        return Belief(self.rows, self.rows @ self.values)
+        return GaussianPrior(self.rows, self.rows @ self.values)
 
     @property
     def left_open(self) -> tuple[str, ...]:

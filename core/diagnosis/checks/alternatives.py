@@ -107,7 +107,7 @@ def _stopgap(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, a
     """
     if own.margin < -UNDECIDED and not alone:
         return True
-    if own.member.cause.event or fitter.belief is not None:
+    if own.member.cause.event or fitter.prior is not None:
         return False
     expected = holdout_share(fitter, chosen, chosen.by_key[own.member.key]) * own.statistic
     dataset, left = fitter.dataset, (fitter.residual(own.without), fitter.residual(chosen))

@@ -148,4 +148,4 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
 
 def _without(fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison) -> JointSeries:
     """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
-    return fitter.residual(own.without) if fitter.belief is None else fitter.residual(chosen, (place,))
+    return fitter.residual(own.without) if fitter.prior is None else fitter.residual(chosen, (place,))

@@ -17,7 +17,7 @@ from scipy.linalg import cho_factor
 from scipy.linalg.lapack import dpotrs
 
 from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
-from ...estimate.gaussian_prior import Belief
+from ...estimate.gaussian_prior import GaussianPrior
 from .ar_noise import ARNoise, fit_ar_noise
 from .prewhitening import Prewhitened, whitened
 from .rows import JointRows
@@ -51,8 +51,8 @@ class Fit:
         Lower Cholesky factor of the columns' Gram matrix, scaled by `scale`.
     by_joint
         Log-likelihood of every joint's rows, noise model included.
-    belief
-        What was believed beforehand; None where nothing was.
+    prior
+        Normal prior of the first columns' coefficients; None for none.
     plain
         The ordinary fit from whose residual noise is learned; None where it is learned from this one's.
     """
@@ -63,13 +63,13 @@ class Fit:
     factor: SquareMatrix
     scale: Vector
     by_joint: JointVector
-    belief: Belief | None = None
+    prior: GaussianPrior | None = None
     plain: "Fit | None" = None
 
     @cached_property
     def log_likelihood(self) -> float:
         """Give the log-likelihood of all rows, and of what was believed."""
-        departed = 0.0 if self.belief is None else self.belief.departure(self.values)
+        departed = 0.0 if self.prior is None else self.prior.departure(self.values)
         return float(self.by_joint.sum()) - 0.5 * departed
 
     def solve(self, right: Matrix) -> Matrix:
@@ -87,7 +87,7 @@ def fit(
     noise: tuple[ARNoise, ...] | None = None,
     *,
     rounds: int = ROUNDS,
-    belief: Belief | None = None,
+    prior: GaussianPrior | None = None,
     ordinary: bool = False,
 ) -> Fit:
     """Fit all columns to all joints' rows, learning the noise anew in every round.
@@ -96,33 +96,33 @@ def fit(
     ----------
     noise
         What to begin with; None to begin with white noise of the torque's size.
-    belief
-        What is believed of the first columns' coefficients beforehand.
+    prior
+        Normal prior of the first columns' coefficients.
     ordinary
         Whether noise is learned from what an ordinary fit leaves.
     """
     size = _size(joints)
     if noise is not None:
-        return _settled(joints, _solved(_whitened(joints, noise), size, belief), None, rounds)
+        return _settled(joints, _solved(_whitened(joints, noise), size, prior), None, rounds)
     if ordinary:
-        plain = _ordinary(joints, belief)
+        plain = _ordinary(joints, prior)
         return _settled(joints, replace(plain, plain=plain), None, rounds + 1)
     first = _white_noise(joints, [rows.torque for rows in joints])
-    return _settled(joints, _solved(_whitened(joints, first), size, belief), None, rounds + 1)
+    return _settled(joints, _solved(_whitened(joints, first), size, prior), None, rounds + 1)
 
 
 def noise_absorbs_effect(joints: tuple[JointRows, ...], found: Fit) -> bool:
     """Tell whether a fit leaves some joint's noise much more than an ordinary fit leaves."""
-    plain = _ordinary(joints, found.belief)
+    plain = _ordinary(joints, found.prior)
     pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
     return any(float(ours @ ours) > TOO_MUCH**2 * float(theirs @ theirs) for ours, theirs in pairs)
 
 
-def _ordinary(joints: tuple[JointRows, ...], belief: Belief | None) -> Fit:
+def _ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit:
     """Fit under white noise, of the size of what the fit under white noise of the torque's size leaves."""
     size = _size(joints)
-    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, belief)
-    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), size, belief)
+    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, prior)
+    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), size, prior)
 
 
 def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[ARNoise, ...]:
@@ -163,7 +163,7 @@ def refit(
         for old, rows in zip(before.joints, joints, strict=True)
     )
     plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
-    return _settled(joints, _solved(parts, _size(joints), before.belief, plain), touched, rounds)
+    return _settled(joints, _solved(parts, _size(joints), before.prior, plain), touched, rounds)
 
 
 def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
@@ -186,7 +186,7 @@ def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int
             parts[joint] = whitened(rows, learned)
     if tuple(parts) == found.joints:
         return found
-    return _solved(tuple(parts), _size(joints), found.belief, found.plain)
+    return _solved(tuple(parts), _size(joints), found.prior, found.plain)
 
 
 def degrees_taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
@@ -196,15 +196,15 @@ def degrees_taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
 
 
 def _solved(
-    joints: tuple[Prewhitened, ...], size: int, belief: Belief | None, plain: Fit | None = None
+    joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | None, plain: Fit | None = None
 ) -> Fit:
     """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
     gram = np.zeros((size, size))
     for one in joints:
         gram[np.ix_(one.acting, one.acting)] += one.gram
-    if belief is not None:
-        operating_point = belief.rows.shape[1]
-        gram[:operating_point, :operating_point] += belief.rows.T @ belief.rows
+    if prior is not None:
+        known = prior.rows.shape[1]
+        gram[:known, :known] += prior.rows.T @ prior.rows
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor, _ = cho_factor(scaled, lower=True)
@@ -214,8 +214,8 @@ def _solved(
         slope = np.zeros(size)
         for one, rest in zip(joints, left, strict=True):
             slope[one.acting] += one.columns.T @ rest
-        if belief is not None:
-            slope += belief.slope(values)
+        if prior is not None:
+            slope += prior.slope(values)
         step = _solution(factor, scale, slope)
         if float(slope @ step) < EXACT:
             break
@@ -224,7 +224,7 @@ def _solved(
     by_joint = np.array(
         [-0.5 * float(rest @ rest) - one.log_deviations for one, rest in zip(joints, left, strict=True)]
     )
-    return Fit(joints, left, values, factor, scale, by_joint, belief, plain)
+    return Fit(joints, left, values, factor, scale, by_joint, prior, plain)
 
 
 def _solution(factor: SquareMatrix, scale: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays import Indices, JointSeries, JointVector
 from ...dynamics.prediction import Prediction
-from ...estimate.gaussian_prior import Belief
+from ...estimate.gaussian_prior import GaussianPrior
 from ...regressor.columns import ColumnPlan
 from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause
@@ -44,8 +44,8 @@ class HypothesisFitter:
         The model's base columns.
     causes
         What is suspected.
-    belief
-        What is believed of the base parameters beforehand; None where the rows alone tell them.
+    prior
+        Normal prior of the base parameters; None where the rows alone determine them.
     """
 
     def __init__(
@@ -53,12 +53,12 @@ class HypothesisFitter:
         dataset: Dataset,
         plan: ColumnPlan,
         causes: Sequence[Cause],
-        belief: Belief | None = None,
+        prior: GaussianPrior | None = None,
     ) -> None:
         self.dataset = dataset
         self.plan = plan
         self.causes = tuple(causes)
-        self.belief = belief
+        self.prior = prior
         columns = dataset.observed(plan)
         self.base = rows_of_joints(dataset, columns, dataset.usable & ~dataset.held_out[:, None])
         self.holdout = rows_of_joints(dataset, columns, dataset.usable & dataset.held_out[:, None])
@@ -172,7 +172,7 @@ class HypothesisFitter:
             found = self._hypothesis(members, columns, refit(rows, start.fit, self.base[0].columns.shape[1]))
             if found.possible or start.members == members:
                 return found
-        return self._hypothesis(members, columns, fit(rows, belief=self.belief, ordinary=self._ordinary))
+        return self._hypothesis(members, columns, fit(rows, prior=self.prior, ordinary=self._ordinary))
 
     def less(self, now: Hypothesis) -> tuple[Hypothesis, ...]:
         """Fit a hypothesis without each of its members in turn; kept until another's are asked for."""
@@ -269,7 +269,7 @@ class HypothesisFitter:
 
     def with_look(self, dataset: Dataset) -> "HypothesisFitter":
         """Give a bench of a look that holds other rows out; what ranked candidates may rank them still."""
-        other = HypothesisFitter(dataset, self.plan, self.causes, self.belief)
+        other = HypothesisFitter(dataset, self.plan, self.causes, self.prior)
         other._lasting, other._ranking = self._lasting, self._ranking
         return other
 

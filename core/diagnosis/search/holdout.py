@@ -19,7 +19,7 @@ def holdout_likelihood_ratio(
     What was believed beforehand was not seen by either: by how much less the larger hypothesis departs
     from it counts like rows, in proportion to those that are held out.
     """
-    share = holdout_share(fitter, trial, index) if fitter.belief else 0.0
+    share = holdout_share(fitter, trial, index) if fitter.prior else 0.0
     return _rise_at(fitter, fitter.holdout, now, trial, share)
 
 
@@ -49,7 +49,7 @@ def _rise_at(
     joints: tuple[JointRows, ...],
     now: Hypothesis,
     trial: Hypothesis,
-    operating_point: float,
+    share: float,
 ) -> float:
     rows = [extended(joints, fitter.columns(one.members)) for one in (now, trial)]
     squares = np.zeros(2)
@@ -58,6 +58,6 @@ def _rise_at(
             part.torque - part.columns @ one.fit.values for part, one in zip(parts, (now, trial), strict=True)
         ]
         squares += np.sum(prewhitened_residual(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
-    if fitter.belief:
-        squares += [operating_point * fitter.belief.departure(one.fit.values) for one in (now, trial)]
+    if fitter.prior:
+        squares += [share * fitter.prior.departure(one.fit.values) for one in (now, trial)]
     return float(squares[0] - squares[1])

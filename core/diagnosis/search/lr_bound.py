@@ -41,7 +41,7 @@ def _rise(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
     """
     seen = now.plain or now
     values, seen_values = (one.values - _stands_for(one, effect) for one in (now, seen))
-    total = 0.0 if now.belief is None else -0.5 * now.belief.departure(values)
+    total = 0.0 if now.prior is None else -0.5 * now.prior.departure(values)
     for joint, (rows, part) in enumerate(zip(joints, now.joints, strict=True)):
         without = replace(rows, torque=rows.torque - effect.get(joint, 0.0))
         left = part.missed(without, values)

@@ -15,7 +15,7 @@ from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
-from veritorque.core.estimate.gaussian_prior import Belief
+from veritorque.core.estimate.gaussian_prior import GaussianPrior
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan
@@ -150,8 +150,8 @@ def look_at_arm(position: np.ndarray, torque: np.ndarray) -> Scene:
     return Scene(dataset, Prediction(model, truth))
 
 
-def bench_of(scene: Scene, causes: Sequence[Cause], belief: Belief | None = None) -> HypothesisFitter:
+def bench_of(scene: Scene, causes: Sequence[Cause], prior: GaussianPrior | None = None) -> HypothesisFitter:
     """Put a scene, what is suspected and what is believed beforehand on a bench."""
     model = scene.operating_point.model
     plan = ColumnPlan(model, base_model(model).kept)
-    return HypothesisFitter(scene.dataset, plan, causes, belief)
+    return HypothesisFitter(scene.dataset, plan, causes, prior)

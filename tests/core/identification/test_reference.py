@@ -13,13 +13,13 @@ from veritorque.core.diagnosis.regression.gls import fit, refit
 from veritorque.core.diagnosis.regression.score_test import score
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import RobotError
-from veritorque.core.estimate.gaussian_prior import Belief
+from veritorque.core.estimate.gaussian_prior import GaussianPrior
 from veritorque.core.estimate.system import System
 from veritorque.core.identification.reference import PRIOR_DEVIATION, doubted, reference_from_prior
 from veritorque.core.reduction.base import base_model
 from veritorque.core.robot.inertia import pseudo_inertia
 
-EXACT = Belief(1e6 * np.eye(len(BASE)), 1e6 * BASE)
+EXACT = GaussianPrior(1e6 * np.eye(len(BASE)), 1e6 * BASE)
 
 
 @pytest.fixture(scope="module")
@@ -32,11 +32,11 @@ def base():
     return base_model(standard_model(replace(skew_arm(), prior=bodies_of_skew_arm())))
 
 
-def test_a_belief_counts_like_rows_of_a_log_of_its_own(equations):
+def test_a_prior_counts_like_rows_of_a_log_of_its_own(equations):
     rng = np.random.default_rng(3)
     rows, target = 10.0 * rng.normal(size=(3, len(BASE))), 10.0 * rng.normal(size=3)
     plain = fit(equations.joints, NOISE, rounds=0)
-    found = fit(equations.joints, NOISE, rounds=0, belief=Belief(rows, target))
+    found = fit(equations.joints, NOISE, rounds=0, prior=GaussianPrior(rows, target))
     gram, right = rows.T @ rows, rows.T @ target
     for one in plain.joints:
         gram[np.ix_(one.acting, one.acting)] += one.gram
@@ -49,22 +49,22 @@ def test_a_belief_counts_like_rows_of_a_log_of_its_own(equations):
 
 
 def test_what_is_believed_beyond_doubt_is_what_is_fitted(equations):
-    found = fit(equations.joints, belief=EXACT)
+    found = fit(equations.joints, prior=EXACT)
     np.testing.assert_allclose(found.values, BASE, rtol=1e-4)
 
 
-def test_a_belief_stays_when_columns_join(equations):
+def test_a_prior_stays_when_columns_join(equations):
     column = {1: smooth(np.random.default_rng(10), equations.count, 1)}
-    before = fit(equations.joints, NOISE, rounds=0, belief=EXACT)
+    before = fit(equations.joints, NOISE, rounds=0, prior=EXACT)
     rows = equations.with_columns(column)
     found = refit(rows, before, len(BASE), rounds=0)
-    whole = fit(rows, NOISE, rounds=0, belief=EXACT)
+    whole = fit(rows, NOISE, rounds=0, prior=EXACT)
     np.testing.assert_allclose(found.values, whole.values, rtol=1e-9)
 
 
 def test_a_column_that_the_model_has_already_is_told_only_where_its_own_coefficient_is_believed(equations):
     known = [{joint: one[:, :1] for joint, one in enumerate(equations.base)}]
-    free, pinned = (fit(equations.joints, NOISE, rounds=0, belief=one) for one in (None, EXACT))
+    free, pinned = (fit(equations.joints, NOISE, rounds=0, prior=one) for one in (None, EXACT))
     assert score(free, equations.joints, known)[0].clear_share < 1e-6
     assert score(pinned, equations.joints, known)[0].clear_share > 0.9
 
@@ -100,7 +100,7 @@ def test_bodies_are_believed_to_a_share_of_their_own_size(base):
             root = np.sqrt(np.diag(pseudo_inertia(body)))
             off = rng.normal(size=(4, 4)) * PRIOR_DEVIATION * np.outer(root, root)
             standard[10 * link : 10 * link + 10] += _ten(np.triu(off) + np.triu(off, 1).T)
-        squares.append(reference.belief.departure(base.base_of(standard)))
+        squares.append(reference.prior.departure(base.base_of(standard)))
     assert np.mean(squares) == pytest.approx(len(reference.rows), rel=0.1)
 
 

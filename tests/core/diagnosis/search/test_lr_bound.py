@@ -13,7 +13,7 @@ from veritorque.core.diagnosis.search.entry_test import RAISED, with_candidate
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratios
-from veritorque.core.estimate.gaussian_prior import Belief
+from veritorque.core.estimate.gaussian_prior import GaussianPrior
 from veritorque.core.reduction.base import base_model
 
 RATE = 7.0
@@ -27,18 +27,18 @@ def free_bench(effect: Effect) -> HypothesisFitter:
     return bench_of(measured_arm(effect), CAUSES)
 
 
-def believing_bench(effect: Effect) -> HypothesisFitter:
+def bench_with_prior(effect: Effect) -> HypothesisFitter:
     """Suspect what may have changed since a reference whose parameters are known within a twentieth."""
     scene = measured_arm(effect)
     values = base_model(scene.operating_point.model).base_of(scene.operating_point.standard)
     rows = np.diag(20.0 / np.maximum(np.abs(values), 1e-3))
-    return bench_of(scene, AGAINST_REFERENCE, Belief(rows, rows @ values))
+    return bench_of(scene, AGAINST_REFERENCE, GaussianPrior(rows, rows @ values))
 
 
 BENCHES = {
     "rows alone": free_bench,
     "ordinary noise": lambda effect: free_bench(effect).with_ordinary_noise(),
-    "a belief": believing_bench,
+    "a prior": bench_with_prior,
 }
 
 
@@ -91,7 +91,7 @@ def test_of_no_effect_nothing_is_foreseen(make, effect):
 
 @pytest.mark.parametrize(
     ("make", "effect"),
-    [(BENCHES["ordinary noise"], DRIFT), (BENCHES["ordinary noise"], SPRUNG), (BENCHES["a belief"], STIFF)],
+    [(BENCHES["ordinary noise"], DRIFT), (BENCHES["ordinary noise"], SPRUNG), (BENCHES["a prior"], STIFF)],
     ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
 )
 def test_what_will_bring_most_is_foreseen_to(make, effect):
