@@ -7,6 +7,7 @@ from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import Figure, processor_seconds
 from veritorque.core.estimate.estimate import estimate
 from veritorque.core.estimate.options import EstimateOptions
+from veritorque.core.numerics.block_bootstrap import block_draws
 from veritorque.core.precision.bootstrap import bootstrap
 from veritorque.core.study import IdentifyRequest, identify_in_full
 
@@ -28,8 +29,7 @@ def run(*, quick: bool) -> list[Figure]:
             found.observation.blocks,
             found.observation.columns_of,
             lambda system: estimate(found.base, system, found.estimate.prior, options).base,
-            draws=draws,
-            seed=0,
+            block_draws(len(found.observation.blocks), draws, seed=0),
         ),
         repeats=1,
         least=0.0,

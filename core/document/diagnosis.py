@@ -7,8 +7,7 @@ in the document, so that a report can be drawn from it alone, at any time.
 from typing import cast
 
 from ..diagnosis.diagnose import UNEXPLAINED_SHARE
-from ..extension.gain import JointGain
-from ..extension.motion_gain import motion_intervals
+from ..extension.gain import JointGain, motion_intervals
 from ..extension.repair import repairs
 from ..extension.result import Diagnosed
 from ..identification.against_reference import Compared

@@ -11,7 +11,7 @@ from ..arrays import BlockKey
 from ..identification.doubts import doubts
 from ..identification.result import Identification
 from ..log.model import JointLog
-from ..precision.bootstrap import intervals
+from ..numerics.block_bootstrap import interval_95
 from ..precision.covariance import INTERVAL_95, relative_deviation_percent
 from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
@@ -73,7 +73,7 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
     deviation = found.precision.standard_deviation
     percent = relative_deviation_percent(estimate.base, deviation)
     essential = set(found.essential.kept.tolist())
-    drawn = intervals(found.draws) if len(found.draws) else None
+    drawn = interval_95(found.draws) if len(found.draws) else None
     return [
         {
             **_named(found.base, row),

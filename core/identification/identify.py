@@ -10,6 +10,7 @@ from ..estimate.gaussian_prior import GaussianPrior
 from ..estimate.measured import Measured, weighted_system
 from ..estimate.system import System
 from ..log.model import JointLog
+from ..numerics.block_bootstrap import block_draws
 from ..precision.bootstrap import bootstrap
 from ..precision.covariance import assess
 from ..precision.essential import essential_parameters
@@ -86,9 +87,10 @@ def identified(
     essential = essential_parameters(system, precision)
     if options.essential:
         answer = estimate(base, system, prior, options.estimate, essential=essential.kept)
+    blocks = tuple(used.blocks[place] for place in parts[0])
     draws = bootstrap(
         system,
-        tuple(used.blocks[index] for index in parts[0]),
+        blocks,
         used.columns_of,
         lambda drawn: (
             estimate(
@@ -99,8 +101,7 @@ def identified(
                 essential=essential.kept if options.essential else None,
             ).base
         ),
-        draws=options.bootstrap.draws,
-        seed=options.bootstrap.seed,
+        block_draws(len(blocks), options.bootstrap.draws, options.bootstrap.seed),
     )
     tell("validate", 0.9)
     return Identification(

@@ -8,9 +8,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..arrays import BaseParameters, Indices, Intervals, Matrix
+from ..arrays import BaseParameters, BlockDraws, Indices, Matrix
 from ..errors import SolverError
 from ..estimate.system import System
+from ..numerics.mapping import SERIAL, Mapper
 from ..regressor.factor import Factor
 from ..regressor.observe import Block
 
@@ -20,9 +21,8 @@ def bootstrap(
     blocks: tuple[Block, ...],
     columns_of: tuple[Indices, ...],
     solve: Callable[[System], BaseParameters],
-    *,
-    draws: int,
-    seed: int,
+    drawn: BlockDraws,
+    mapper: Mapper = SERIAL,
 ) -> Matrix:
     """Give one row of base parameters per draw.
 
@@ -34,26 +34,27 @@ def bootstrap(
         The fitted blocks.
     solve
         Fits a system.
+    drawn
+        Per draw, the places of its blocks.
+    mapper
+        Runs the draws' fits.
 
     Notes
     -----
     Draws whose programme has no accurate optimum are left out; the caller sees fewer rows.
     """
     products = _products(blocks, columns_of, system)
-    rng = np.random.default_rng(seed)
-    answers: list[BaseParameters] = []
-    for _ in range(draws):
-        weights = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks)).astype(float)
+
+    def fit_draw(places: Indices) -> BaseParameters | None:
+        weights = np.bincount(places, minlength=len(blocks)).astype(float)
         try:
-            answers.append(solve(_system(np.tensordot(weights, products, axes=1), system)))
+            return solve(_system(np.tensordot(weights, products, axes=1), system))
         except SolverError:
-            continue
-    return np.array(answers).reshape(len(answers), system.triangle.shape[1])
+            return None
 
-
-def intervals(draws: Matrix) -> Intervals:
-    """Give the 2.5 and 97.5 % points per parameter, one row each."""
-    return np.asarray(np.quantile(draws, [0.025, 0.975], axis=0).T)
+    answers = mapper.map(fit_draw, drawn)
+    solved = [answer for answer in answers if answer is not None]
+    return np.array(solved).reshape(len(solved), system.triangle.shape[1])
 
 
 def _products(blocks: tuple[Block, ...], columns_of: tuple[Indices, ...], system: System) -> np.ndarray:

@@ -1,12 +1,9 @@
-"""Measure what a finding gains on rows that no fit has seen, with an interval from whole blocks.
-
-Neighbouring rows share noise and motion, so whole blocks are drawn, never rows. Source: Kuensch, Ann. Stat.
-17, 1989.
-"""
+"""Measure what a finding gains on rows that no fit has seen, with an interval from whole blocks."""
 
 import numpy as np
 
 from ...arrays import JointSeries
+from ...numerics.block_bootstrap import FEWEST_BLOCKS, interval_95, resampled_sums
 from ..result import Gain
 
 DRAWS = 400
@@ -29,14 +26,14 @@ def gain(
     counts = np.maximum(mask.sum(axis=0), 1)
     old, new = before**2 * mask, after**2 * mask
     groups = _groups(np.asarray(mask.any(axis=1)), block)
-    if len(groups) < 4:
+    if len(groups) < FEWEST_BLOCKS:
         return None
     scale = np.maximum(old.sum(axis=0) / counts, 1e-300)
     own = list(joints)
     sums = np.array([[(one[rows][:, own] / scale[own]).sum() for one in (old, new)] for rows in groups])
-    drawn = np.random.default_rng(SEED).integers(0, len(groups), (DRAWS, len(groups)))
-    totals = sums[drawn].sum(axis=1)
+    totals = resampled_sums(sums, DRAWS, SEED)
     improvements = 100.0 * (1.0 - np.sqrt(totals[:, 1] / np.maximum(totals[:, 0], 1e-300)))
+    low, high = interval_95(improvements)
     rms_old, rms_new = np.sqrt(old.sum(axis=0) / counts), np.sqrt(new.sum(axis=0) / counts)
     total = sums.sum(axis=0)
     return Gain(
@@ -44,7 +41,7 @@ def gain(
         rms_new,
         100.0 * (1.0 - rms_new / np.maximum(rms_old, 1e-300)),
         float(100.0 * (1.0 - np.sqrt(total[1] / max(total[0], 1e-300)))),
-        (float(np.percentile(improvements, 2.5)), float(np.percentile(improvements, 97.5))),
+        (float(low), float(high)),
     )
 
 

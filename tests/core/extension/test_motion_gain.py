@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veritorque.core.extension.motion_gain import motion_intervals
+from veritorque.core.extension.gain import motion_intervals
 from veritorque.core.simulation.multistep import Comparison, MultiStep
 
 HORIZONS = (0.05, 0.2)
