@@ -6,7 +6,6 @@ known by the hash of their bytes, so that a browser asks again and downloads onl
 
 import gzip
 import hashlib
-import sysconfig
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -29,11 +28,6 @@ BUNDLES: Final = (
     "swagger-ui/favicon-32x32.png",
     "uplot/uPlot.esm.js",
     "uplot/uPlot.min.css",
-)
-EXAMPLE_LOGS: Final = {"example-log.csv": "log.csv", "example-hidden-log.csv": "hidden_log.csv"}
-EXAMPLE_PLACES: Final = (
-    PAGES.parents[1] / "examples" / "yumi",  # a clone, and the image
-    Path(sysconfig.get_path("data")) / "share" / "veritorque" / "yumi",  # an installed package
 )
 _POLICY: Final = (
     "default-src 'none'; script-src 'self'; style-src 'self'{}; img-src 'self' data:; "
@@ -88,13 +82,10 @@ def shell(name: str) -> str:
 
 
 def _known() -> dict[str, PageFile]:
-    paths = [*sorted((PAGES / "static").iterdir()), *(PAGES / "vendor" / bundle for bundle in BUNDLES)]
-    known = {path.name: PageFile(path) for path in paths}
-    for name, original in EXAMPLE_LOGS.items():
-        found = [place / original for place in EXAMPLE_PLACES if (place / original).is_file()]
-        if found:
-            known[name] = PageFile(found[0])
-    return known
+    folders = (PAGES / "static", PAGES / "example")
+    paths = [path for folder in folders for path in sorted(folder.iterdir())]
+    paths.extend(PAGES / "vendor" / bundle for bundle in BUNDLES)
+    return {path.name: PageFile(path) for path in paths}
 
 
 STATIC: Final = _known()
