@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from ...core.errors import OptionError
+from ...core.log.channels import CHANNELS
 from ...core.log.preview import FEWEST_POINTS, preview
 from ...core.log.reader import read_log
 from ...core.robot.builtin import builtin_description, builtin_robots
@@ -33,14 +34,6 @@ if TYPE_CHECKING:
 KINDS = ("identify", "diagnose")
 MOST_NUMBERS = 600_000
 """Numbers of all traces of a log together."""
-CHANNEL_UNITS = {
-    "position": "rad or m",
-    "velocity": "rad/s or m/s",
-    "torque": "N m or N",
-    "current": "A",
-    "temperature": "degC",
-}
-"""Which of two is the robot's to say: a log does not know whether a joint turns or slides."""
 
 
 def built_in_descriptions() -> dict[str, Document]:
@@ -129,7 +122,7 @@ def trace_log(log: LogFile, glance: Glance) -> Document:
         "rows_per_stretch": drawn.rows_per_stretch,
         "time": {"unit": "s", "values": [round(stamp, 6) for stamp in drawn.time.tolist()]},
         "traces": [
-            {"channel": channel, "joint": joint, "unit": CHANNEL_UNITS[channel], "values": _short(values)}
+            {"channel": channel, "joint": joint, "unit": CHANNELS[channel].unit, "values": _short(values)}
             for (channel, joint), values in zip(named, drawn.values.T, strict=True)
         ],
     }

@@ -6,12 +6,15 @@ known by the hash of their bytes, so that a browser asks again and downloads onl
 
 import gzip
 import hashlib
+import json
 from dataclasses import dataclass
 from functools import cache, cached_property
+from html import escape
 from pathlib import Path
 from string import Template
 from typing import Final
 
+from ...core.log.channels import CHANNELS, REFERENCE_WORDS
 from ..version import VERSION
 
 PAGES: Final = Path(__file__).parent
@@ -78,7 +81,21 @@ def shell(name: str) -> str:
         return own
     title, _, content = own.partition("\n")
     frame = Template((PAGES / "frame.html").read_text(encoding="utf-8"))
-    return frame.substitute(title=title, name=name, content=content, version=VERSION)
+    return frame.substitute(title=title, name=name, content=content, version=VERSION, channels=_channels())
+
+
+def _channels() -> str:
+    """Write the table of channels as JSON in an attribute, for the form that maps columns."""
+    table = {
+        channel.name: {
+            "words": channel.words,
+            "unit": channel.unit,
+            "units": [unit.name for unit in channel.quantity.units],
+            "reference_to": channel.reference_to,
+        }
+        for channel in CHANNELS.values()
+    }
+    return escape(json.dumps({"channels": table, "reference_words": sorted(REFERENCE_WORDS)}))
 
 
 def _known() -> dict[str, PageFile]:

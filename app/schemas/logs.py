@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, JsonValue
 
+from ...core.log.channels import JOINT_CHANNELS
 from .common import Instant, Next, Open
 
 
@@ -29,7 +30,9 @@ class LogSummary(Open):
     duration_s: float
     rate_hz: float
     joints: int
-    channels: list[str]
+    channels: Annotated[
+        list[str], Field(description=f"of {', '.join(channel.name for channel in JOINT_CHANNELS)}")
+    ]
     ignored_columns: Annotated[list[str], Field(description="columns that the mapping does not name")]
     defects: list[Defect]
     mapping: Annotated[
@@ -48,9 +51,11 @@ class LogList(Open):
 class Trace(Open):
     """A channel of a joint, thinned for the eye; null at gaps."""
 
-    channel: Annotated[str, Field(examples=["position", "torque"])]
+    channel: Annotated[str, Field(examples=[channel.name for channel in JOINT_CHANNELS])]
     joint: Annotated[int, Field(description="counted from 1")]
-    unit: Annotated[str, Field(description="the robot tells which of two: whether the joint turns or slides")]
+    unit: Annotated[
+        str, Field(description="the robot tells which of two: whether the joint is revolute or prismatic")
+    ]
     values: Annotated[list[float | None], Field(max_length=4000)]
 
 

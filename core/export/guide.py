@@ -5,9 +5,9 @@
 
 import sys
 
+from ..log.channels import CHANNELS, Channel, Unit
 from ..log.formats.content import FORMS
 from ..log.profiles import PROFILES, Pattern
-from ..log.units import PREFIXES, UNITS, Unit
 from .formats import FORMATS
 
 OPENING = """\
@@ -57,18 +57,16 @@ def guide() -> str:
     forms = "".join(
         f"| {form.name} | {_listed(form.media_types)} | {_listed(form.suffixes)} |\n" for form in FORMS
     )
-    units = "".join(
-        _unit(channel, name, unit) for channel, known in UNITS.items() for name, unit in known.items()
-    )
+    units = "".join(_unit(channel, unit) for channel in CHANNELS.values() for unit in channel.quantity.units)
     profiles = "".join(_profile(name) for name in PROFILES)
     files = "".join(f"| `{name}` | `{one.media_type}` | {one.title} |\n" for name, one in FORMATS.items())
     return f"{OPENING}{forms}{UNITS_OPENING}{units}{PROFILES_OPENING}{profiles}{FILES_OPENING}{files}"
 
 
-def _unit(channel: str, name: str, unit: Unit) -> str:
-    names = "`time`" if channel not in PREFIXES else f"`{PREFIXES[channel]}_1`, ..."
+def _unit(channel: Channel, unit: Unit) -> str:
+    names = f"`{channel.prefix}_1`, ..." if channel.per_joint else f"`{channel.prefix}`"
     factor = "given by `scale`" if unit.needs_scale else f"{unit.factor:.10g}"
-    return f"| {channel} | {names} | `{name}` | {factor} | {unit.offset:.10g} |\n"
+    return f"| {channel.name} | {names} | `{unit.name}` | {factor} | {unit.offset:.10g} |\n"
 
 
 def _profile(name: str) -> str:

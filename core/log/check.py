@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..errors import LogError
-from .layout import Channel, Layout
+from .layout import Binding, Layout
 from .model import JointLog
 from .reader import lay_out, open_table, read_table
 from .suggestion import suggested_mapping, suggested_units
@@ -52,7 +52,7 @@ class LogCheck:
 
     format: str
     columns: tuple[str, ...]
-    recognised: tuple[Channel, ...] = ()
+    recognised: tuple[Binding, ...] = ()
     log: JointLog | None = None
     reach: tuple[Reach, ...] = ()
     refusal: LogError | None = None

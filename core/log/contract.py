@@ -8,6 +8,7 @@ import numpy as np
 
 from ..arrays import JointVector, SampleMask, Series
 from ..errors import LogError
+from .channels import EFFORTS
 from .defects.stretch import Stretch, counted
 from .layout import Layout
 
@@ -65,7 +66,7 @@ class Contract:
         """Take the next stretch into account; False once anything was found that must be refused."""
         self._order(stretch)
         self._wraps(stretch)
-        for name, values in stretch.channels().items():
+        for name, values in stretch.new().items():
             self._extremes(name, values, stretch.first + stretch.context)
         return not (self._bad or self._backwards or self._duplicates or self._hurried)
 
@@ -200,7 +201,7 @@ class Contract:
                 evidence={"positions": [float(value) for value in self.low["position"]]},
                 remedy="log a motion that moves every joint",
             )
-        effort = "torque" if "torque" in self.low else "current"
+        effort = next(name for name in EFFORTS if name in self.low)
         if not np.any(self.low[effort]) and not np.any(self.high[effort]):
             raise LogError(
                 f"the {effort} is zero throughout on every joint",

@@ -13,21 +13,19 @@ import numpy as np
 
 from ..arrays import JointSeries, Series
 from ..errors import LogError
+from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME, UNITS, Channel
 from .formats.table import Table
 from .mapping import ChannelRequest, LogMapping
 from .model import LogRows
-from .plausible_units import plausible_readings
-from .units import PREFIXES, TIME, UNITS
+from .plausible_units import readings_by_column
 
 SHOWN_COLUMNS = 24
-NEEDED = ("position", "torque", "current")
-"""Of which one column per joint has to be there; of torque and current one is enough."""
 OTHER_NAME = "a column of another name is mapped, with its unit"
 
 
 @dataclass(frozen=True)
-class Channel:
-    """Carry one channel's columns, their units, and what turns each into SI: `gain * value + bias`."""
+class Binding:
+    """Bind a channel to its columns, with their units and what turns each into SI: `gain * value + bias`."""
 
     name: str
     columns: tuple[str, ...]
@@ -51,9 +49,9 @@ class Channel:
 class Layout:
     """Say where each channel is. Without a time column the rows follow a uniform clock of `rate_hz`."""
 
-    time: Channel | None
+    time: Binding | None
     rate_hz: float
-    channels: tuple[Channel, ...]
+    channels: tuple[Binding, ...]
     ignored: tuple[str, ...] = ()
 
     @property
@@ -66,6 +64,26 @@ class Layout:
     def joints(self) -> int:
         """Count the joints."""
         return len(self.channels[0].columns)
+
+    def si_units(self) -> dict[str, tuple[str, ...]]:
+        """Name the SI unit of every channel, joint by joint.
+
+        A joint is prismatic where a unit that only prismatic joints have is declared for one of its channels.
+        """
+        prismatic = {
+            joint
+            for bound in self.channels
+            for joint, unit in enumerate(bound.units)
+            if UNITS[bound.name][unit].prismatic
+        }
+        quantities = {bound.name: CHANNELS[bound.name].quantity for bound in self.channels}
+        return {
+            name: tuple(
+                quantity.prismatic if joint in prismatic else quantity.revolute
+                for joint in range(self.joints)
+            )
+            for name, quantity in quantities.items()
+        }
 
     def convert(self, block: Series, start: int) -> LogRows:
         """Turn a block of `columns` (columns by rows), whose first row has the number start, into SI."""
@@ -93,9 +111,10 @@ def bind(table: Table, mapping: LogMapping) -> Layout:
         default name.
     """
     time = _bind_time(table, mapping)
-    bound = [_bind_channel(channel, table, mapping) for channel in PREFIXES]
+    bound = [_bind_channel(channel, table, mapping) for channel in JOINT_CHANNELS]
     channels = tuple(channel for channel in bound if channel is not None)
     _require(table, channels)
+    channels = tuple(channel for channel in channels if not _is_other(channel, channels[0], mapping))
     _one_column_per_joint(channels)
     used = {column for channel in (*channels, *([time] if time else [])) for column in channel.columns}
     _no_column_twice(channels, time)
@@ -103,7 +122,7 @@ def bind(table: Table, mapping: LogMapping) -> Layout:
     return Layout(time, mapping.rate_hz or 0.0, channels, ignored)
 
 
-def _bind_time(table: Table, mapping: LogMapping) -> Channel | None:
+def _bind_time(table: Table, mapping: LogMapping) -> Binding | None:
     if TIME in mapping.channels:
         request = mapping.channels[TIME]
     else:
@@ -126,20 +145,31 @@ def _bind_time(table: Table, mapping: LogMapping) -> Channel | None:
     return None
 
 
-def _bind_channel(channel: str, table: Table, mapping: LogMapping) -> Channel | None:
-    if channel in mapping.channels:
-        request = mapping.channels[channel]
-        return None if request is None else _declared(channel, request, table)
+def _bind_channel(channel: Channel, table: Table, mapping: LogMapping) -> Binding | None:
+    if channel.name in mapping.channels:
+        request = mapping.channels[channel.name]
+        return None if request is None else _declared(channel.name, request, table)
     columns = _default_columns(channel, table)
-    return _declared(channel, _si_request(columns), table) if columns else None
+    return _declared(channel.name, _si_request(columns), table) if columns else None
 
 
-def _default_columns(channel: str, table: Table) -> tuple[str, ...]:
+def _is_other(bound: Binding, position: Binding, mapping: LogMapping) -> bool:
+    """Tell whether the default names of a reference mean something else.
+
+    They are mapped to another channel, or are not one per joint.
+    """
+    if CHANNELS[bound.name].need != "reference" or bound.name in mapping.channels:
+        return False
+    mapped = {column for request in mapping.channels.values() if request for column in request.columns}
+    return bool(mapped & set(bound.columns)) or len(bound.columns) != len(position.columns)
+
+
+def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     """Find `q_1` to `q_n`, or the single `q` of a one-joint log."""
-    prefix = PREFIXES[channel]
-    if channel in NEEDED and f"{prefix}_0" in table.names:
+    prefix = channel.prefix
+    if channel.need in ("always", "effort") and f"{prefix}_0" in table.names:
         raise LogError(
-            f"the columns of {channel} are counted from 0, and default names from 1",
+            f"the columns of {channel.name} are counted from 0, and default names from 1",
             evidence={"columns": [name for name in table.names if re.fullmatch(f"{prefix}_[0-9]+", name)]},
             remedy=f"map them in the order of the joints, or rename them {prefix}_1, {prefix}_2, ...",
         )
@@ -151,8 +181,10 @@ def _default_columns(channel: str, table: Table) -> tuple[str, ...]:
     if not numbers:
         return (prefix,) if prefix in table.names else ()
     wanted = [f"{prefix}_{number}" for number in range(1, max(numbers) + 1)]
+    if len(numbers) < len(wanted) and channel.need == "reference":
+        return ()
     if len(numbers) < len(wanted):
-        raise _missing(channel, wanted, table, f"log {channel} of every joint; {OTHER_NAME}")
+        raise _missing(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
     return tuple(wanted)
 
 
@@ -161,12 +193,12 @@ def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
     return ChannelRequest(columns, ("",) * count, (1.0,) * count, (0.0,) * count)
 
 
-def _declared(channel: str, request: ChannelRequest, table: Table) -> Channel:
+def _declared(channel: str, request: ChannelRequest, table: Table) -> Binding:
     """Turn a request into gains; default names are SI, others must have declared their unit."""
     missing = [name for name in request.columns if name not in table.names]
     if missing:
         raise _missing(channel, list(request.columns), table, "map columns that the file has")
-    default = re.compile(TIME if channel == TIME else f"{PREFIXES[channel]}(_[1-9][0-9]*)?")
+    default = re.compile(CHANNELS[channel].prefix + ("(_[1-9][0-9]*)?" if channel != TIME else ""))
     if any(
         not unit and not default.fullmatch(name)
         for name, unit in zip(request.columns, request.units, strict=True)
@@ -174,7 +206,7 @@ def _declared(channel: str, request: ChannelRequest, table: Table) -> Channel:
         raise _undeclared(channel, request, table)
     named = tuple(unit or next(iter(UNITS[channel])) for unit in request.units)
     units = [UNITS[channel][unit] for unit in named]
-    return Channel(
+    return Binding(
         channel,
         request.columns,
         tuple(unit.factor * scale for unit, scale in zip(units, request.scales, strict=True)),
@@ -185,30 +217,31 @@ def _declared(channel: str, request: ChannelRequest, table: Table) -> Channel:
     )
 
 
-def _require(table: Table, channels: Sequence[Channel]) -> None:
+def _require(table: Table, channels: Sequence[Binding]) -> None:
     names = [channel.name for channel in channels]
     if "position" not in names:
         raise _missing("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
-    if "torque" not in names and "current" not in names:
+    if not set(EFFORTS) & set(names):
         raise _missing(
-            "torque",
-            ["tau_1", "...", "current_1", "..."],
+            EFFORTS[0],
+            [name for effort in EFFORTS for name in (f"{CHANNELS[effort].prefix}_1", "...")],
             table,
             f"log the torque of every joint, or its motor current, with the positions; {OTHER_NAME}",
         )
 
 
-def _one_column_per_joint(channels: Sequence[Channel]) -> None:
+def _one_column_per_joint(channels: Sequence[Binding]) -> None:
     counts = {channel.name: len(channel.columns) for channel in channels}
     usual = max(counts.values(), key=lambda count: (list(counts.values()).count(count), count))
     odd = next((channel for channel in channels if len(channel.columns) != usual), None)
     if odd is None:
         return
-    wanted = [f"{PREFIXES[odd.name]}_{number}" for number in range(1, usual + 1)]
+    wanted = [f"{CHANNELS[odd.name].prefix}_{number}" for number in range(1, usual + 1)]
     evidence: dict[str, object] = {"columns": counts}
     if set(odd.columns) < set(wanted):
         evidence["absent"] = [name for name in wanted if name not in odd.columns]
-    spare = odd.name not in NEEDED or (odd.name != "position" and {"torque", "current"} <= set(counts))
+    need = CHANNELS[odd.name].need
+    spare = need in ("optional", "reference") or (need == "effort" and set(EFFORTS) <= set(counts))
     raise LogError(
         f"{odd.name} does not have one column per joint",
         evidence=evidence,
@@ -217,7 +250,7 @@ def _one_column_per_joint(channels: Sequence[Channel]) -> None:
     )
 
 
-def _no_column_twice(channels: Sequence[Channel], time: Channel | None) -> None:
+def _no_column_twice(channels: Sequence[Binding], time: Binding | None) -> None:
     columns = [column for channel in (*channels, *([time] if time else [])) for column in channel.columns]
     twice = sorted({column for column in columns if columns.count(column) > 1})
     if twice:
@@ -230,16 +263,15 @@ def _no_column_twice(channels: Sequence[Channel], time: Channel | None) -> None:
 
 def _missing(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
     absent = [name for name in wanted if name not in table.names]
-    candidates = [
-        name for name in table.names if not re.fullmatch(r"(time|q|qd|tau|current|temperature)(_\d+)?", name)
-    ]
+    default = "|".join(channel.prefix for channel in CHANNELS.values())
+    candidates = [name for name in table.names if not re.fullmatch(rf"({default})(_\d+)?", name)]
     nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
     evidence: dict[str, object] = {
         "looked_for": wanted[:SHOWN_COLUMNS],
         "columns": list(table.names[:SHOWN_COLUMNS]),
         "nearest": nearest,
     }
-    readings = _readings(channel, candidates, table)
+    readings = readings_by_column(channel, candidates[:SHOWN_COLUMNS], table)
     if readings:
         evidence["plausible_readings"] = readings
     return LogError(
@@ -249,7 +281,7 @@ def _missing(channel: str, wanted: list[str], table: Table, remedy: str) -> LogE
 
 def _undeclared(channel: str, request: ChannelRequest, table: Table) -> LogError:
     columns = [name for name, unit in zip(request.columns, request.units, strict=True) if not unit]
-    readings = _readings(channel, columns, table)
+    readings = readings_by_column(channel, columns[:SHOWN_COLUMNS], table)
     first = next(iter(readings.values()), [])
     return LogError(
         f"the unit of {channel} is not declared, and {columns[0]!r} is not a default name, which would be SI",
@@ -261,17 +293,3 @@ def _undeclared(channel: str, request: ChannelRequest, table: Table) -> LogError
         remedy=f'declare "unit" for {channel}'
         + (f", most plausibly {first[0].split(':')[0]}" if first else ""),
     )
-
-
-def _readings(channel: str, columns: Sequence[str], table: Table) -> dict[str, list[str]]:
-    """Look at the first batch of each column; a column that cannot be read has no reading."""
-    readings: dict[str, list[str]] = {}
-    for name in columns[:SHOWN_COLUMNS]:
-        try:
-            block = next(iter(table.batches([name])), None)
-        except LogError:
-            continue
-        plausible = [] if block is None else plausible_readings(channel, block[0])
-        if plausible:
-            readings[name] = plausible
-    return readings

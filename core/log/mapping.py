@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from ..errors import LogError
-from .units import TIME, UNITS
+from .channels import TIME, UNITS
 
 RATE = "rate_hz"
 MAX_MAPPED_COLUMNS = 64

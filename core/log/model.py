@@ -10,6 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ..arrays import JointSeries, Samples
+from .channels import JOINT_CHANNELS
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,8 @@ class Defect:
 class LogRows:
     """Carry a stretch of samples in SI.
 
-    Time in s, position in rad or m, velocity per s, torque in N m or N, current in A, temperature in degC.
+    Time in s, position in rad or m, velocity per s, torque in N m or N, current in A, temperature in degC,
+    references in the units of what follows them; see `core.log.channels`.
     """
 
     time: Samples
@@ -55,6 +57,15 @@ class LogRows:
     velocity: JointSeries | None = None
     current: JointSeries | None = None
     temperature: JointSeries | None = None
+    position_ref: JointSeries | None = None
+    velocity_ref: JointSeries | None = None
+    torque_ref: JointSeries | None = None
+    command: JointSeries | None = None
+
+    def channels(self) -> dict[str, JointSeries]:
+        """Give the channels that are there, by name."""
+        there = {channel.name: getattr(self, channel.name) for channel in JOINT_CHANNELS}
+        return {name: values for name, values in there.items() if values is not None}
 
 
 @runtime_checkable
@@ -130,9 +141,7 @@ class JointLog:
 
 def rows_at(rows: LogRows, place: slice | np.ndarray) -> LogRows:
     """Take some rows of all channels, by a slice, by number or by marks."""
-    optional = (rows.torque, rows.velocity, rows.current, rows.temperature)
-    torque, velocity, current, temperature = (None if one is None else one[place] for one in optional)
-    return LogRows(rows.time[place], rows.position[place], torque, velocity, current, temperature)
+    return LogRows(rows.time[place], **{name: values[place] for name, values in rows.channels().items()})
 
 
 def whole_rows(log: JointLog) -> LogRows:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import LogError
-from .units import TIME, UNITS
+from .channels import JOINT_CHANNELS, TIME
 
 PROFILE, JOINTS = "profile", "joints"
 SHOWN_COLUMNS = 24
@@ -50,6 +50,9 @@ PROFILES: dict[str, Profile] = {
             "position": (Pattern("actual_q_{}", "rad"),),
             "velocity": (Pattern("actual_qd_{}", "rad/s"),),
             "current": (Pattern("actual_current_{}", "A"),),
+            "position_ref": (Pattern("target_q_{}", "rad"),),
+            "velocity_ref": (Pattern("target_qd_{}", "rad/s"),),
+            "torque_ref": (Pattern("target_moment_{}", "N m"),),
         },
     ),
     "franka": Profile(
@@ -58,6 +61,9 @@ PROFILES: dict[str, Profile] = {
             "position": (Pattern("state.q[{}]", "rad"), Pattern("q[{}]", "rad")),
             "velocity": (Pattern("state.dq[{}]", "rad/s"), Pattern("dq[{}]", "rad/s")),
             "torque": (Pattern("state.tau_J[{}]", "N m"), Pattern("tau_J[{}]", "N m")),
+            "position_ref": (Pattern("state.q_d[{}]", "rad"), Pattern("q_d[{}]", "rad")),
+            "velocity_ref": (Pattern("state.dq_d[{}]", "rad/s"), Pattern("dq_d[{}]", "rad/s")),
+            "torque_ref": (Pattern("state.tau_J_d[{}]", "N m"), Pattern("tau_J_d[{}]", "N m")),
         },
     ),
     "ros-jointstate": Profile(
@@ -119,10 +125,10 @@ def fill_in(document: object, names: Sequence[str]) -> object:
         )
     profile = PROFILES[name]
     filled = {key: value for key, value in document.items() if key not in (PROFILE, JOINTS)}
-    stamps = [one for one in profile.time if one.column in names]
+    stamps = [pattern for pattern in profile.time if pattern.column in names]
     if stamps and TIME not in filled and "rate_hz" not in filled:
         filled[TIME] = {"column": stamps[0].column} | _unit(stamps[0])
-    for channel in UNITS:
+    for channel in (channel.name for channel in JOINT_CHANNELS):
         found = _columns(profile.channels.get(channel, ()), names, joints)
         given = filled.get(channel, {})
         if found is not None and isinstance(given, Mapping) and "columns" not in given:

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import LogError
+from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME
 from .defects.examine import examine
 from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
 from .formats.delimited import open_delimited
@@ -20,11 +21,10 @@ from .formats.npz import open_npz
 from .formats.parquet import ParquetSource, ParquetTable, open_parquet
 from .formats.recording import open_bag, open_mcap
 from .formats.table import Table
-from .layout import Channel, Layout, bind
+from .layout import Binding, Layout, bind
 from .mapping import parse_mapping
 from .model import ArraySource, JointLog, LogRows, LogSource
 from .profiles import fill_in
-from .units import PREFIXES
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,
@@ -123,7 +123,7 @@ def log_from_arrays(
     torque
         In N m or N; None if a current is given.
     **channels
-        `velocity` per s, `current` in A, `temperature` in degC.
+        By the names of `CHANNELS`: `velocity` per s, `current` in A, `temperature` in degC ...
 
     Raises
     ------
@@ -138,11 +138,12 @@ def log_from_arrays(
     250.0
     """
     given = {"position": position, "torque": torque, **channels}
-    unknown = sorted(set(given) - set(PREFIXES))
+    known = [channel.name for channel in JOINT_CHANNELS]
+    unknown = sorted(set(given) - set(known))
     if unknown:
         raise LogError(
             f"there is no channel {unknown[0]!r}",
-            evidence={"known": list(PREFIXES)},
+            evidence={"known": known},
             remedy="name a known channel",
         )
     arrays = {
@@ -158,16 +159,18 @@ def log_from_arrays(
         raise LogError(
             "the channels disagree in shape", evidence=shapes, remedy="give every channel samples by joints"
         )
-    if "torque" not in arrays and "current" not in arrays:
+    if not set(EFFORTS) & set(arrays):
         raise LogError(
             "the log has neither torque nor current", evidence=shapes, remedy="give one of the two"
         )
     joints = range(1, arrays["position"].shape[1] + 1)
     plain = tuple(1.0 for _ in joints), tuple(0.0 for _ in joints)
     layout = Layout(
-        time=Channel("time", ("time",), (1.0,), (0.0,)),
+        time=Binding(TIME, (TIME,), (1.0,), (0.0,)),
         rate_hz=0.0,
-        channels=tuple(Channel(key, tuple(f"{PREFIXES[key]}_{j}" for j in joints), *plain) for key in arrays),
+        channels=tuple(
+            Binding(key, tuple(f"{CHANNELS[key].prefix}_{j}" for j in joints), *plain) for key in arrays
+        ),
     )
     return _examined(name, ArraySource(LogRows(clock, **arrays)), layout, "")
 

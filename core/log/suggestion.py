@@ -6,27 +6,17 @@ shown.
 """
 
 import re
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Collection, Mapping, Sequence
 
 from ..errors import LogError
+from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, REFERENCE_WORDS, TIME
 from .formats.table import Table
 from .layout import Layout
 from .mapping import RATE
 from .model import Defect
-from .plausible_units import plausible_readings
+from .plausible_units import readings_by_column
 from .profiles import PROFILE, PROFILES, fill_in
-from .units import TIME, UNITS
 
-WORDS: Mapping[str, tuple[str, ...]] = {
-    "velocity": ("qd", "dq", "vel", "velocity", "velocities", "speed", "omega", "qdot"),
-    "torque": ("tau", "torque", "torques", "trq", "effort", "moment", "mom", "tq"),
-    "current": ("current", "currents", "cur", "curr", "amp", "amps", "i"),
-    "temperature": ("temperature", "temp"),
-    "position": ("q", "pos", "position", "positions", "angle", "angles", "theta", "joint", "ang"),
-}
-"""Words in a column's name by channel, the more telling channel first."""
-TIME_WORDS = ("time", "t", "timestamp", "stamp", "sec", "seconds", "ms", "clock", "tick")
 UNKNOWN = "?"
 IMPLAUSIBLE = "implausible_unit"
 
@@ -48,16 +38,15 @@ def suggested_mapping(table: Table) -> dict[str, object] | None:
     profile = _profile(table.names)
     if profile is not None:
         return {PROFILE: profile} | _own_clock(profile, table)
-    mapping: dict[str, dict[str, Any]] = {}
-    time = next((name for name in table.names if set(_words(name)) & set(TIME_WORDS)), None)
-    for stem, columns in _families(table.names).items():
-        channel = _channel(stem)
-        if channel is not None and channel not in mapping:
-            mapping[channel] = {"columns": columns, "unit": _unit(channel, table, columns[0])}
+    time = next((name for name in table.names if _words(name) & set(CHANNELS[TIME].words)), None)
+    mapping = {
+        channel: {"columns": columns, "unit": _unit(channel, table, columns[0])}
+        for channel, columns in _joint_columns(table.names).items()
+    }
     if not _is_whole(mapping):
         return None
     clock = {RATE: UNKNOWN} if time is None else {TIME: {"column": time, "unit": _unit(TIME, table, time)}}
-    return clock | {name: mapping[name] for name in UNITS if name in mapping}
+    return clock | {name: mapping[name] for name in CHANNELS if name in mapping}
 
 
 def suggested_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
@@ -75,11 +64,23 @@ def suggested_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> 
     return mapping or None
 
 
+def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:
+    """Choose columns for every channel; measured ones first, then references that are one per joint."""
+    families = _families(names)
+    found: dict[str, list[str]] = {}
+    for stem in sorted(families, key=_is_reference):
+        channel, columns = _channel(stem, found), families[stem]
+        if channel is None or channel in found:
+            continue
+        if CHANNELS[channel].need != "reference" or len(columns) == len(found.get("position", ())):
+            found[channel] = columns
+    return found
+
+
 def _is_whole(mapping: Mapping[str, Mapping[str, Sequence[str]]]) -> bool:
     """Tell whether position and an effort are there, with one column per joint each."""
-    efforts = [mapping[name] for name in ("torque", "current") if name in mapping]
-    joints = {len(one["columns"]) for one in mapping.values()}
-    return "position" in mapping and bool(efforts) and len(joints) == 1
+    joints = {len(channel["columns"]) for channel in mapping.values()}
+    return "position" in mapping and bool(mapping.keys() & set(EFFORTS)) and len(joints) == 1
 
 
 def _profile(names: Sequence[str]) -> str | None:
@@ -89,7 +90,7 @@ def _profile(names: Sequence[str]) -> str | None:
             filled = fill_in({PROFILE: name}, names)
         except LogError:  # the order of the joints is not known, and would have to be told as well
             continue
-        if isinstance(filled, dict) and {"position"} < filled.keys() & UNITS.keys():
+        if isinstance(filled, dict) and {"position"} < filled.keys() & CHANNELS.keys():
             return name
     return None
 
@@ -116,20 +117,28 @@ def _families(names: Sequence[str]) -> dict[str, list[str]]:
     return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
 
 
-def _channel(stem: str) -> str | None:
-    words = set(_words(stem))
-    return next((channel for channel, known in WORDS.items() if words & set(known)), None)
+def _is_reference(name: str) -> bool:
+    return bool(_words(name) & REFERENCE_WORDS)
 
 
-def _words(name: str) -> list[str]:
+def _channel(stem: str, known: Collection[str]) -> str | None:
+    """Find the channel of a name; a reference stands for what was measured where nothing else does."""
+    words = _words(stem)
+    by_trust = sorted(JOINT_CHANNELS, key=lambda channel: channel.name == "position")  # "joint" says least
+    own = [channel for channel in by_trust if words & set(channel.words)]
+    measured = next((channel for channel in own if channel.need != "reference"), None)
+    if measured is None:
+        return own[0].name if own else None
+    if not words & REFERENCE_WORDS or (measured.need != "optional" and measured.name not in known):
+        return measured.name
+    return next((channel.name for channel in by_trust if channel.reference_to == measured.name), None)
+
+
+def _words(name: str) -> set[str]:
     """Cut a name at its signs, numbers and capitals."""
-    return [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
+    return {word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
 
 
 def _unit(channel: str, table: Table, column: str) -> str:
-    try:
-        block = next(iter(table.batches([column])), None)
-    except LogError:
-        return UNKNOWN
-    plausible = [] if block is None else plausible_readings(channel, block[0])
-    return plausible[0].split(":")[0] if plausible else UNKNOWN
+    plausible = readings_by_column(channel, [column], table)
+    return plausible[column][0].split(":")[0] if plausible else UNKNOWN

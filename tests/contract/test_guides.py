@@ -12,10 +12,10 @@ from veritorque.app.settings import PREFIX, Settings
 from veritorque.core.dynamics.model import STANDARD_TERMS
 from veritorque.core.estimate.options import ESTIMATORS
 from veritorque.core.identification.options import parse_options
+from veritorque.core.log.channels import CHANNELS, UNITS
 from veritorque.core.log.formats.content import FORMS
 from veritorque.core.log.mapping import parse_mapping
 from veritorque.core.log.model import Defect
-from veritorque.core.log.units import PREFIXES, UNITS
 from veritorque.core.robot.description import (
     COUPLING_FIELDS,
     JOINT_FIELDS,
@@ -99,7 +99,7 @@ def test_the_units_and_names_of_the_guide_are_those_the_reader_knows():
     (table,) = re.findall(r"\| channel \| units \|\n\|---\|---\|\n(.*?)\n\n", LOGS, re.DOTALL)
     told = {row.split("|")[1].strip(): re.findall(r"`([^`]+)`", row) for row in table.splitlines()}
     assert told == {channel: list(units) for channel, units in UNITS.items()}
-    assert all(f"`{prefix}_1`" in LOGS for prefix in PREFIXES.values())
+    assert all(f"`{channel.prefix}_1`" in LOGS for channel in CHANNELS.values() if channel.per_joint)
     assert all(any(media in LOGS for media in form.media_types) for form in FORMS)
 
 

@@ -15,7 +15,7 @@ const WHOLE = 0.95;
  * Show the channels of a log.
  * @param {HTMLElement} container
  * @param {Object} log its summary
- * @returns {{use: function(Object): void, destroy: function(): void}} to be told the robot, which knows what turns and slides
+ * @returns {{use: function(Object): void, destroy: function(): void}} to be told the robot, which knows the kind of each joint
  */
 export function showChannels(container, log) {
   let traces = null;
@@ -88,10 +88,10 @@ export function showChannels(container, log) {
         grid.append(place);
         const plot = draw(place, {
           title: `${capital(channel)} of joint ${trace.joint}`,
-          unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type),
+          unit: unitOf(trace, robot?.description.joints.filter((one) => !one.mimics)[trace.joint - 1]?.type).replace(/^1$/, ""),
           x,
           extent,
-          traces: [{ label: channel, values: trace.values, colour: channel === "position" ? 1 : 2 }],
+          traces: [{ label: channel, values: trace.values, colour: channel.startsWith("position") ? 1 : 2 }],
           height: HEIGHT,
           together: log.id,
           marks: marksOf(channel, trace.joint, start),
@@ -118,5 +118,5 @@ export function showChannels(container, log) {
 }
 
 function capital(text) {
-  return text.charAt(0).toUpperCase() + text.slice(1);
+  return (text.charAt(0).toUpperCase() + text.slice(1)).replace("_ref", " reference");
 }

@@ -1,23 +1,11 @@
 // The columns of a log: which a file has, what their names make them likely to be, and the units they may have.
 
-export const CHANNELS = ["time", "position", "velocity", "torque", "current", "temperature"];
-export const UNITS = {
-  time: ["s", "ms", "us", "ns"],
-  position: ["rad", "deg", "m", "mm", "counts"],
-  velocity: ["rad/s", "deg/s", "rpm", "m/s", "mm/s"],
-  torque: ["N m", "mN m", "N", "counts"],
-  current: ["A", "mA"],
-  temperature: ["degC", "K"],
-};
-const LIKELY = [
-  ["time", /^t$|time|stamp|^sec/i],
-  ["temperature", /temp/i],
-  ["velocity", /vel|speed|^qd|^dq|qdot/i],
-  ["current", /cur|amp|^i_?[dqm]?_?\d+$/i],
-  ["torque", /tau|torq|effort|moment|force/i],
-  ["", /acc|^qdd|^ddq/i],
-  ["position", /pos|angle|^q_?\d*$|theta|joint/i],
-];
+const TABLE = JSON.parse(document.querySelector("meta[name=channels]").content);
+export const CHANNELS = Object.keys(TABLE.channels);
+const REFERENCE_WORDS = new Set(TABLE.reference_words);
+const BY_TRUST = [...CHANNELS.filter((channel) => channel !== "position"), "position"]; // "joint" says least
+const NO_CHANNEL = /acc|^qdd|^ddq/i;
+const LONG = 3;
 const HEAD_BYTES = 1 << 16;
 
 /** Read the columns of a text file from its first line; null for other files. */
@@ -35,17 +23,32 @@ export async function columnsOf(file) {
 
 /** Guess by names what columns are; at most one is time. A unit is never guessed. */
 export function likelyRoles(columns) {
-  const roles = columns.map((name) => (LIKELY.find(([, pattern]) => pattern.test(name)) ?? [""])[0]);
+  const roles = columns.map(likelyRole);
   const time = roles.indexOf("time");
   return roles.map((role, index) => (role === "time" && index !== time ? "" : role));
 }
 
+function likelyRole(name) {
+  if (NO_CHANNEL.test(name)) return "";
+  const words = (name.match(/[A-Z]+(?![a-z])|[A-Z]?[a-z]+/g) ?? []).map((word) => word.toLowerCase());
+  const told = (known) => words.some((word) => word === known || (known.length >= LONG && word.includes(known)));
+  const own = BY_TRUST.filter((channel) => TABLE.channels[channel].words.some(told));
+  const measured = own.find((channel) => channel !== "command");
+  if (!measured || !words.some((word) => REFERENCE_WORDS.has(word))) return measured ?? own[0] ?? "";
+  return CHANNELS.find((channel) => TABLE.channels[channel].reference_to === measured) ?? "";
+}
+
 /** List a channel's units for a menu in which none is chosen yet. */
 export function unitChoices(channel) {
-  return [["", "choose"], ...UNITS[channel].map((unit) => [unit, unit])];
+  return [["", "choose"], ...knownUnits(channel).map((unit) => [unit, unit])];
+}
+
+/** Name the units that a channel may have. */
+export function knownUnits(channel) {
+  return TABLE.channels[channel].units;
 }
 
 /** Say in which unit a count of a channel's converter is given. */
 export function oneCount(channel) {
-  return channel === "position" ? "in rad or m" : "in N m or N";
+  return `in ${TABLE.channels[channel].unit}`;
 }

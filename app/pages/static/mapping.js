@@ -1,5 +1,5 @@
 // The form that says which column is what, and in which unit. It guesses by names what a column is, never its unit.
-import { CHANNELS, likelyRoles, oneCount, UNITS, unitChoices } from "./columns.js";
+import { CHANNELS, likelyRoles, knownUnits, oneCount, unitChoices } from "./columns.js";
 import { field, figure, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
 
@@ -139,7 +139,7 @@ export function mappingForm(container, { columns, readings, finished }) {
   function unitField(channel) {
     const hints = [
       ...new Set(columns.filter((_, index) => roles[index] === channel).flatMap((name) => readings[name] ?? [])),
-    ].filter((hint) => UNITS[channel].includes(hint.split(":")[0]));
+    ].filter((hint) => knownUnits(channel).includes(hint.split(":")[0]));
     const differ = channel === "time" ? [] : [[EACH, "differs by joint"]];
     const list = menu(
       [...unitChoices(channel), ...differ],

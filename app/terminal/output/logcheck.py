@@ -5,9 +5,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from ....core.log.channels import CHANNELS
 from ....core.log.check import LogCheck, Reach
-from ....core.log.layout import Channel
-from ....core.log.units import UNITS
+from ....core.log.layout import Binding
 from ...json_text import plain
 
 SHOWN = 6
@@ -23,12 +23,12 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
             f"{len(log.segments)} {'stretch' if len(log.segments) == 1 else 'stretches'} without a gap"
         )
     for channel in seen.recognised:
-        yield f"  {channel.name:<12}{_units(channel):<8}{_shortened(channel.columns)}"
+        yield f"  {channel.name:<14}{_units(channel):<8}{_shortened(channel.columns)}"
     if log is None:
-        yield f"  columns     {_shortened(seen.columns)}"
+        yield f"  columns       {_shortened(seen.columns)}"
         return
     if log.ignored_columns:
-        yield f"  {'not used':<20}{_shortened(log.ignored_columns)}"
+        yield f"  {'not used':<22}{_shortened(log.ignored_columns)}"
     yield from _reach_lines(seen.reach)
     yield f"{len(log.defects)} {'defect' if len(log.defects) == 1 else 'defects'}{':' if log.defects else ''}"
     for defect in log.defects:
@@ -79,10 +79,10 @@ def _reach_lines(reach: Sequence[Reach]) -> Iterator[str]:
 
 
 def _heading(channel: str) -> str:
-    return f"{channel}, {next(iter(UNITS[channel]))}"
+    return f"{channel}, {CHANNELS[channel].quantity.revolute}"
 
 
-def _units(channel: Channel) -> str:
+def _units(channel: Binding) -> str:
     """Name the unit that all columns share, or all units."""
     return ", ".join(dict.fromkeys(channel.units))
 

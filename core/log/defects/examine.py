@@ -75,6 +75,7 @@ def examine(source: LogSource, layout: Layout) -> Examination:
         high=contract.high,
         deviation=spread.deviation(),
         position_lsb=resolution.lsb("position"),
+        units=layout.si_units(),
     )
     found = [defect for finder in finders for defect in finder.defects(facts)]
     return Examination(
@@ -95,7 +96,7 @@ class _Spread:
         self._rows = 0
 
     def see(self, stretch: Stretch) -> None:
-        channels = stretch.channels()
+        channels = stretch.new()
         self._rows += channels["position"].shape[1]
         for name in ("position", "torque"):
             if name in channels:

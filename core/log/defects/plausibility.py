@@ -7,7 +7,6 @@ decides.
 import numpy as np
 
 from ..model import Defect
-from ..units import TORQUE_OR_FORCE
 from .stretch import Facts
 
 LARGEST_SPAN = 13.0
@@ -59,8 +58,8 @@ def _missing_torques(facts: Facts) -> list[Defect]:
             int(joint) + 1,
             facts.samples,
             ((facts.start, facts.start + facts.duration),),
-            f"Joint {joint + 1}'s torque is {facts.low['torque'][joint]:g} {TORQUE_OR_FORCE} throughout, "
-            "not measured.",
+            f"Joint {joint + 1}'s torque is {facts.low['torque'][joint]:g} "
+            f"{facts.units['torque'][int(joint)]} throughout, not measured.",
         )
         for joint in dead
     ]

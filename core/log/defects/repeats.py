@@ -35,9 +35,8 @@ class Repeats:
         """Take the next stretch into account."""
         position = stretch.position[:, stretch.seam :]
         same = repeats_previous(position)
-        effort = stretch.others.get("current") if stretch.torque is None else stretch.torque
-        if effort is not None and np.any(same):
-            same &= repeats_previous(effort[:, stretch.seam :])
+        if np.any(same):
+            same &= repeats_previous(stretch.channels[stretch.effort][:, stretch.seam :])
         self._runs.feed(same, stretch.time[stretch.seam + 1 :])
         increments = np.abs(np.diff(position, axis=1))
         self._travel = self._travel + increments.sum(axis=1)

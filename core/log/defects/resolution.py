@@ -8,7 +8,6 @@ import numpy as np
 
 from ...arrays import JointVector, Samples, Series
 from ..model import Defect
-from ..units import ANGLE_OR_WAY, TORQUE_OR_FORCE
 from .stretch import Facts, Stretch, sampled_share
 
 SAMPLED_ROWS = 20_000
@@ -52,7 +51,8 @@ class Resolution:
                 if channel == "torque":
                     coarse = step > COARSE_TORQUE_SHARE * deviation
                 if coarse:
-                    statement = _statement(channel, joint + 1, step, (typical, deviation, facts.step))
+                    share = typical / step if channel == "position" else step / deviation
+                    statement = _statement(channel, joint, step, share, facts)
                     found.append(Defect("quantisation", channel, joint + 1, facts.samples, (), statement))
         return found
 
@@ -70,15 +70,12 @@ def _grid_step(increments: Samples) -> tuple[float, float]:
     return smallest, float(np.median(moved))
 
 
-def _statement(channel: str, joint: int, step: float, context: tuple[float, float, float]) -> str:
-    typical, deviation, seconds = context
+def _statement(channel: str, joint: int, step: float, share: float, facts: Facts) -> str:
+    unit = facts.units[channel][joint]
+    size = f"Joint {joint + 1}'s {channel} comes in steps of {step:.3g} {unit} (lsb)"
     if channel == "torque":
-        return (
-            f"Joint {joint}'s torque comes in steps of {step:.3g} {TORQUE_OR_FORCE} (lsb), "
-            f"{100.0 * step / deviation:.2g} % of its standard deviation."
-        )
+        return f"{size}, {100.0 * share:.2g} % of its standard deviation."
     return (
-        f"Joint {joint}'s position comes in steps of {step:.3g} {ANGLE_OR_WAY} (lsb) and typically "
-        f"moves {typical / step:.2g} of them per sample; one step is "
-        f"{step / (2.0 * seconds):.3g} rad/s (m/s) of centred velocity."
+        f"{size} and typically moves {share:.2g} of them per sample; one step is "
+        f"{step / (2.0 * facts.step):.3g} {unit}/s of centred velocity."
     )

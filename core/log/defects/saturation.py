@@ -8,7 +8,6 @@ import numpy as np
 
 from ...arrays import SampleMask, Samples
 from ..model import Defect
-from ..units import TORQUE_OR_FORCE
 from .runs import Runs
 from .stretch import Facts, Stretch
 
@@ -86,8 +85,9 @@ class Saturation:
                 if limit.top < far or not limit.holds():
                     continue
                 statement = (
-                    f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} {TORQUE_OR_FORCE} "
-                    f"for {limit.runs.rows} of {facts.samples} samples, as a limited or clipped signal does."
+                    f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} "
+                    f"{facts.units['torque'][joint]} for {limit.runs.rows} of {facts.samples} samples, as a "
+                    "limited or clipped signal does."
                 )
                 defect = Defect(
                     "saturation", "torque", joint + 1, limit.runs.rows, limit.runs.intervals, statement

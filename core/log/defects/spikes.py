@@ -8,7 +8,6 @@ import numpy as np
 
 from ...arrays import Matrix, Samples, Series, Vector
 from ..model import Defect
-from ..units import ANGLE_OR_WAY, TORQUE_OR_FORCE
 from .runs import Runs
 from .stretch import Facts, Stretch, counted
 
@@ -47,14 +46,13 @@ class Spikes:
         """State the spikes, channel by channel and joint by joint."""
         found = []
         for channel, all_runs in self._runs.items():
-            unit = ANGLE_OR_WAY if channel == "position" else TORQUE_OR_FORCE
             for joint, runs in enumerate(all_runs):
                 if runs.rows:
                     largest, span = self._largest[channel][joint], facts.span(channel)[joint]
                     statement = (
                         f"Joint {joint + 1}'s {channel} stands apart from its neighbours in "
-                        f"{counted(runs.rows, 'sample')}, by up to {largest:.3g} {unit} "
-                        f"({100.0 * largest / span:.3g} % of its range)."
+                        f"{counted(runs.rows, 'sample')}, by up to {largest:.3g} "
+                        f"{facts.units[channel][joint]} ({100.0 * largest / span:.3g} % of its range)."
                     )
                     found.append(Defect("outliers", channel, joint + 1, runs.rows, runs.intervals, statement))
         return found

@@ -4,14 +4,15 @@ All finders look at the same stretch before the next one is read, so that a file
 they find does not depend on whether the log lies in memory or on disk.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool
 
-from ...arrays import JointSeries, JointVector, Samples, Series
+from ...arrays import JointVector, Samples, Series
+from ..channels import EFFORTS
 from ..model import Defect, LogSource
 
 Mask = Bool[np.ndarray, " increments"]
@@ -38,25 +39,38 @@ class Stretch:
         Row number of the first sample.
     context
         How many leading samples the stretch before gave already.
+    channels
+        By name, one row per joint.
     """
 
     first: int
     context: int
     time: Samples
-    position: Series
-    torque: Series | None
-    others: dict[str, Series]
+    channels: dict[str, Series]
+
+    @property
+    def position(self) -> Series:
+        """Give the positions."""
+        return self.channels["position"]
+
+    @property
+    def torque(self) -> Series | None:
+        """Give the torques, where they are logged."""
+        return self.channels.get("torque")
+
+    @property
+    def effort(self) -> str:
+        """Name the channel of what drives the joints: torque, or current where no torque is logged."""
+        return next(name for name in EFFORTS if name in self.channels)
 
     @property
     def seam(self) -> int:
         """Index of the sample from which new increments start: the last one seen before, if any."""
         return max(self.context - 1, 0)
 
-    def channels(self) -> dict[str, Series]:
+    def new(self) -> dict[str, Series]:
         """Give all channels by name, with the context cut off."""
-        torque = {} if self.torque is None else {"torque": self.torque}
-        everything = {"position": self.position, **torque, **self.others}
-        return {name: values[:, self.context :] for name, values in everything.items()}
+        return {name: values[:, self.context :] for name, values in self.channels.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +83,8 @@ class Facts:
         Median step of the stamps, s.
     position_lsb
         Resolution of each joint's position, 0 where none shows.
+    units
+        SI unit of each channel, joint by joint.
     """
 
     samples: int
@@ -79,6 +95,7 @@ class Facts:
     high: dict[str, JointVector]
     deviation: dict[str, JointVector]
     position_lsb: JointVector
+    units: Mapping[str, Sequence[str]]
 
     def travels(self, joint: int) -> bool:
         """Tell whether a joint (from 0) is moved at all, rather than held against its load."""
@@ -91,7 +108,6 @@ class Facts:
         return span
 
 
-@runtime_checkable
 @runtime_checkable
 class Finder(Protocol):
     """Find one kind of defect."""
@@ -114,14 +130,11 @@ def stretches(source: LogSource) -> Iterator[Stretch]:
     for start, stop in zip(starts, [*starts[1:], samples], strict=True):
         context = min(start, CONTEXT_ROWS)
         rows = source.rows(start - context, stop)
-        optional = {"velocity": rows.velocity, "current": rows.current, "temperature": rows.temperature}
         yield Stretch(
             first=start - context,
             context=context,
             time=rows.time,
-            position=_by_joint(rows.position),
-            torque=None if rows.torque is None else _by_joint(rows.torque),
-            others={name: _by_joint(values) for name, values in optional.items() if values is not None},
+            channels={name: np.ascontiguousarray(values.T) for name, values in rows.channels().items()},
         )
 
 
@@ -149,7 +162,3 @@ def repeats_previous(values: Series) -> Mask:
             break
         same &= row[1:] == row[:-1]
     return same
-
-
-def _by_joint(values: JointSeries) -> Series:
-    return np.ascontiguousarray(values.T)

@@ -10,6 +10,7 @@ from collections import Counter
 import numpy as np
 
 from ...arrays import Samples
+from ..channels import EFFORTS
 from ..model import STANDING_ROWS, Defect
 from .repeats import JUMP, Repeats, Rows
 from .runs import KEPT, LongRuns
@@ -43,19 +44,17 @@ class Stuck:
         self._repeats = repeats
         self._positions = [_Signal() for _ in range(joints)]
         self._efforts = [_Signal() for _ in range(joints)]
-        self._effort = "torque"
+        self._effort = EFFORTS[0]
 
     def see(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         time, position = stretch.time[stretch.seam :], stretch.position[:, stretch.seam :]
-        effort, row = stretch.torque, stretch.first + stretch.seam
-        if effort is None and "current" in stretch.others:
-            self._effort, effort = "current", stretch.others["current"]
+        self._effort, row = stretch.effort, stretch.first + stretch.seam
         for signal, own in zip(self._positions, position, strict=True):
             signal.see(own, own, time, row)
-        if effort is not None:
-            for signal, own, moved in zip(self._efforts, effort[:, stretch.seam :], position, strict=True):
-                signal.see(own, moved, time, row)
+        effort = stretch.channels[self._effort][:, stretch.seam :]
+        for signal, own, moved in zip(self._efforts, effort, position, strict=True):
+            signal.see(own, moved, time, row)
 
     def rows(self, facts: Facts) -> Rows:
         """Give the rows in which some channel was stuck; some may overlap."""

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 
 from tests.core.log.writers import swing, write_parquet
 from veritorque.core.errors import LogError
+from veritorque.core.log.channels import UNITS
 from veritorque.core.log.mapping import parse_mapping
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.plausible_units import plausible_readings
 from veritorque.core.log.reader import read_log
-from veritorque.core.log.units import UNITS
 
 
 def renamed(names, **scales):
@@ -145,7 +145,7 @@ def test_a_mapping_that_is_not_understood_is_refused_by_the_name_of_what_is_wron
 def test_an_unknown_field_is_answered_with_the_known_ones_and_the_nearest():
     with pytest.raises(LogError) as caught:
         parse_mapping({"postion": {}})
-    assert caught.value.evidence["nearest"] == ["position"]
+    assert caught.value.evidence["nearest"] == ["position", "position_ref"]
     assert set(UNITS) <= set(caught.value.evidence["known"])
 
 
