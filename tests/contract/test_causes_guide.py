@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from veritorque.core.diagnosis.causes.guide import CURES, guide
+from veritorque.core.diagnosis.causes.imitation import imitations
 from veritorque.core.diagnosis.causes.registry import BY_ID
 
 PAGE = Path(__file__).parents[2] / "docs" / "causes.md"
@@ -17,7 +18,7 @@ def test_every_cause_has_a_section_with_its_numbers_and_every_link_leads_to_one(
     assert list(sections) == list(BY_ID)
     for name, one in BY_ID.items():
         assert all(f"| {number} |" in sections[name] for number, _ in one.units)
-        assert all(f"(#{other.cause})" in sections[name] for other in one.confusions)
+        assert all(f"(#{other})" in sections[name] for other in imitations(name))
 
 
 def test_every_cure_is_explained():

@@ -7,7 +7,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.backlash import Backlash as BacklashTerm
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import (
     OwnJointCause,
     before_the_gear,
@@ -17,6 +17,7 @@ from .shared.common import (
     spread,
 )
 from .shared.sites import revolute_joints
+from .traits import SearchTraits
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, evenly spread on a logarithmic scale: half as wide again is another motion."""
@@ -35,23 +36,9 @@ class Backlash(OwnJointCause):
     id = "backlash"
     title = "The transmission has play"
     units = (("half_width", "rad"), ("motor_inertia", "kg m2"))
-    confusions = (
-        Confusion(
-            "friction_presliding",
-            "where the load follows the velocity both act after reversals of either",
-            "repeat in a posture where gravity never lets the load change its sign: only presliding stays",
-        ),
-        Confusion(
-            "joint_elasticity",
-            "both shift the link against the motor; a spring does so in proportion to the load",
-            "repeat in a posture where gravity never lets the load change its sign: only the spring stays",
-        ),
-    )
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
-    inexact = 0.15
-    # The link bounces and slides as it lands; what that leaves looks like a spring or like lost time.
-    leaves = ("joint_elasticity", "time_delay", "torque_filter_lag")
+    traits = SearchTraits(linearisation_error=0.15)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints that turn."""
@@ -73,10 +60,10 @@ class Backlash(OwnJointCause):
             site[0], operating_point, scalars["around"], band, scalars.get("motor_inertia", 0.0)
         )
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a gap of about the width that the crossings were computed for."""
         around = solved.scalars["around"]
-        return super().possible(solved) and bool(around / NARROWER < solved.values[0] < WIDER * around)
+        return super().admissible(solved) and bool(around / NARROWER < solved.values[0] < WIDER * around)
 
     def statement(self, solved: FittedCause) -> str:
         """Say how wide the gap is."""

@@ -9,8 +9,9 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.cable import Cable
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
+from .traits import SearchTraits
 
 SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
 """Shares of the samples during which the cable is slack."""
@@ -23,16 +24,9 @@ class CableForce(OwnJointCause):
     id = "cable_force"
     title = "A cable or hose pulls over part of the range"
     units = (("stiffness", "N m/rad"), ("engage_angle", "rad"))
-    confusions = (
-        Confusion(
-            "spring_compensator",
-            "a spring pulls over the whole range",
-            "hold ten postures spread over the whole range of the joint",
-        ),
-    )
     experiment = "slow moves to both ends of the joint's range"
     coordinate = "position"
-    unrefined = ("side",)
+    traits = SearchTraits(discrete=("side",))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the angle of engagement for pulls above it, then for pulls below it."""
@@ -47,9 +41,9 @@ class CableForce(OwnJointCause):
         del dataset, operating_point
         return Cable(site[0], scalars["engage_angle"], scalars["side"])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a cable that pulls back."""
-        return super().possible(solved) and bool(solved.values[0] > 0.0)
+        return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give stiffness and angle of engagement."""

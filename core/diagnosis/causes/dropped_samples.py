@@ -17,7 +17,7 @@ from ...log.model import LogRows
 from ...signals.condition import Motion
 from ...signals.resample import dropped
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, Cure, Quantity
+from .protocol import Cure, Quantity
 from .sample_check import LEVEL, SampleFinding, Spoil, residual_share
 
 ROWS = 65_536
@@ -40,13 +40,6 @@ class DroppedSamples:
     title: ClassVar[str] = "Rows repeat the row before"
     cure: ClassVar[Cure] = "signal"
     units: ClassVar[tuple[tuple[str, str], ...]] = (("fraction", "1"),)
-    confusions: ClassVar[tuple[Confusion, ...]] = (
-        Confusion(
-            "timestamp_jitter",
-            "a recorder that is quicker than the controller repeats rows regularly, and loses nothing",
-            "record at the controller's own rate",
-        ),
-    )
     experiment: ClassVar[str] = "any motion, recorded with the controller's own sample counter"
     beyond_repair: ClassVar[str] = "What was not recorded is lost; the rows that repeat are left out"
 

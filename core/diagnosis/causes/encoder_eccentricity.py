@@ -11,11 +11,12 @@ from ...dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricity
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsLog
 from .shared.common import OwnJointCause, named, rounded, shown
 from .shared.sites import revolute_joints
 from .shared.waves import amplitude_and_angle
+from .traits import SearchTraits
 
 LARGEST = 0.3
 
@@ -28,23 +29,9 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     title = "The encoder errs once per turn"
     cure = "signal"
     units = (("amplitude", "rad"), ("phase", "rad"))
-    inexact = 0.1
-    # Of a large wave the second order has a mean.
-    leaves = ("encoder_offset",)
-    confusions = (
-        Confusion(
-            "torque_ripple",
-            "both vary with the joint's angle; an angle error grows with acceleration and load",
-            "pass the same angles slowly and quickly",
-        ),
-        Confusion(
-            "encoder_offset",
-            "over a small part of a turn the error hardly changes",
-            "move the joint through a whole turn, or as much of one as its range allows",
-        ),
-    )
     experiment = "quick motion through as much of a turn as the joint's range allows"
     coordinate = "position"
+    traits = SearchTraits(linearisation_error=0.1)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints that turn."""
@@ -56,7 +43,7 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
         del dataset, scalars
         return EncoderEccentricityTerm(site[0], operating_point)
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(float(solved.values @ solved.values) < LARGEST**2)
 

@@ -9,7 +9,7 @@ from ...dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, rounded, shown
 from .shared.sites import revolute_joints
@@ -25,23 +25,9 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
     """
 
     id = "encoder_offset"
-    # What a first-order column leaves of a large angle looks like a small error of a length.
-    excludes = ("kinematic_error",)
     title = "The joint's zero is off"
     cure = "signal"
     units = (("offset", "rad"),)
-    confusions = (
-        Confusion(
-            "kinematic_error",
-            "a zero error of the joint is the same as an error of theta in its row",
-            "measure the tool's position against the joint angles: torque alone cannot separate the two",
-        ),
-        Confusion(
-            "gravity_misalignment",
-            "joints that carry the arm against gravity see a tilted base like a zero error",
-            "turn the first joint by half a turn: the effect of a tilted base changes its sign",
-        ),
-    )
     experiment = "motion of the joints beyond this one through their whole range, with this joint moving too"
     coordinate = "position"
 
@@ -55,7 +41,7 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
         del dataset, scalars
         return EncoderOffsetTerm(site[0], operating_point)
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LARGEST)
 

@@ -12,7 +12,7 @@ from ...log.defects.stretch import stretches
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, Cure, Quantity
+from .protocol import Cure, Quantity
 from .sample_check import SampleFinding, Spoil, disturbance, share_of_residual
 
 LEAST_SHARE = 0.6
@@ -35,13 +35,6 @@ class EncoderQuantization:
     title: ClassVar[str] = "The encoder's steps are too coarse"
     cure: ClassVar[Cure] = "signal"
     units: ClassVar[tuple[tuple[str, str], ...]] = (("lsb", "rad"),)
-    confusions: ClassVar[tuple[Confusion, ...]] = (
-        Confusion(
-            "timestamp_jitter",
-            "both roughen positions; jitter grows with speed and is the same time on all joints",
-            "repeat the motion at half the speed: rounding errors stay",
-        ),
-    )
     experiment: ClassVar[str] = "slow motion, which passes many samples within one step"
     beyond_repair: ClassVar[str] = "Where the joint was between two counts of its encoder is not in the log"
 

@@ -11,10 +11,11 @@ from ...dynamics.terms.contact import WRENCH, Contact, Span, pushed
 from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
-from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, rounded
 from .shared.events import find_events
 from .shared.sites import end_links
+from .traits import SearchTraits
 
 SPANS_TRIED = 1200
 """Spans of time that a log of half a minute is searched for."""
@@ -26,6 +27,17 @@ LONGEST_LEVER = 0.5
 """Distance in m of a point of contact from the origin of the last link's frame."""
 
 
+def _spans(scalars: Scalars) -> tuple[Span, ...]:
+    count = len(scalars) // 2
+    return tuple((scalars[f"start_{number}"], scalars[f"end_{number}"]) for number in range(1, count + 1))
+
+
+def _spans_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
+    """Count what was searched: every span of time, for every contact."""
+    del grid
+    return float(SPANS_TRIED) ** len(_spans(scalars))
+
+
 @dataclass(frozen=True)
 class ExternalContact(OwnJointCause):
     """Suspect pushes of something outside against the last link."""
@@ -33,17 +45,13 @@ class ExternalContact(OwnJointCause):
     id = "external_contact"
     title = "Something pushed against the robot"
     units = (("force", "N"), ("start", "s"), ("end", "s"))
-    unrefined = tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end"))
-    confusions = (
-        Confusion(
-            "payload_change",
-            "a push that lasts to the log's end looks like a weight, until the arm accelerates",
-            "repeat the motion in free space",
-        ),
-    )
     experiment = "the same motion again with nothing within reach"
     coordinate = "time"
-    event = True
+    traits = SearchTraits(
+        transient=True,
+        discrete=tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end")),
+        trials=_spans_tried,
+    )
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints of links that carry no other, where one log tells what the time is."""
@@ -67,17 +75,12 @@ class ExternalContact(OwnJointCause):
             }
         ]
 
-    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
-        """Count what was searched: every span of time, for every contact."""
-        del grid
-        return float(SPANS_TRIED) ** len(_spans(scalars))
-
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         del operating_point
         return Contact(site[0], end_links(dataset.robot)[site[0]], _spans(scalars))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a force that leaves the robot whole, and a moment that its lever explains."""
         wrenches = solved.values.reshape(-1, len(WRENCH))
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0)).reshape(-1, len(WRENCH))
@@ -134,11 +137,6 @@ def _contacts(solved: FittedCause) -> list[_Contact]:
         _Contact(span, float(forces[number]), _deviation(solved, number))
         for number, span in enumerate(_spans(solved.scalars))
     ]
-
-
-def _spans(scalars: Scalars) -> tuple[Span, ...]:
-    count = len(scalars) // 2
-    return tuple((scalars[f"start_{number}"], scalars[f"end_{number}"]) for number in range(1, count + 1))
 
 
 def _deviation(solved: FittedCause, number: int) -> float:

@@ -6,7 +6,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.asymmetric_viscous import AsymmetricViscous
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 
@@ -17,13 +17,6 @@ class FrictionAsymmetric(OwnJointCause):
     id = "friction_asymmetric"
     title = "Viscous friction differs between directions"
     units = (("delta_viscous", "N m s/rad"),)
-    confusions = (
-        Confusion(
-            "friction_viscous_nonlinear",
-            "both bend the friction curve; motion in one direction alone cannot tell them apart",
-            "repeat every constant-speed move in the other direction",
-        ),
-    )
     experiment = "constant-speed moves at three speeds or more, each in both directions"
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:

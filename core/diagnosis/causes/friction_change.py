@@ -7,7 +7,7 @@ from ...dynamics.term import Term
 from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, shown
 
 WORDS = {"delta_viscous": "viscous friction", "delta_coulomb": "Coulomb friction", "delta_offset": "offset"}
@@ -20,23 +20,6 @@ class FrictionChange(OwnJointCause):
     id = "friction_change"
     title = "Friction has changed since the reference"
     units = (("delta_viscous", "N m s/rad"), ("delta_coulomb", "N m"), ("delta_offset", "N m"))
-    confusions = (
-        Confusion(
-            "torque_gain",
-            "a channel that reads too much shows more of the joint's friction too",
-            "pass the same postures slowly in both directions: friction changes its sign, the load does not",
-        ),
-        Confusion(
-            "friction_temperature",
-            "friction that falls while the joint warms up is another friction than the reference's",
-            "repeat the motion after an hour of warming up",
-        ),
-        Confusion(
-            "torque_offset_drift",
-            "an offset that drifts is on average another offset",
-            "record for longer: a drift goes on",
-        ),
-    )
     experiment = "constant-speed moves of this joint at three speeds or more, each in both directions"
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:

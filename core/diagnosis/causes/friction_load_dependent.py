@@ -10,7 +10,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.load_friction import LoadFriction
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, before_the_gear, motor_inertias, named, shown
 
 
@@ -21,13 +21,6 @@ class FrictionLoadDependent(OwnJointCause):
     id = "friction_load_dependent"
     title = "Friction grows with the transmitted torque"
     units = (("load_coefficient", "1"), ("motor_inertia", "kg m2"))
-    confusions = (
-        Confusion(
-            "torque_gain",
-            "both are proportional to the load; friction changes its sign with the direction of motion",
-            "pass the same postures slowly in both directions",
-        ),
-    )
     experiment = "slow moves in both directions through postures of little and of much gravity torque"
     coordinate = "load"
 
@@ -40,9 +33,9 @@ class FrictionLoadDependent(OwnJointCause):
         del dataset
         return LoadFriction(site[0], operating_point, scalars.get("motor_inertia", 0.0))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want friction that brakes, and less than all of the load."""
-        return super().possible(solved) and bool(0.0 < solved.values[0] < 1.0)
+        return super().admissible(solved) and bool(0.0 < solved.values[0] < 1.0)
 
     def statement(self, solved: FittedCause) -> str:
         """Say which share of the load comes back as friction."""

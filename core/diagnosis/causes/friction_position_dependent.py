@@ -7,9 +7,10 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.position_friction import PositionFriction
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 from .shared.harmonics import harmonics, wave_quantities
+from .traits import SearchTraits
 
 MOST = 12
 
@@ -21,16 +22,9 @@ class FrictionPositionDependent(OwnJointCause):
     id = "friction_position_dependent"
     title = "Coulomb friction varies with the angle"
     units = (("amplitude", "N m"), ("harmonic", "1"), ("phase", "rad"))
-    confusions = (
-        Confusion(
-            "torque_ripple",
-            "both wave along the angle; friction's wave changes its sign with the direction of motion",
-            "cover the whole range slowly, once in each direction",
-        ),
-    )
     experiment = "slow moves at constant speed over the joint's whole range, in both directions"
     coordinate = "position"
-    unrefined = ("centre",)
+    traits = SearchTraits(discrete=("centre",))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the waves per turn from one upwards."""

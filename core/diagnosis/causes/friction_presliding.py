@@ -9,7 +9,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.presliding import Presliding
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown, spread
 
 
@@ -20,24 +20,6 @@ class FrictionPresliding(OwnJointCause):
     id = "friction_presliding"
     title = "Friction builds up over a distance after each reversal"
     units = (("coulomb_level", "N m"), ("presliding_distance", "rad"))
-    confusions = (
-        Confusion(
-            "backlash",
-            "both act just after the motion turns; backlash only where the load changes its sign",
-            "reverse in postures where gravity keeps the load on one side of the gear",
-        ),
-        Confusion(
-            "joint_elasticity",
-            "bristles and a compliant gear both give way; the gear also under load without a reversal",
-            "accelerate hard without changing the direction of motion",
-        ),
-        Confusion(
-            "friction_stribeck",
-            "both act next to reversals; one depends on speed, the other on the distance travelled since",
-            "start from rest with accelerations that differ by a factor of ten: only speed or only distance "
-            "lines the two up",
-        ),
-    )
     experiment = "many slow reversals, each followed by a move of some degrees"
     coordinate = "travel"
 
@@ -52,9 +34,9 @@ class FrictionPresliding(OwnJointCause):
         del dataset, operating_point
         return Presliding(site[0], scalars["presliding_distance"])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want friction that builds up, not one that falls."""
-        return super().possible(solved) and bool(solved.values[0] > 0.0)
+        return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: FittedCause) -> str:
         """Say over which distance how much friction builds up."""

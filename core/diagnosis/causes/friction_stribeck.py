@@ -7,7 +7,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.stribeck import Stribeck
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown, spread
 
 
@@ -18,19 +18,6 @@ class FrictionStribeck(OwnJointCause):
     id = "friction_stribeck"
     title = "Friction falls with speed near standstill"
     units = (("excess_torque", "N m"), ("stribeck_velocity", "rad/s"))
-    confusions = (
-        Confusion(
-            "friction_viscous_nonlinear",
-            "both bend the friction curve; a Stribeck velocity of the size of the motion's speed is a bend",
-            "move the joint at ten constant speeds from 1 % to 100 % of its limit, both ways",
-        ),
-        Confusion(
-            "friction_presliding",
-            "both act next to reversals; one depends on speed, the other on the distance travelled since",
-            "start from rest with accelerations that differ by a factor of ten: only speed or only distance "
-            "lines the two up",
-        ),
-    )
     experiment = "slow constant-speed moves, 1 % to 20 % of the joint's speed, in both directions"
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
@@ -44,9 +31,9 @@ class FrictionStribeck(OwnJointCause):
         del dataset, operating_point
         return Stribeck(site[0], scalars["stribeck_velocity"])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want an excess, not a lack."""
-        return super().possible(solved) and bool(solved.values[0] > 0.0)
+        return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: FittedCause) -> str:
         """Say how much friction is lost at which speed."""

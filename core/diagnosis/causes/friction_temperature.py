@@ -9,7 +9,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.common import NOTHING, OwnJointCause, named, shown
 
 SHARES = (0.05, 0.12, 0.3, 0.7, 3.0)
@@ -27,18 +27,6 @@ class FrictionTemperature(OwnJointCause):
         ("coulomb_slope", "N m or N m/K"),
         ("viscous_slope", "N m s/rad or N m s/rad/K"),
         ("time_constant", "s"),
-    )
-    confusions = (
-        Confusion(
-            "torque_offset_drift",
-            "both change slowly with time; friction changes its sign with the direction of motion",
-            "repeat a slow move in both directions, cold and after half an hour of motion",
-        ),
-        Confusion(
-            "friction_load_dependent",
-            "a payload taken up in the course of the log also raises friction with time",
-            "repeat the same motion cold and warm with nothing else changed",
-        ),
     )
     experiment = "the same motion cold and after half an hour of work, the joints' temperatures logged"
     coordinate = "time"

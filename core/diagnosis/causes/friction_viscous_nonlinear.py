@@ -7,7 +7,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.nonlinear_viscous import NonlinearViscous
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
@@ -23,13 +23,6 @@ class FrictionViscousNonlinear(OwnJointCause):
     id = "friction_viscous_nonlinear"
     title = "Friction is not linear in speed"
     units = (("coefficient", "N m (s/rad)^p"), ("exponent", "1"))
-    confusions = (
-        Confusion(
-            "friction_stribeck",
-            "both bend the friction curve; Stribeck's bend ends at a speed, a power goes on",
-            "move the joint at ten constant speeds from 1 % to 100 % of its limit, both ways",
-        ),
-    )
     experiment = "constant-speed moves from 5 % to 100 % of the joint's speed, in both directions"
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
@@ -42,10 +35,10 @@ class FrictionViscousNonlinear(OwnJointCause):
         del dataset, operating_point
         return NonlinearViscous(site[0], scalars["exponent"])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a power that is neither Coulomb nor viscous friction."""
         power = solved.scalars["exponent"]
-        return super().possible(solved) and power >= APART and abs(power - 1.0) >= APART
+        return super().admissible(solved) and power >= APART and abs(power - 1.0) >= APART
 
     def statement(self, solved: FittedCause) -> str:
         """Say how friction grows with which power."""

@@ -11,7 +11,7 @@ from ...dynamics.term import Term
 from ...dynamics.terms.tilt import Tilt, tilt_axes
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, rounded, shown
 
@@ -23,18 +23,9 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
     """Suspect a tilted base."""
 
     id = "gravity_misalignment"
-    # What a first-order column leaves of a large angle looks like a small error of a length.
-    excludes = ("kinematic_error",)
     title = "The base is tilted against the description"
     cure = "robot"
     units = (("tilt_x", "rad"), ("tilt_y", "rad"))
-    confusions = (
-        Confusion(
-            "encoder_offset",
-            "joints that carry the arm against gravity see a tilted base like a zero error",
-            "turn the first joint by half a turn: the effect of a tilted base changes its sign",
-        ),
-    )
     experiment = "the same slow motion with the first joint at four angles, a quarter of a turn apart"
     coordinate = "position"
 
@@ -48,7 +39,7 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
         del dataset, site, scalars
         return Tilt(0, operating_point)
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a tilt that a first-order column can stand for."""
         return bool(np.hypot(*solved.values) < LARGEST)
 

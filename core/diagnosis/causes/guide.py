@@ -8,7 +8,8 @@ import inspect
 import sys
 from collections.abc import Mapping
 
-from .protocol import Cause, Confusion
+from .imitation import Imitation, imitations
+from .protocol import Cause
 from .registry import BY_ID, ONLY_CHANGES
 from .repairs import corrects
 from .sample_check import SampleCheck
@@ -78,7 +79,7 @@ def _section(cause: Cause | SampleCheck) -> str:
         f"{ONLY_AGAINST * (cause in ONLY_CHANGES)}"
         f"| number | unit |\n|---|---|\n{units}\n"
         f"Shown by: {cause.experiment}.\n\n"
-        "Confused with:\n\n" + "".join(_confusion(one) for one in cause.confusions)
+        "Confused with:\n\n" + "".join(_imitation(*entry) for entry in imitations(cause.id).items())
     )
 
 
@@ -86,8 +87,8 @@ def _repair(cause: Cause | SampleCheck) -> str:
     return "nothing" if isinstance(cause, SampleCheck) else corrects(cause)
 
 
-def _confusion(one: Confusion) -> str:
-    return f"- [{one.cause}](#{one.cause}): {one.why}. To separate them, {one.experiment}.\n"
+def _imitation(other: str, entry: Imitation) -> str:
+    return f"- [{other}](#{other}): {entry.why}. To separate them, {entry.experiment}.\n"
 
 
 def _written(unit: str) -> str:

@@ -11,9 +11,10 @@ from ...dynamics.term import Term
 from ...dynamics.terms.missing_coupling import MissingCoupling
 from ...robot.model import Coupling, RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, shown
+from .traits import SearchTraits
 
 FURTHEST = 2
 """Gears couple a joint with the next or the one after it."""
@@ -30,16 +31,9 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
     title = "A motor turns with two joints at once"
     cure = "robot"
     units = (("Fvm", "N m s/rad"), ("Fcm", "N m"), ("Iam", "kg m2"))
-    confusions = (
-        Confusion(
-            "friction_asymmetric",
-            "while the other joint always moves alike, its friction here looks like this joint's own",
-            "move each of the two joints alone, then both the same way and both against each other",
-        ),
-    )
     experiment = "move each of the two joints alone, then both the same way and both against each other"
     coordinate = "other_velocity"
-    unrefined = ("weight",)
+    traits = SearchTraits(discrete=("weight",))
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List pairs of turning joints, at most two apart, that no declared coupling joins."""
@@ -65,10 +59,10 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
         weights = (scalars["weight"], 1.0)
         return MissingCoupling(Coupling("undeclared", site[1], (site[0], site[1]), weights))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want inertia and friction that are not negative beyond doubt, and at least one of them positive."""
         size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
-        return super().possible(solved) and bool(size.min() > -DOUBT and size.max() > DOUBT)
+        return super().admissible(solved) and bool(size.min() > -DOUBT and size.max() > DOUBT)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the motor's inertia and friction under the number of the joint that it drives."""

@@ -9,7 +9,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.elasticity import Elasticity
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.common import (
     OwnJointCause,
     before_the_gear,
@@ -18,6 +18,7 @@ from .shared.common import (
     shown,
     spread,
 )
+from .traits import SearchTraits
 
 LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
 DAMPING_RATIOS = (0.05, 0.2)
@@ -30,22 +31,9 @@ class JointElasticity(OwnJointCause):
     id = "joint_elasticity"
     title = "The gear is compliant"
     units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"), ("motor_inertia", "kg m2"))
-    confusions = (
-        Confusion(
-            "time_delay",
-            "both make the torque seem late; a delay is the same on all joints and loads",
-            "repeat the motion with a payload: a compliant gear's lag grows with the inertia",
-        ),
-        Confusion(
-            "backlash",
-            "both shift the link against the motor; backlash only where the load changes its sign",
-            "repeat in a posture where gravity never lets the load change its sign",
-        ),
-    )
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
-    inexact = 0.15
-    like_position_noise = True
+    traits = SearchTraits(linearisation_error=0.15, like_position_noise=True)
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the resonance from a few times the motion's band to beyond the look's, and the damping."""
@@ -64,9 +52,9 @@ class JointElasticity(OwnJointCause):
             site[0], operating_point, dataset.band_hz, *response, scalars.get("motor_inertia", 0.0)
         )
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a spring that gives way."""
-        return super().possible(solved) and bool(solved.values[0] > 0.0)
+        return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the stiffness, of the compliance's relative deviation, the damping, and the rotor if any."""

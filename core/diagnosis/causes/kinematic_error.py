@@ -9,9 +9,10 @@ from ...dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, w
 from ...dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, rounded, shown
+from .traits import SearchTraits
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 LARGEST = 0.3
@@ -26,24 +27,9 @@ class KinematicError(OwnJointCause, CorrectsRobot):
     title = "An entry of the kinematic table is wrong"
     cure = "robot"
     units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
-    unrefined = ("entry",)
-    # Its columns are those of a small error; what they miss of a larger one is a torque over the angle, or
-    # looks like a small error of another length.
-    leaves = ("spring_compensator", "cable_force", "kinematic_error")
-    confusions = (
-        Confusion(
-            "encoder_offset",
-            "an angle that is wrong in the table and one that is wrong in the encoder turn the same bodies",
-            "measure the tool's position against the joint angles",
-        ),
-        Confusion(
-            "gravity_misalignment",
-            "an angle of the first links turns the whole arm, as a tilted base does",
-            "measure the base with a level",
-        ),
-    )
     experiment = "quick motion of all joints at once: lengths show in products of velocities"
     coordinate = "position"
+    traits = SearchTraits(discrete=("entry",))
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints whose link has a row."""
@@ -67,7 +53,7 @@ class KinematicError(OwnJointCause, CorrectsRobot):
         del dataset
         return KinematicErrorTerm(site[0], operating_point, _entry(scalars))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want an error that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LARGEST)
 

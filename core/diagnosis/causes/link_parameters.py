@@ -11,7 +11,7 @@ from ...dynamics.terms.link_change import LinkChange
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.bodies import is_body
 from .shared.common import OwnJointCause, shown
 from .shared.sites import links_by_joint
@@ -28,18 +28,6 @@ class LinkParameters(OwnJointCause):
     title = "A link's inertial parameters are not the reference's"
     cure = "robot"
     units = tuple((f"delta_{symbol}", INERTIAL_UNITS[symbol]) for symbol in INERTIAL_SYMBOLS)
-    confusions = (
-        Confusion(
-            "payload_change",
-            "where the difference may be a body, a body is what it is called",
-            "weigh the link, or look whether something is fixed to it",
-        ),
-        Confusion(
-            "torque_gain",
-            "the last joints' channels feel little but this link: their scale is its size",
-            "repeat the motion with a weighed payload",
-        ),
-    )
     experiment = "quick motion of all joints at once through postures in which this link hangs and lies"
     coordinate = "position"
 
@@ -53,9 +41,9 @@ class LinkParameters(OwnJointCause):
         del operating_point, scalars
         return LinkChange(site[0], links_by_joint(dataset.robot)[site[0]])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a difference that is neither a body nor minus one: such a one is a payload."""
-        return super().possible(solved) and not is_body(solved.values, solved.covariance)
+        return super().admissible(solved) and not is_body(solved.values, solved.covariance)
 
     def statement(self, solved: FittedCause) -> str:
         """Say which of the ten are furthest from the reference, in units of how well they are known."""

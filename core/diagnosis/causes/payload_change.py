@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -12,10 +11,11 @@ from ...dynamics.terms.payload import Payload
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.bodies import MASS, body_of, is_body
 from .shared.common import NOTHING, OwnJointCause, named, rounded, shown
 from .shared.sites import end_links, links_by_joint
+from .traits import SearchTraits
 
 INSTANTS = 16
 TOLD_APART = 120
@@ -24,6 +24,11 @@ HEAVIEST = 500.0
 UNKNOWN = 1.0
 """A coordinate of the mass centre, m, that is known worse is not told: a planar arm sees two only."""
 _FIRST = INERTIAL_SYMBOLS.index("MX")
+
+
+def _instants_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
+    """Count the instants that are told apart."""
+    return float(len(grid) * TOLD_APART) if scalars else float(len(grid))
 
 
 @dataclass(frozen=True)
@@ -43,31 +48,13 @@ class PayloadChange(OwnJointCause):
     throughout: bool = False
 
     id = "payload_change"
-    leaves = ("external_contact",)
-    # What a body weighs shows when it came; its inertia hardly does.
-    onset: ClassVar = {"time": slice(_FIRST, None)}
     title = "A body was attached to or taken off a link"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))
-    confusions = (
-        Confusion(
-            "torque_offset_drift",
-            "a step of weight in one posture is a step of the offset",
-            "keep moving all joints after the change",
-        ),
-        Confusion(
-            "external_contact",
-            "a push that lasts to the log's end looks like a weight, until the arm accelerates",
-            "move quickly after the change: only a body has inertia",
-        ),
-        Confusion(
-            "link_parameters",
-            "against a reference, a link that is heavier than there is a body on it",
-            "weigh the link, or look whether something is fixed to it",
-        ),
-    )
     experiment = "the same motion of all joints before and after the change, at least five seconds each"
     coordinate = "time"
+    # The weight of a body shows its instant; its inertia hardly does.
+    traits = SearchTraits(onset={"time": slice(_FIRST, None)}, trials=_instants_tried)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the joints of the links that may carry it; several logs have no instant in common."""
@@ -86,16 +73,12 @@ class PayloadChange(OwnJointCause):
         instants = np.linspace(dataset.time.min(), dataset.time.max(), INSTANTS, endpoint=False)[1:]
         return [{"time": float(value)} for value in instants]
 
-    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
-        """Count the instants that are told apart."""
-        return float(len(grid) * TOLD_APART) if scalars else super().trials(grid, scalars)
-
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         del operating_point
         return Payload(site[0], self._links(dataset)[site[0]], scalars.get("time", -np.inf))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a mass that an arm may carry and, where all ten parameters are well known, a body."""
         light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < HEAVIEST)
         return light and (not self.throughout or is_body(solved.values, solved.covariance))

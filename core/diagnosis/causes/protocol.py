@@ -16,6 +16,7 @@ from ...dynamics.term import Term
 from ...robot.joint_units import along_slide
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from .traits import SearchTraits
 
 Cure = Literal["term", "signal", "robot"]
 Scalars = Mapping[str, float]
@@ -23,23 +24,6 @@ Site = tuple[int, ...]
 """Joints that a cause acts on, counted from 1; empty for the whole robot."""
 Numbers = Mapping[str, float]
 """What a repair is done with, by name, in SI."""
-
-
-@dataclass(frozen=True)
-class Confusion:
-    """Name another cause that leaves much the same trace, why, and the experiment that separates the two.
-
-    Attributes
-    ----------
-    share
-        A lead over it of less than this share of a finding's rise counts for nothing: columns of a real robot
-        are not exact, and what they miss grows with the effect.
-    """
-
-    cause: str
-    why: str
-    experiment: str
-    share: float = 0.15
 
 
 @dataclass(frozen=True)
@@ -94,22 +78,15 @@ class Cause(Protocol):
         The motion that would show it where the present one does not.
     coordinate
         What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
-    event
-        Whether it acts in short spans only. Noise learned before it is known holds it, so that a scan says
-        little about it.
-    like_position_noise
-        Whether noise of the positions, on its way to a torque, passes for a little of it.
-    inexact
-        Share of a size that its columns, which are of first order, are inexact by: none is known better.
+    traits
+        What the search has to know of it.
     """
 
     id: ClassVar[str]
     title: ClassVar[str]
     experiment: ClassVar[str]
     coordinate: ClassVar[str]
-    event: ClassVar[bool]
-    like_position_noise: ClassVar[bool]
-    inexact: ClassVar[float]
+    traits: ClassVar[SearchTraits]
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:
@@ -119,46 +96,6 @@ class Cause(Protocol):
     @property
     def cure(self) -> Cure:
         """Tell whether a term, a signal or the robot's description is to be mended."""
-        ...
-
-    @property
-    def confusions(self) -> tuple[Confusion, ...]:
-        """List what it is mistaken for."""
-        ...
-
-    @property
-    def excludes(self) -> tuple[str, ...]:
-        """List causes that are not added once it is there: they would share out one effect."""
-        ...
-
-    @property
-    def leaves(self) -> tuple[str, ...]:
-        """List causes that what it leaves looks like: beside it, they have to be nearly as clear.
-
-        Of events only those count that happen while it acts.
-        """
-        ...
-
-    @property
-    def unrefined(self) -> tuple[str, ...]:
-        """List scalars that are taken from the grid as they are (a side, a sense), not refined."""
-        ...
-
-    @property
-    def onset(self) -> Mapping[str, slice]:
-        """Name the scalar, if any, that is the instant from which on its columns act, and those that show it.
-
-        In s; from minus infinity on they act all along.
-        """
-        ...
-
-    @property
-    def yielded(self) -> tuple[str, ...]:
-        """List scalars that are the size itself: columns are built where they yield what they are built for.
-
-        Causes that agree to first order differ by how their second order follows from it; a free scalar would
-        give that away.
-        """
         ...
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
@@ -173,11 +110,7 @@ class Cause(Protocol):
         """Give its torque per unit of its linear parameters."""
         ...
 
-    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
-        """Count the trials that a point of the grid was picked from: what its p-value is corrected for."""
-        ...
-
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Tell whether nature allows the parameters found: signs and sizes."""
         ...
 

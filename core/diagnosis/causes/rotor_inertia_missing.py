@@ -8,7 +8,7 @@ from ...dynamics.term import Term
 from ...dynamics.terms.missing_rotor import MissingRotor
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.common import OwnJointCause, named, rounded, shown
 
@@ -21,13 +21,6 @@ class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
     title = "A rotor inertia is missing from the model"
     cure = "robot"
     units = (("IA", "kg m2"),)
-    confusions = (
-        Confusion(
-            "joint_elasticity",
-            "a compliant gear changes the torque with the same frequencies squared",
-            "repeat the motion with a payload: a rotor does not feel it",
-        ),
-    )
     experiment = "large accelerations of this joint in postures of different inertia beyond it"
     coordinate = "acceleration"
 
@@ -43,9 +36,9 @@ class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
         del dataset, operating_point, scalars
         return MissingRotor(site[0])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want an inertia."""
-        return super().possible(solved) and bool(solved.values[0] > 0.0)
+        return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: FittedCause) -> str:
         """Say how much inertia is missing."""

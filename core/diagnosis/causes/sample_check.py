@@ -23,7 +23,7 @@ from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
 from ..regression.innovation_covariance import fitted_rows, torque_residual
-from .protocol import Confusion, Cure, Quantity, Site
+from .protocol import Cure, Quantity, Site
 
 LEVEL = 1e-5
 """Chance with which a raw check may see something in samples that have nothing."""
@@ -78,11 +78,6 @@ class SampleCheck(Protocol):
     @property
     def cure(self) -> Cure:
         """Tell what is to be mended."""
-        ...
-
-    @property
-    def confusions(self) -> tuple[Confusion, ...]:
-        """List what it is mistaken for."""
         ...
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:

@@ -6,7 +6,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.spring import Spring
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 
 
@@ -17,13 +17,6 @@ class SpringCompensator(OwnJointCause):
     id = "spring_compensator"
     title = "A spring acts beside the motor"
     units = (("stiffness", "N m/rad"),)
-    confusions = (
-        Confusion(
-            "cable_force",
-            "a cable is a spring that is slack over part of the range",
-            "hold ten postures spread over the whole range of the joint",
-        ),
-    )
     experiment = "hold ten postures spread over the whole range of the joint"
     coordinate = "position"
 

@@ -12,9 +12,10 @@ from ...dynamics.terms.delay import Delay
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded
+from .traits import SearchTraits
 
 LONGEST_DELAY = 0.05
 STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
@@ -25,30 +26,12 @@ class TimeDelay(OwnJointCause, CorrectsLog):
     """Suspect a delay of the torque channel."""
 
     id = "time_delay"
-    excludes = ("torque_filter_lag",)
-    # A column of first order is late where velocities turn: the friction there looks like another one. And it
-    # lacks what grows with frequency squared.
-    leaves = ("friction_presliding", "friction_stribeck", "joint_elasticity")
-    like_position_noise = True
     title = "The torque channel is late"
     cure = "signal"
     units = (("delay", "s"),)
-    yielded = ("around",)
-    confusions = (
-        Confusion(
-            "torque_filter_lag",
-            "a low-pass filter delays slow motion by its time constant; it also weakens quick motion",
-            "excite at several frequencies up to a fifth of the sampling rate: a delay keeps the amplitude",
-            share=0.4,
-        ),
-        Confusion(
-            "joint_elasticity",
-            "a compliant gear also makes the torque seem late, by an amount that depends on joint and load",
-            "repeat the motion with and without a payload: a delay stays the same",
-        ),
-    )
     experiment = "motion with quick reversals, five times the present frequencies"
     coordinate = "torque_rate"
+    traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """Act on the whole robot."""
@@ -65,7 +48,7 @@ class TimeDelay(OwnJointCause, CorrectsLog):
         del dataset, site
         return Delay(0, operating_point, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a delay that a first-order column can stand for."""
         return bool(abs(solved.values[0]) < LONGEST_DELAY)
 

@@ -20,7 +20,7 @@ from ...signals.resample import dropped, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, Cure, Quantity
+from .protocol import Cure, Quantity
 from .sample_check import LEVEL, SampleFinding, Spoil, residual_share
 from .shared.common import rounded
 
@@ -42,13 +42,6 @@ class TimestampJitter:
     title: ClassVar[str] = "Sampling instants scatter about their stamps"
     cure: ClassVar[Cure] = "signal"
     units: ClassVar[tuple[tuple[str, str], ...]] = (("std", "s"),)
-    confusions: ClassVar[tuple[Confusion, ...]] = (
-        Confusion(
-            "encoder_quantization",
-            "both roughen positions; rounding does not grow with speed and differs between joints",
-            "repeat the motion at half the speed: jitter's errors are halved",
-        ),
-    )
     experiment: ClassVar[str] = "quick motion of at least two joints at once"
     beyond_repair: ClassVar[str] = "At which instants the samples were really taken is not in the log"
 

@@ -15,9 +15,10 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded
+from .traits import SearchTraits
 
 SHORTEST, LONGEST = 2e-4, 0.1
 """Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""
@@ -32,30 +33,12 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
     """Suspect a filter in the torque channel."""
 
     id = "torque_filter_lag"
-    excludes = ("time_delay",)
-    # A column of first order is late where velocities turn: the friction there looks like another one. And it
-    # lacks what grows with frequency squared.
-    leaves = ("friction_presliding", "friction_stribeck", "joint_elasticity")
-    like_position_noise = True
     title = "The torque channel is low-pass filtered"
     cure = "signal"
     units = (("time_constant", "s"),)
-    yielded = ("around",)
-    confusions = (
-        Confusion(
-            "time_delay",
-            "to first order in frequency both are late alike; they differ by its square",
-            "excite at several frequencies up to a fifth of the sampling rate: a filter weakens quick ones",
-            share=0.4,
-        ),
-        Confusion(
-            "joint_elasticity",
-            "a compliant gear also makes the torque seem late, by an amount that depends on joint and load",
-            "repeat the motion with and without a payload: a filter stays the same",
-        ),
-    )
     experiment = "motion with quick reversals, five times the present frequencies"
     coordinate = "torque_rate"
+    traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """Act on the whole robot."""
@@ -72,7 +55,7 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
         del dataset, site
         return FilterLag(0, operating_point, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a filter that lags."""
         return bool(0.0 < solved.values[0] < LONGEST)
 

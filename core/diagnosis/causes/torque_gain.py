@@ -10,7 +10,7 @@ from ...dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded
 
@@ -34,23 +34,6 @@ class TorqueGain(OwnJointCause, CorrectsLog):
     title = "The torque channel's scale is wrong"
     cure = "signal"
     units = (("relative_error", "1"),)
-    confusions = (
-        Confusion(
-            "friction_load_dependent",
-            "both are proportional to the load; friction changes its sign with the direction of motion",
-            "pass the same postures slowly in both directions",
-        ),
-        Confusion(
-            "torque_gain_nonlinear",
-            "a curve that is bent looks like another slope where the torque stays of one size",
-            "hold postures of little, half and full gravity torque",
-        ),
-        Confusion(
-            "payload_change",
-            "only ratios between joints show a gain; all joints at once are the same as heavier bodies",
-            "repeat the motion with a weighed payload",
-        ),
-    )
     experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
     coordinate = "torque"
 
@@ -63,7 +46,7 @@ class TorqueGain(OwnJointCause, CorrectsLog):
         del dataset, scalars
         return TorqueGainTerm(site[0], operating_point) if site else CommonGain(0, operating_point)
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want a channel that still has most of its sense."""
         return bool(abs(solved.values[0]) < LARGEST)
 

@@ -11,7 +11,7 @@ from ...dynamics.terms.cubic_gain import CubicGain
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded, shown
 
@@ -24,18 +24,6 @@ class TorqueGainNonlinear(OwnJointCause, CorrectsLog):
     title = "The torque constant varies with current"
     cure = "signal"
     units = (("cubic_coefficient", "1/(N m)^2"),)
-    confusions = (
-        Confusion(
-            "torque_saturation",
-            "both act at large torques; a clipped torque ends at one level, a bent gain goes on",
-            "raise a payload step by step: a bent gain shows below the largest torque, too",
-        ),
-        Confusion(
-            "friction_load_dependent",
-            "both grow with the torque; only friction changes its sign with the direction of motion",
-            "pass the same loaded posture slowly in both directions",
-        ),
-    )
     experiment = "hold known payloads, up to the rated one, in the posture of the largest gravity torque"
     coordinate = "torque"
 

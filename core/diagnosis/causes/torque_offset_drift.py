@@ -12,7 +12,7 @@ from ...log.model import LogRows
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.common import OwnJointCause, named, rounded, shown
 
@@ -28,18 +28,6 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
     title = "The zero of the torque channel drifts"
     cure = "signal"
     units = (("total_drift", "N m"), ("time_constant", "s"))
-    confusions = (
-        Confusion(
-            "friction_temperature",
-            "both change slowly with time; friction changes its sign with the direction of motion",
-            "repeat a slow move in both directions at the start and at the end",
-        ),
-        Confusion(
-            "payload_change",
-            "a mass that is taken up changes the torque from an instant on, and with the posture",
-            "hold two postures of different gravity torque, early and late",
-        ),
-    )
     experiment = "hold the same posture at the start and at the end of a log as long as the work"
     coordinate = "time"
 

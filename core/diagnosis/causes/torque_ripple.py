@@ -9,9 +9,10 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.ripple import Ripple
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, shown
 from .shared.harmonics import harmonics, wave_quantities
+from .traits import SearchTraits
 
 LOWEST = 2.0
 """One wave per turn is what gravity does."""
@@ -27,21 +28,9 @@ class TorqueRipple(OwnJointCause):
     id = "torque_ripple"
     title = "The torque ripples along the angle"
     units = (("amplitude", "N m"), ("harmonic", "1"), ("phase", "rad"))
-    confusions = (
-        Confusion(
-            "friction_position_dependent",
-            "both wave along the angle; only friction's wave changes its sign with the direction of motion",
-            "cover the whole range slowly, once in each direction",
-        ),
-        Confusion(
-            "encoder_eccentricity",
-            "an angle error makes small waves of gravity's torque, at one to three per turn",
-            "repeat with a payload: waves that come from gravity grow with it",
-        ),
-    )
     experiment = "slow moves at constant speed over the joint's whole range"
     coordinate = "position"
-    unrefined = ("centre",)
+    traits = SearchTraits(discrete=("centre",))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan the waves per turn from two up to what the band shows."""
@@ -55,9 +44,9 @@ class TorqueRipple(OwnJointCause):
         del dataset, operating_point
         return Ripple(site[0], scalars["harmonic"], scalars["centre"])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want more waves per turn than gravity has."""
-        return super().possible(solved) and solved.scalars["harmonic"] >= LOWEST
+        return super().admissible(solved) and solved.scalars["harmonic"] >= LOWEST
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: the drive has to give amplitude cos(harmonic q + phase) more."""

@@ -11,7 +11,7 @@ from ...dynamics.terms.saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import Confusion, FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.common import OwnJointCause, named, rounded, shown
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
@@ -28,20 +28,6 @@ class TorqueSaturation(OwnJointCause):
     title = "The applied torque is clipped, the log keeps the command"
     cure = "signal"
     units = (("limit", "N m"),)
-    confusions = (
-        Confusion(
-            "torque_gain_nonlinear",
-            "both act at large torques; a clipped torque ends at one level, a bent gain goes on",
-            "repeat the motion a tenth slower: what is clipped then stays below the limit",
-        ),
-        Confusion(
-            "external_contact",
-            "both act in short intervals; a contact does not wait for large torques",
-            "repeat the motion a tenth slower in free space",
-        ),
-    )
-    # Torques near the limit are predicted with an error; where they are clipped, that looks like a push.
-    leaves = ("external_contact",)
     experiment = "the same motion a tenth slower, which keeps the command below the limit"
     coordinate = "torque"
 
@@ -55,9 +41,9 @@ class TorqueSaturation(OwnJointCause):
         del dataset
         return Saturation(site[0], operating_point, scalars["limit"])
 
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Want commands that are larger than what is applied."""
-        return super().possible(solved) and bool(solved.values[0] > 0.0)
+        return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the limit, which is known no better than the predicted torque that it clips."""

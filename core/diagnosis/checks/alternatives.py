@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..causes.imitation import imitations
+from ..causes.masking import excludes
 from ..result import Alternative, Gain
 from ..search.confounding import keeps_beside, masked_by_last
 from ..search.entry_test import Key, passes_holdout, with_candidate
@@ -107,7 +109,7 @@ def _stopgap(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, a
     """
     if own.margin < -UNDECIDED and not alone:
         return True
-    if own.member.cause.event or fitter.prior is not None:
+    if own.member.cause.traits.transient or fitter.prior is not None:
         return False
     expected = holdout_share(fitter, chosen, chosen.by_key[own.member.key]) * own.statistic
     dataset, left = fitter.dataset, (fitter.residual(own.without), fitter.residual(chosen))
@@ -140,7 +142,7 @@ def _over_nameless(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Can
 
 def _beaten(own: Comparison) -> bool:
     """Tell whether a pattern without a name explains much more than a member in its place."""
-    if own.member.cause.event:
+    if own.member.cause.traits.transient:
         return own.over_unnamed < EVENT_SHARE * own.statistic
     return own.over_unnamed < -max(UNDECIDED, UNNAMED_SHARE * own.statistic)
 
@@ -153,7 +155,7 @@ def compare_member(
     without = fitter.less(chosen)[index]
     own = fitter.tried((*without.members, member), without)
     taken = {*chosen.by_key, *excluded_kinds}
-    excluded = {name for one in without.members for name in one.cause.excludes}
+    excluded = {name for one in without.members for name in excludes(one.cause.id)}
     others = [
         one
         for one in fitter.scanned(without)
@@ -186,13 +188,13 @@ def compare_member(
 
 
 def _indifference(member: Candidate, rival: Candidate, own_ratio: float) -> float:
-    shares = {one.cause: one.share for one in member.cause.confusions}
-    return max(UNDECIDED, shares.get(rival.cause.id, OTHER_SHARE) * own_ratio)
+    known = imitations(member.cause.id).get(rival.cause.id)
+    return max(UNDECIDED, (known.share if known else OTHER_SHARE) * own_ratio)
 
 
 def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
     """Give the rise that noise of the positions may bring two candidates: none where one is not like it."""
-    if not all(one.cause.like_position_noise for one in both):
+    if not all(one.cause.traits.like_position_noise for one in both):
         return 0.0
     torque, worth = fitter.dataset.position_torque, []
     for rows, part, made in zip(fitter.base, own.fit.joints, torque.T, strict=True):
@@ -203,9 +205,9 @@ def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Ca
 def _undecided(
     member: Candidate, rival: Candidate, statistic: float, behind: float, like: float
 ) -> Alternative:
-    known = [one for one in member.cause.confusions if one.cause == rival.cause.id]
-    why = known[0].why if known else "both columns run nearly parallel in this motion"
-    experiment = known[0].experiment if known else rival.cause.experiment
+    known = imitations(member.cause.id).get(rival.cause.id)
+    why = known.why if known else "both columns run nearly parallel in this motion"
+    experiment = known.experiment if known else rival.cause.experiment
     noise = f", where noise of the positions may make {like:.1f}" if like > UNDECIDED else ""
     return Alternative(
         rival.cause.id,

@@ -97,7 +97,7 @@ def _unseen(
 
     The error's RMS, which `gain` is of, may be one of slow torque that hides what is weighed here.
     """
-    if own.member.cause.event:
+    if own.member.cause.traits.transient:
         return ()
     expected = expected_holdout_likelihood_ratio(fitter, own.without, chosen, place)
     return (

@@ -19,7 +19,7 @@ _UNLISTED = UnnamedPatternCause()
 def unnamed_candidates(fitter: HypothesisFitter) -> tuple[Candidate, ...]:
     """Give the patterns that are looked for under the present belief."""
     return tuple(
-        Candidate(_UNLISTED, site, scalars, _UNLISTED.trials(grid, scalars))
+        Candidate(_UNLISTED, site, scalars, _UNLISTED.traits.trials(grid, scalars))
         for site in _UNLISTED.sites(fitter.dataset, fitter.operating_point)
         for grid in [tuple(_UNLISTED.grid(fitter.dataset, fitter.operating_point, site))]
         for scalars in grid

@@ -17,6 +17,7 @@ from ...dynamics.term import Term
 from ...dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
 from ..causes.protocol import FittedCause, Quantity, Scalars, Site
 from ..causes.shared.common import OwnJointCause
+from ..causes.traits import SearchTraits
 from ..dataset.dataset import Dataset
 
 WAVES = (1.0, 2.0)
@@ -38,7 +39,7 @@ class UnnamedPatternCause(OwnJointCause):
     title = "Something follows a pattern that no listed cause has"
     units = ()
     coordinate = "time"
-    unrefined = ("pattern", "number_0", "number_1", "number_2")
+    traits = SearchTraits(discrete=("pattern", "number_0", "number_1", "number_2"))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """List all patterns, numbers after their place."""

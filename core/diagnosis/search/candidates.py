@@ -52,12 +52,12 @@ class Candidates:
     @property
     def lasting(self) -> tuple[tuple[Cause, Site], ...]:
         """List what is suspected all along the motion: the causes with their sites."""
-        return tuple(self._sites(cause for cause in self.causes if not cause.event))
+        return tuple(self._sites(cause for cause in self.causes if not cause.traits.transient))
 
     @cached_property
     def events(self) -> tuple[Candidate, ...]:
         """Give what may have happened, as what is left tells of it."""
-        pairs = self._sites(cause for cause in self.causes if cause.event)
+        pairs = self._sites(cause for cause in self.causes if cause.traits.transient)
         return tuple(candidate for cause, site in pairs for candidate in self.of(cause, site))
 
     def _sites(self, causes: Iterable[Cause]) -> Iterator[tuple[Cause, Site]]:
@@ -70,7 +70,7 @@ class Candidates:
         if (cause, site) not in self._known:
             grid = tuple(cause.grid(self.left, self.operating_point, site))
             self._known[cause, site] = tuple(
-                Candidate(cause, site, scalars, cause.trials(grid, scalars)) for scalars in grid
+                Candidate(cause, site, scalars, cause.traits.trials(grid, scalars)) for scalars in grid
             )
         return self._known[cause, site]
 
@@ -111,7 +111,7 @@ def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Pr
         terms = []
         for index, one in enumerate(found.members):
             term = one.cause.term(dataset, operating_point, one.site, one.scalars)
-            if joins(term) and not one.cause.yielded:
+            if joins(term) and not one.cause.traits.self_consistent:
                 terms.append((term, found.fit.values[found.columns_of(index)]))
         operating_point = replace(operating_point, joined=(*operating_point.joined, *terms))
     return operating_point

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..causes.masking import masks
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import bounded_likelihood_ratio, likelihood_ratio, likelihood_ratio_by_joint, log_p
@@ -32,11 +33,11 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
     """
     own, own_ratio = whole.members[index].cause, likelihood_ratio_by_joint(less, whole)
     for place, other in enumerate(whole.members):
-        leaves = own.id in other.cause.leaves
-        if place == index or not (leaves or own.event):
+        leaves = own.id in masks(other.cause.id)
+        if place == index or not (leaves or own.traits.transient):
             continue
         without = fitter.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
-        if own.event:
+        if own.traits.transient:
             within = leaves and _acts_within(whole, index, place)
             least = likelihood_ratio(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
             if own_ratio.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
@@ -55,7 +56,7 @@ def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate, al
 
 def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate) -> bool:
     """Tell whether a candidate is an event that the last member leaves, as by its own torque at its limit."""
-    if not rival.cause.event or rival.cause.id not in own.members[-1].cause.leaves:
+    if not rival.cause.traits.transient or rival.cause.id not in masks(own.members[-1].cause.id):
         return False
     both = fitter.added(own, rival)
     return _acts_within(both, len(own.members), len(own.members) - 1)

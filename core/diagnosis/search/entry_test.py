@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ..causes.masking import excludes
 from ..causes.protocol import Site
 from .confounding import is_masked
 from .fitter import HypothesisFitter
@@ -63,14 +64,14 @@ def best_entry(
     least
         What its criterion has to gain (see `bic_gain`).
     """
-    excluded = {name for one in now.members for name in one.cause.excludes}
+    excluded = {name for one in now.members for name in excludes(one.cause.id)}
     taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
     scans = [
         one
         for one in fitter.scanned(now)
         if one.candidate.key not in taken and one.candidate.cause.id not in excluded
     ]
-    tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.event]
+    tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.traits.transient]
     reach = zip(tried, predicted_likelihood_ratios(fitter, now, tried), strict=True)
     ranked = sorted(((one, RAISED * brings + BESIDES) for one, brings in reach), key=lambda pair: -pair[1])
     found: Hypothesis | None = None
@@ -99,7 +100,7 @@ def _likely(
         gains = bic_gain(now, trial)
         if trial.possible and gains > least and _deserves(fitter, now, trial, kinds):
             likely.append(trial)
-            best = best if one.candidate.cause.event else max(best, gains)
+            best = best if one.candidate.cause.traits.transient else max(best, gains)
     return sorted(likely, key=lambda trial: -bic_gain(now, trial)), left
 
 
@@ -114,7 +115,9 @@ def _first_to_hold(
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
     whole = [fitter.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
     # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
-    ranked = sorted(whole, key=lambda trial: (trial.members[-1].cause.event, -bic_gain(now, trial)))
+    ranked = sorted(
+        whole, key=lambda trial: (trial.members[-1].cause.traits.transient, -bic_gain(now, trial))
+    )
     deserves = (
         trial
         for trial in ranked
@@ -176,7 +179,7 @@ def is_significant(
 
 def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
     """Tell whether a member acts now and then only, so that one burst of noise may look like it."""
-    if trial.members[index].cause.event:
+    if trial.members[index].cause.traits.transient:
         return True
     own = trial.columns_of(index)
     acting = [part.of(own).any(axis=1) for part in trial.fit.joints]
@@ -188,7 +191,7 @@ def passes_holdout(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis)
 
     An event is judged where it happens: what a fit knows of it from half its span says little of the rest.
     """
-    if trial.members[-1].cause.event:
+    if trial.members[-1].cause.traits.transient:
         return True
     expected = holdout_share(fitter, trial) * min(
         wald_statistic(trial, len(trial.members) - 1), likelihood_ratio(now, trial)
@@ -216,7 +219,7 @@ def _share(now: Hypothesis, trial: Hypothesis) -> float:
 
 
 def _least_share(fitter: HypothesisFitter, member: Candidate) -> float:
-    if not member.cause.like_position_noise:
+    if not member.cause.traits.like_position_noise:
         return LEAST_SHARE
     joints = member.site or range(1, fitter.dataset.joints + 1)
     return max(LEAST_SHARE, *(float(fitter.dataset.position_share[joint - 1]) for joint in joints))

@@ -94,7 +94,7 @@ class HypothesisFitter:
         """Take from the torque what a hypothesis's members explain of it, all but events."""
         torque = self.dataset.torque.copy()
         for index, columns in enumerate(self.columns(found.members)):
-            if not found.members[index].cause.event:
+            if not found.members[index].cause.traits.transient:
                 for joint, one in columns.items():
                     torque[:, joint] -= one @ found.fit.values[found.columns_of(index)]
         return replace(self.dataset, torque=torque)
@@ -195,7 +195,7 @@ class HypothesisFitter:
         rows = extended(self.base, columns)
         kept, touched = len(start.fit.values), frozenset(columns[-1])
         found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
-        if found.possible or not candidate.cause.possible(found.solved(len(start.members))):
+        if found.possible or not candidate.cause.admissible(found.solved(len(start.members))):
             return found
         return self.tried(members)
 

@@ -46,7 +46,7 @@ class Candidate:
     @property
     def searched(self) -> int:
         """Count the scalars that were free."""
-        return len(set(self.scalars) - set(self.cause.yielded))
+        return len(set(self.scalars) - set(self.cause.traits.self_consistent))
 
     @cached_property
     def place(self) -> Place:
@@ -105,7 +105,7 @@ class Hypothesis:
     def solved(self, index: int) -> FittedCause:
         """Give what was found for a member; deviations count what scalars and columns are not exact by."""
         member, values = self.members[index], self.fit.values[self.columns_of(index)]
-        covariance = self.covariance(index) + np.diag((member.cause.inexact * values) ** 2)
+        covariance = self.covariance(index) + np.diag((member.cause.traits.linearisation_error * values) ** 2)
         for name, slope in member.slopes.items():
             if np.isfinite(member.deviations[name]):
                 covariance += np.outer(slope, slope) * member.deviations[name] ** 2
@@ -123,7 +123,7 @@ class Hypothesis:
 
     def allows(self, index: int) -> bool:
         """Tell whether nature allows one member."""
-        return self.members[index].cause.possible(self.solved(index))
+        return self.members[index].cause.admissible(self.solved(index))
 
     @property
     def by_key(self) -> Mapping[tuple[str, Site], int]:
@@ -134,7 +134,7 @@ class Hypothesis:
 def allowed(candidate: Candidate, judged: Score) -> bool:
     """Tell whether nature allows what a score says of a candidate."""
     solved = FittedCause(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
-    return candidate.cause.possible(solved)
+    return candidate.cause.admissible(solved)
 
 
 def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[ScoredCandidate]:

@@ -27,7 +27,7 @@ def bounded_likelihood_ratio(now: Hypothesis, trial: Hypothesis, index: int = -1
 
     A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
     """
-    own, event = trial.columns_of(index), trial.members[index].cause.event
+    own, event = trial.columns_of(index), trial.members[index].cause.traits.transient
     before = np.insert(now.fit.values, own.start, np.zeros(trial.widths[index]))
     total = 0.0
     for part in trial.fit.joints:

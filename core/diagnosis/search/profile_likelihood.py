@@ -41,9 +41,9 @@ def refine_scalars(
         Whether it is enough to know what they are, and not how well they are known.
     """
     for name in candidate.scalars:
-        if name in candidate.cause.yielded:
+        if name in candidate.cause.traits.self_consistent:
             candidate = _yielding(fitter, under, candidate, name)
-        elif name not in candidate.cause.unrefined:
+        elif name not in candidate.cause.traits.discrete:
             candidate, seen = _refined(fitter, under, candidate, name)
             if not on_trial:
                 candidate = _told(fitter, under, candidate, name, seen)
@@ -53,7 +53,7 @@ def refine_scalars(
 def with_deviations(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate) -> Candidate:
     """Tell how well a candidate's scalars are known where they are, on top of a hypothesis."""
     for name, here in candidate.scalars.items():
-        if name not in (*candidate.cause.yielded, *candidate.cause.unrefined):
+        if name not in (*candidate.cause.traits.self_consistent, *candidate.cause.traits.discrete):
             points, _ = _grid(fitter, candidate, name)
             trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
             found = fitter.scored(under, trials)
@@ -83,11 +83,11 @@ def _refined(
 ) -> tuple[Candidate, Mapping[float, float]]:
     """Settle one scalar, and give the statistics of all values that were tried."""
     points, ends = _grid(fitter, candidate, name)
-    if name in candidate.cause.onset:
+    if name in candidate.cause.traits.onset:
         candidate = _begun(fitter, under, candidate, name)
     here = candidate.scalars[name]
     low, high = np.clip(neighbours(points, here), *ends)
-    if name in candidate.cause.onset and here not in points:
+    if name in candidate.cause.traits.onset and here not in points:
         low, high = here - _row(fitter), here + _row(fitter)
     seen: dict[float, float] = {}
     for _ in range(2):
@@ -112,7 +112,7 @@ def _begun(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, na
     if log_chi2_tail(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
         return candidate
     time, rows = fitter.dataset.time, np.arange(1, len(fitter.dataset.time))
-    throughout, some = _at(candidate, name, -np.inf), candidate.cause.onset[name]
+    throughout, some = _at(candidate, name, -np.inf), candidate.cause.traits.onset[name]
     worth = np.array([one.statistic for one in fitter.scored_from(under, throughout, some, rows)])
     peaks: list[int] = []
     for place in np.argsort(-worth, kind="stable"):
@@ -135,7 +135,7 @@ def _told(
     """Tell how well a settled scalar is known, from what other values are worth."""
     here = candidate.scalars[name]
     deviation, slope = _spread(fitter, under, candidate, name, neighbours(sorted(seen), here))
-    if name in candidate.cause.onset:
+    if name in candidate.cause.traits.onset:
         seen = {**seen, **_farther(fitter, under, candidate, name)}
     return replace(
         candidate,

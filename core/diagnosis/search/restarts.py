@@ -9,6 +9,7 @@ Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 
 import numpy as np
 
+from ..causes.masking import excludes, masks
 from ..checks.alternatives import UNDECIDED
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis
@@ -24,11 +25,11 @@ def restart_from_common_cause(fitter: HypothesisFitter, found: Selection) -> Sel
     """Give the better of what was found and what a search finds that begins with one cause for several."""
     best, members, believe_best = found, found.chosen.members, fitter.remembered()
     for cause in fitter.causes:
-        several = [one for one in members if one.cause.id in cause.leaves]
+        several = [one for one in members if one.cause.id in masks(cause.id)]
         if len(several) < SEVERAL or cause.id in {one.cause.id for one in members}:
             continue
         fitter.believe(found.chosen)
-        gone = {*cause.leaves, *cause.excludes}
+        gone = {*masks(cause.id), *excludes(cause.id)}
         without = fitter.tried(tuple(one for one in members if one.cause.id not in gone))
         start = start_with(fitter, without, cause.id)
         if start is None:

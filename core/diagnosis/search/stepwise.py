@@ -169,9 +169,9 @@ def _challenged(
         return less[least]
     for index, member in enumerate(now.members):
         closed = {**excluded_kinds, member.key: np.inf}
-        if not member.cause.event:
+        if not member.cause.traits.transient:
             # What acts at picked instants only does not take the place of what acts all the time.
-            closed |= {one.key: np.inf for one in fitter.candidates if one.cause.event}
+            closed |= {one.key: np.inf for one in fitter.candidates if one.cause.traits.transient}
         hurdle = bic_gain(less[index], now, index) + BETTER
         rival = best_entry(fitter, less[index], closed, RIVALS, hurdle)
         if rival is not None:

@@ -9,6 +9,7 @@ from tests.core.diagnosis.scenes import Effect
 from veritorque.core.arrays import Samples
 from veritorque.core.diagnosis.causes.protocol import Cause, Scalars
 from veritorque.core.diagnosis.causes.shared.common import NOTHING, OwnJointCause
+from veritorque.core.diagnosis.causes.traits import SearchTraits
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
 from veritorque.core.dynamics.terms.effect import OneJointTerm
@@ -39,7 +40,7 @@ class MadeUpTerm(OneJointTerm):
 
 
 class MadeUpCause(OwnJointCause):
-    """Suspect made-up columns, at scalars of which nature allows some."""
+    """Candidate cause: made-up columns; some of its scalars are admissible."""
 
     make: Columns
     points: Sequence[Scalars]
@@ -56,7 +57,7 @@ class MadeUpCause(OwnJointCause):
     def term(self, dataset, operating_point, site, scalars):
         return MadeUpTerm(site[0], type(self).make, scalars)
 
-    def possible(self, solved):
+    def admissible(self, solved):
         return type(self).allowed(solved.scalars)
 
     def statement(self, solved):
@@ -70,11 +71,11 @@ def made_up(
     *,
     allowed: Callable[[Scalars], bool] = lambda scalars: True,
     like_position_noise: bool = False,
-    event: bool = False,
+    transient: bool = False,
 ) -> MadeUpCause:
     """Make up a cause of a given name."""
     own = {"id": name, "title": name, "make": make, "points": points, "allowed": allowed}
-    own |= {"like_position_noise": like_position_noise, "event": event}
+    own |= {"traits": SearchTraits(transient=transient, like_position_noise=like_position_noise)}
     return type(name, (MadeUpCause,), own)()
 
 

@@ -23,6 +23,8 @@ from tests.core.diagnosis.scenes import (
     scene_of,
     spoilt_scenes,
 )
+from veritorque.core.diagnosis.causes.imitation import imitations
+from veritorque.core.diagnosis.causes.masking import excludes, masks
 from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, SAMPLE_CHECKS
 from veritorque.core.diagnosis.causes.repairs import CorrectsLog, CorrectsRobot, corrects
@@ -34,7 +36,17 @@ from veritorque.core.robot.differences import differences
 from veritorque.core.robot.inertia import from_mass_properties
 
 FOLDER = Path(__file__).parents[3] / "core" / "diagnosis" / "causes"
-SHARED_PARTS = {"__init__", "guide", "protocol", "registry", "repairs", "sample_check"}
+SHARED_PARTS = {
+    "__init__",
+    "guide",
+    "imitation",
+    "masking",
+    "protocol",
+    "registry",
+    "repairs",
+    "sample_check",
+    "traits",
+}
 FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
 PUBLIC = {
     *("friction_stribeck", "friction_viscous_nonlinear", "friction_asymmetric", "friction_load_dependent"),
@@ -143,11 +155,11 @@ def test_a_cause_names_its_numbers_once_each_with_a_unit(cause):
 
 @every_cause
 def test_a_confusion_names_another_known_cause_why_and_an_experiment(cause):
-    assert cause.confusions
-    for one in cause.confusions:
-        assert one.cause in set(BY_ID) - {cause.id}
-        assert len(one.why) > 20
-        assert len(one.experiment) > 20
+    assert imitations(cause.id)
+    for other, entry in imitations(cause.id).items():
+        assert other in set(BY_ID) - {cause.id}
+        assert len(entry.why) > 20
+        assert len(entry.experiment) > 20
 
 
 @every_torque_cause
@@ -191,7 +203,7 @@ def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scen
 def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
     site, scalars = first_choice(cause, scene)
     grid = cause.grid(scene.dataset, scene.operating_point, site)
-    assert len(grid) <= cause.trials(grid, scalars) < np.inf
+    assert len(grid) <= cause.traits.trials(grid, scalars) < np.inf
 
 
 @every_torque_cause
@@ -199,15 +211,15 @@ def test_what_a_cause_leaves_or_keeps_out_is_another_that_a_search_could_add(cau
     """It may leave what looks like itself only where it could be at another joint, too."""
     others = {one.id for one in CAUSES} - {cause.id}
     elsewhere = {cause.id} if len(cause.sites(scene.dataset, scene.operating_point)) > 1 else set()
-    assert set(cause.excludes) <= others
-    assert set(cause.leaves) <= others | elsewhere
+    assert set(excludes(cause.id)) <= others
+    assert set(masks(cause.id)) <= others | elsewhere
 
 
 @every_torque_cause
 def test_causes_that_keep_each_other_out_are_told_to_be_confused_with_each_other(cause):
     """What only one of the two keeps out is what its own columns leave."""
-    mutual = {name for name in cause.excludes if cause.id in BY_ID[name].excludes}
-    assert mutual <= {one.cause for one in cause.confusions}
+    mutual = {name for name in excludes(cause.id) if cause.id in excludes(name)}
+    assert mutual <= set(imitations(cause.id))
 
 
 @every_torque_cause
@@ -235,7 +247,7 @@ def test_columns_come_from_the_prediction_and_not_from_the_measured_torque(cause
 @every_torque_cause
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 def test_nature_has_no_parameter_that_is_not_finite(cause, scene, value):
-    assert not cause.possible(solved(cause, scene, value))
+    assert not cause.admissible(solved(cause, scene, value))
 
 
 @every_torque_cause
@@ -244,7 +256,7 @@ def test_nature_allows_some_size(cause, scene):
     found = [solved(cause, scene, size) for size in sizes]
     if len(found[0].values) == len(BALL):
         found += [replace(one, values=one.values * BALL) for one in found]
-    assert any(cause.possible(one) for one in found)
+    assert any(cause.admissible(one) for one in found)
 
 
 @every_torque_cause

@@ -7,7 +7,6 @@ from typing import ClassVar
 import numpy as np
 
 from veritorque.core.arrays import Samples
-from veritorque.core.diagnosis.causes.protocol import Confusion
 from veritorque.core.diagnosis.causes.shared.common import OwnJointCause
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.effect import OneJointTerm
@@ -55,9 +54,9 @@ class WaveCause(OwnJointCause):
         return f"Joint {solved.site[0]} waves"
 
 
-def wave_cause(name: str, waves: Mapping[float, float], *confusions: Confusion) -> WaveCause:
+def wave_cause(name: str, waves: Mapping[float, float]) -> WaveCause:
     """Make up a cause of a given name."""
-    own = {"id": name, "title": name, "waves": waves, "confusions": confusions}
+    own = {"id": name, "title": name, "waves": waves}
     return type(name, (WaveCause,), own)()
 
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
@@ -10,7 +9,8 @@ import numpy as np
 from ....dynamics.prediction import Prediction
 from ....robot.model import RobotModel
 from ...dataset.dataset import Dataset
-from ..protocol import Confusion, Cure, FittedCause, Numbers, Quantity, Scalars, Site
+from ..protocol import Cure, FittedCause, Numbers, Quantity, Scalars, Site
+from ..traits import SearchTraits
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause that has nothing to scan."""
@@ -30,17 +30,9 @@ class OwnJointCause:
     units: ClassVar[tuple[tuple[str, str], ...]]
     """Unit of every number that is reported, by name and in order: linear parameters and scanned scalars."""
     cure: ClassVar[Cure] = "term"
-    confusions: ClassVar[tuple[Confusion, ...]] = ()
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
-    event: ClassVar[bool] = False
-    like_position_noise: ClassVar[bool] = False
-    excludes: ClassVar[tuple[str, ...]] = ()
-    leaves: ClassVar[tuple[str, ...]] = ()
-    unrefined: ClassVar[tuple[str, ...]] = ()
-    onset: ClassVar[Mapping[str, slice]] = MappingProxyType({})
-    yielded: ClassVar[tuple[str, ...]] = ()
-    inexact: ClassVar[float] = 0.05
+    traits: ClassVar[SearchTraits] = SearchTraits()
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List every joint."""
@@ -52,12 +44,7 @@ class OwnJointCause:
         del dataset, operating_point, site
         return NOTHING
 
-    def trials(self, grid: Sequence[Scalars], scalars: Scalars) -> float:
-        """Count what was tried where one point of the grid is given."""
-        del scalars
-        return float(len(grid))
-
-    def possible(self, solved: FittedCause) -> bool:
+    def admissible(self, solved: FittedCause) -> bool:
         """Allow any finite value, and a rotor, if any, that is heavy."""
         return bool(np.isfinite(solved.values).all()) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 

@@ -15,6 +15,7 @@ from veritorque.core.diagnosis.causes.friction_position_dependent import Frictio
 from veritorque.core.diagnosis.causes.friction_presliding import FrictionPresliding
 from veritorque.core.diagnosis.causes.friction_temperature import FrictionTemperature
 from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
+from veritorque.core.diagnosis.causes.imitation import imitations
 from veritorque.core.diagnosis.causes.joint_coupling import JointCoupling
 from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
 from veritorque.core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
@@ -112,10 +113,10 @@ def test_a_cause_says_in_one_sentence_which_joint_and_how_much(
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.id)
 def test_a_cause_names_rivals_with_an_experiment_each(cause: Cause) -> None:
     assert cause.experiment
-    assert cause.confusions
-    for one in cause.confusions:
-        assert one.cause != cause.id
-        assert len(one.experiment) > 20
+    assert imitations(cause.id)
+    for other, entry in imitations(cause.id).items():
+        assert other != cause.id
+        assert len(entry.experiment) > 20
 
 
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.id)
@@ -136,15 +137,15 @@ def test_the_numbers_of_a_finding_come_with_unit_and_deviation(
 def test_nature_does_not_allow_friction_springs_and_inertia_of_the_wrong_sign(
     cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
-    assert cause.possible(as_found(cause, *scene, 2.0))
-    assert not cause.possible(as_found(cause, *scene, -2.0))
+    assert cause.admissible(as_found(cause, *scene, 2.0))
+    assert not cause.admissible(as_found(cause, *scene, -2.0))
 
 
 def test_a_coupling_may_lack_inertia_within_its_uncertainty_but_not_everything(
     scene: tuple[Dataset, Prediction],
 ) -> None:
-    assert JointCoupling().possible(solved(JointCoupling(), *scene, [-0.1, 2.0, 2.0]))
-    assert not JointCoupling().possible(solved(JointCoupling(), *scene, [-0.1, 0.1, 0.1]))
+    assert JointCoupling().admissible(solved(JointCoupling(), *scene, [-0.1, 2.0, 2.0]))
+    assert not JointCoupling().admissible(solved(JointCoupling(), *scene, [-0.1, 0.1, 0.1]))
 
 
 @pytest.mark.parametrize("cause", SCANNED, ids=lambda cause: cause.id)

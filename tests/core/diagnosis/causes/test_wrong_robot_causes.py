@@ -28,9 +28,9 @@ def solved(values, scalars, *, deviation=0.01, site=(6,)) -> FittedCause:
 def test_a_contact_whose_moment_no_lever_explains_is_impossible():
     cause, wrench = ExternalContact(), np.zeros((2, len(WRENCH)))
     wrench[:, 0] = 10.0
-    assert cause.possible(solved(wrench.ravel(), SPANS))
+    assert cause.admissible(solved(wrench.ravel(), SPANS))
     wrench[1, 3] = 20.0
-    assert not cause.possible(solved(wrench.ravel(), SPANS))
+    assert not cause.admissible(solved(wrench.ravel(), SPANS))
 
 
 def test_a_contact_reports_every_push_and_first_the_force_that_is_known_best():
@@ -89,9 +89,9 @@ def test_a_tilt_that_an_arm_cannot_feel_is_not_reported():
 
 
 def test_play_of_another_width_than_the_crossings_were_computed_for_is_impossible():
-    assert Backlash().possible(solved([1e-3], {"around": 2e-3}))
-    assert not Backlash().possible(solved([1e-3], {"around": 2e-2}))
-    assert not Backlash().possible(solved([-1e-3], {"around": 1e-3}))
+    assert Backlash().admissible(solved([1e-3], {"around": 2e-3}))
+    assert not Backlash().admissible(solved([1e-3], {"around": 2e-2}))
+    assert not Backlash().admissible(solved([-1e-3], {"around": 1e-3}))
 
 
 def test_a_tree_has_several_ends_and_a_sliding_joint_no_angle():

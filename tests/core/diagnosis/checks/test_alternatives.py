@@ -8,6 +8,7 @@ import pytest
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
+from veritorque.core.diagnosis.causes.masking import MASKED_BY, Masking
 from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
@@ -82,10 +83,10 @@ def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
 @pytest.mark.parametrize(
     ("leaves", "rival"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
 )
-def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, rival):
+def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, rival, monkeypatch):
     now_and_then = lambda state, _: [np.abs(np.sin(state.position[:, 1])) > 0.9]  # noqa: E731  (a formula)
-    clip, push = made_up("clip", now_and_then), made_up("push", now_and_then)
-    type(clip).leaves, type(push).event = leaves, True
+    clip, push = made_up("clip", now_and_then), made_up("push", now_and_then, transient=True)
+    monkeypatch.setitem(MASKED_BY, "clip", Masking(leaves, ""))
     scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))
     fitter = bench_of(scene, (clip, push))
     *_, (found,) = weighed_from((fitter, nothing_found(fitter)), candidate(clip))

@@ -18,7 +18,7 @@ def push(state):
 
 
 ALWAYS = made_up("always", lambda state, scalars: [waves(state)])
-ONCE = made_up("once", lambda state, scalars: [push(state)], event=True)
+ONCE = made_up("once", lambda state, scalars: [push(state)], transient=True)
 WEAK, STRONG = 0.03, 50.0
 """N m, of what acts always; the noise is 0.05 N m."""
 LIKE_LUCK, CLEAR = 0.06, 0.08

@@ -7,6 +7,7 @@ import pytest
 from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import bench_of, measured_arm
 from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
+from veritorque.core.diagnosis.causes.masking import EXCLUDED_BY, MASKED_BY, Masking
 from veritorque.core.diagnosis.checks.alternatives import UNDECIDED
 from veritorque.core.diagnosis.search.restarts import (
     bic,
@@ -20,11 +21,17 @@ RATES = (7.0, 11.0, 4.0)
 SIZES = (0.6, 0.3, 0.4)
 
 
+@pytest.fixture(autouse=True)
+def _tables_as_before(monkeypatch):
+    monkeypatch.setitem(MASKED_BY, "whole", Masking((), ""))
+    monkeypatch.setitem(EXCLUDED_BY, "whole", Masking((), ""))
+
+
 def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, further=()):
     """Give a bench, and what a search has found on it: the causes of these names."""
     parts = [wave_cause(name, {rate: 1.0}) for name, rate in zip(PARTS, RATES, strict=True)]
     whole = wave_cause("whole", dict(zip(RATES, SIZES, strict=True)))
-    type(whole).leaves, type(whole).excludes = leaves, excludes
+    MASKED_BY["whole"], EXCLUDED_BY["whole"] = Masking(leaves, ""), Masking(excludes, "")
     type(whole).sites = lambda *_: [()]
     type(whole).term = lambda self, dataset, operating_point, _, scalars: super(type(whole), self).term(
         dataset, operating_point, (2,), scalars

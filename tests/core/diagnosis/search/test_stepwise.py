@@ -10,9 +10,13 @@ import pytest
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
 from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
-from veritorque.core.diagnosis.causes.protocol import Confusion
+from veritorque.core.diagnosis.causes import imitation
+from veritorque.core.diagnosis.causes.imitation import IMITATIONS, Imitation
+from veritorque.core.diagnosis.causes.masking import EXCLUDED_BY, MASKED_BY, Masking
 from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
+from veritorque.core.diagnosis.causes.traits import SearchTraits
 from veritorque.core.diagnosis.checks.alternatives import compare_alternatives, compare_member
+from veritorque.core.diagnosis.search import fitter as fitter_module
 from veritorque.core.diagnosis.search import stepwise as search
 from veritorque.core.diagnosis.search.entry_test import (
     BESIDES,
@@ -107,7 +111,7 @@ def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_
 def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_time():
     lasting = wave_cause("lasting", {QUICK: 1.0})
     event = wave_cause("event", {QUICK: 1.0, QUICKER: 0.5})
-    type(event).event = True
+    type(event).traits = SearchTraits(transient=True)
     effect = wave_effect({QUICK: 0.6, QUICKER: 0.3})
     alone = search_stepwise(bench_of(measured_arm(effect), (event,)))
     assert names(alone) == [("event", (2,))]
@@ -161,10 +165,10 @@ def test_every_step_of_the_search_is_on_record():
     ids=["is another cause", "is what the first one leaves", "is as clear as the first one"],
 )
 def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly_as_clear(
-    leaves, size, named
+    leaves, size, named, monkeypatch
 ):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
-    type(causes[0]).leaves = leaves
+    monkeypatch.setitem(MASKED_BY, "quick", Masking(leaves, ""))
     found = search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
     assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
 
@@ -235,9 +239,9 @@ def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rival
 
 
 @pytest.mark.parametrize("keeps_out", [(), ("quicker",)])
-def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out):
+def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out, monkeypatch):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
-    type(causes[0]).excludes = keeps_out
+    monkeypatch.setitem(EXCLUDED_BY, "quick", Masking(keeps_out, ""))
     found = search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
     assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
 
@@ -264,17 +268,18 @@ def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_th
 @cache
 def twins():
     """Offer one wave under two names, and another one; the wave of the twins is there."""
-    experiment = "move the joint while its twin rests"
     causes = (
-        wave_cause("one", {QUICK: 1.0}, Confusion("other", "they are the same", experiment)),
-        wave_cause("other", {QUICK: 1.0}, Confusion("one", "they are the same", experiment)),
+        wave_cause("one", {QUICK: 1.0}),
+        wave_cause("other", {QUICK: 1.0}),
         wave_cause("far", {QUICKER: 1.0}),
     )
     fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
     return search_stepwise(fitter), fitter
 
 
-def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_equally_good():
+def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_equally_good(monkeypatch):
+    known = Imitation("one", "other", "they are the same", "move the joint while its twin rests")
+    monkeypatch.setattr(imitation, "IMITATIONS", (*IMITATIONS, known))
     selection, fitter = twins()
     ((name, site),) = names(selection)
     (rival,) = compare_member(fitter, selection.chosen, 0).ambiguous
