@@ -26,10 +26,10 @@ from .settings import Settings
 from .version import VERSION
 
 TAGS = [
-    {"name": "robots", "description": "What is believed before measuring: joints, geometry, gravity."},
-    {"name": "logs", "description": "What was measured: position, torque or current over time."},
-    {"name": "jobs", "description": "What is computed from them."},
-    {"name": "identify", "description": "Everything in one request."},
+    {"name": "robots", "description": "Robot descriptions: joints, geometry, gravity, prior."},
+    {"name": "logs", "description": "Measured position, torque or current over time."},
+    {"name": "jobs", "description": "Computations and their results."},
+    {"name": "identify", "description": "Identification in one request."},
     {"name": "service", "description": "For operators."},
 ]
 

@@ -1,4 +1,4 @@
-"""Say every failure as one RFC 9457 problem document: stable type, status, cause, evidence and remedy.
+"""Describe every failure as an RFC 9457 problem document: stable type, status, cause, evidence and remedy.
 
 The table of kinds is the complete list of what can go wrong over HTTP; a kind is never renamed, because
 clients branch on it. Source: RFC 9457, Problem Details for HTTP APIs (2023).
@@ -18,43 +18,43 @@ URN = "urn:veritorque:problem:"
 # kind: (status, title)
 KINDS: dict[str, tuple[int, str]] = {
     "bad-request": (400, "The request cannot be read"),
-    "not-json": (400, "The document is not JSON that can be used"),
-    "no-key": (401, "The request carries no key that is known"),
-    "no-scope": (403, "The key does not permit this"),
-    "other-site": (403, "The request comes from a page of another site"),
-    "not-found": (404, "There is no such resource"),
-    "method-not-allowed": (405, "The resource does not take this method"),
-    "not-acceptable": (406, "The resource does not come in this form"),
+    "not-json": (400, "The body is not valid JSON"),
+    "no-key": (401, "Authentication failed"),
+    "no-scope": (403, "The key lacks the required scope"),
+    "other-site": (403, "Cross-site request refused"),
+    "not-found": (404, "Resource not found"),
+    "method-not-allowed": (405, "Method not allowed"),
+    "not-acceptable": (406, "Not acceptable"),
     "job-unfinished": (409, "The job has no results yet"),
     "job-failed": (409, "The job has no results because it failed"),
     "job-dismissed": (409, "The job has no results because it was dismissed"),
-    "in-use": (409, "The resource is still needed"),
-    "built-in": (409, "The robot is built in"),
-    "digest": (400, "The body is not the one that was announced"),
-    "too-slow": (408, "The request came too slowly"),
-    "too-large": (413, "The body is larger than the service takes"),
-    "unsupported-media-type": (415, "The body comes in a form that is not known"),
-    "wrong-host": (421, "The request is meant for another host"),
-    "request": (422, "The request does not follow the contract"),
-    "key-reused": (422, "The Idempotency-Key stands for another request"),
-    "unknown-reference": (422, "The request names something that does not exist"),
-    "robot": (422, "The description of the robot cannot be used"),
-    "log": (422, "The log cannot be used"),
-    "option": (422, "The options cannot be used"),
-    "excitation": (422, "The motion cannot tell what was asked of it"),
-    "solver": (422, "The optimiser stopped without an optimum"),
-    "job-timeout": (422, "The computation took too long"),
-    "job-memory": (422, "The computation needs too much memory"),
+    "in-use": (409, "The resource is in use"),
+    "built-in": (409, "Built-in robots cannot be deleted"),
+    "digest": (400, "The body does not match its digest"),
+    "too-slow": (408, "Request timeout"),
+    "too-large": (413, "The body is too large"),
+    "unsupported-media-type": (415, "Unsupported media type"),
+    "wrong-host": (421, "Unknown host"),
+    "request": (422, "The request is invalid"),
+    "key-reused": (422, "Idempotency-Key reused for a different request"),
+    "unknown-reference": (422, "The request refers to a resource that does not exist"),
+    "robot": (422, "Invalid robot description"),
+    "log": (422, "Invalid log"),
+    "option": (422, "Invalid options"),
+    "excitation": (422, "Insufficient excitation"),
+    "solver": (422, "The solver found no optimum"),
+    "job-timeout": (422, "The computation exceeded the time limit"),
+    "job-memory": (422, "The computation exceeded the memory limit"),
     "too-many": (429, "Too many requests"),
-    "head-too-large": (431, "The head of the request is too large"),
-    "quota": (429, "The key's share is used up"),
-    "internal": (500, "The service made a mistake"),
-    "damaged": (500, "What was kept is damaged"),
+    "head-too-large": (431, "Request header fields too large"),
+    "quota": (429, "Quota exceeded"),
+    "internal": (500, "Internal server error"),
+    "damaged": (500, "Stored data are damaged"),
     "computation-stopped": (500, "The computation stopped unexpectedly"),
     "not-ready": (503, "The service is starting"),
     "stopping": (503, "The service is stopping"),
-    "unavailable": (503, "The database does not answer"),
-    "disk-full": (507, "The disk is nearly full"),
+    "unavailable": (503, "The database is unavailable"),
+    "disk-full": (507, "Insufficient storage"),
 }
 
 _KIND_OF_ERROR: dict[type[VeritorqueError], str] = {
@@ -67,7 +67,7 @@ _KIND_OF_ERROR: dict[type[VeritorqueError], str] = {
 
 
 class Problem(HTTPException):
-    """Tell a client what went wrong, what was seen, and what to do about it.
+    """Describe an error to a client: cause, evidence and remedy.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class Problem(HTTPException):
         self.remedy = remedy
 
     def document(self) -> dict[str, object]:
-        """Write the problem as the document that is sent."""
+        """Serialise the problem."""
         return {
             "type": URN + self.kind,
             "title": self.title,
@@ -117,7 +117,7 @@ class Problem(HTTPException):
 
     @classmethod
     def from_document(cls, document: Mapping[str, object]) -> "Problem":
-        """Read a problem back that was written as a document.
+        """Read a serialised problem.
 
         Examples
         --------
@@ -135,7 +135,7 @@ class Problem(HTTPException):
 
 
 def problem_of(error: VeritorqueError) -> Problem:
-    """Turn an error of the science into a problem.
+    """Convert an error of the core into a problem.
 
     Examples
     --------
@@ -147,10 +147,10 @@ def problem_of(error: VeritorqueError) -> Problem:
 
 
 def problem_of_damage(error: Damaged) -> Problem:
-    """Say that bytes are not what they were, which is never a client's fault."""
+    """Describe damaged stored data; the client is not at fault."""
     return Problem(
         "damaged",
-        "the disk gave back other bytes than were kept",
+        "the stored bytes do not match their hash",
         evidence={"sha256": error.sha256, "seen": error.evidence},
-        remedy="delete what needs them and send it again, or let the operator run: veritorque doctor",
+        remedy="delete the resource and upload it again, or have the operator run: veritorque doctor",
     )

@@ -186,12 +186,12 @@ def _proven(
     @cache
     def observed() -> Observation:
         whole = _extended(all_proven(found), fitting)
-        return whole.data.observed(lambda _done: tell("prove", 0.78))
+        return whole.data.observed(lambda _done: tell("verify", 0.78))
 
     def tried(trial: Diagnosis) -> tuple[Fitting, Fitted]:
         joined = _extended(trial, fitting)
         seen = observed().over(joined.data.plan, places_among_all(trial, fitting.base))
-        return joined, fitted(options, joined, lambda _stage, _done: tell("prove", 0.78), seen)
+        return joined, fitted(options, joined, lambda _stage, _done: tell("verify", 0.78), seen)
 
     def gained(*fits: tuple[Fitting, Fitted]) -> tuple[JointGain, ...]:
         now, then = ((one.observation, one.estimate.base) for _, one in fits)

@@ -141,7 +141,7 @@ class Client:
         logs: LogLike | Sequence[LogLike],
         options: Mapping[str, object] | None = None,
     ) -> Job:
-        """Ask for a computation.
+        """Create a job.
 
         Parameters
         ----------

@@ -121,7 +121,7 @@ class StandardParameters(Rows):
 
 @dataclass(frozen=True, eq=False)
 class JointErrors(Rows):
-    """How well the torque is predicted, joint by joint; rms in N m (slide: N)."""
+    """Torque prediction error per joint; RMS in N m, for prismatic joints in N."""
 
     joint: np.ndarray
     rms_torque: Floats

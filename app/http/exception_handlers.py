@@ -187,7 +187,7 @@ def _takes(request: Request, method: str) -> bool:
 def _mistake(incident: str) -> Problem:
     return Problem(
         "internal",
-        "the service made a mistake",
+        "an unexpected error occurred in the service",
         evidence={"incident": incident},
         remedy="report it with the incident's number; the service's own log holds the details",
     )

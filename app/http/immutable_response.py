@@ -16,8 +16,8 @@ from ..store.blobs import check_file
 from ..version import VERSION
 from .negotiation import matches
 
-IfNoneMatch = Annotated[str | None, Header(max_length=1000, description="ETags of what is known already")]
-UNCHANGED: Final[dict[int | str, dict[str, Any]]] = {304: {"description": "Nothing has changed since"}}
+IfNoneMatch = Annotated[str | None, Header(max_length=1000, description="ETags of known versions")]
+UNCHANGED: Final[dict[int | str, dict[str, Any]]] = {304: {"description": "Not modified"}}
 
 
 @dataclass(frozen=True)

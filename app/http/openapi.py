@@ -22,14 +22,14 @@ DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultD
 KEY = {
     "type": "http",
     "scheme": "bearer",
-    "description": "A key that the operator makes; none is needed while the service listens on loopback only",
+    "description": "API key created by the operator; not needed while the service listens on loopback only",
 }
-DESCRIPTION = """From a robot's log to a robot that can physically exist.
+DESCRIPTION = """Physically consistent dynamic identification of robots from their logs.
 
-Create a robot (or use a built-in one), upload a log, ask for a job of kind `identify`, read its results.
-A job of kind `diagnose` also says what the simulation still gets wrong, why, and what curing it gains. Every
-successful job has a report for people at `/v1/jobs/{job_id}/report`.
-Units are SI, angles rad, joints counted from 1. Numbers are finite: no request and no answer holds NaN or
+Create a robot (or use a built-in one), upload a log, create a job of kind `identify`, read its results.
+A job of kind `diagnose` also finds the causes of the simulation error and their corrections. Every successful
+job has an HTML report at `/v1/jobs/{job_id}/report`.
+SI units, angles in rad, joints counted from 1. Numbers are finite: no request or response contains NaN or
 Infinity. Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
 
 

@@ -9,7 +9,7 @@ from .body.json_body import invalid
 
 LARGEST = 2**62
 Limit = Annotated[int, Query(ge=1, le=1000)]
-CursorOf = Annotated[str | None, Query(max_length=40, description="`next` of the page before")]
+CursorOf = Annotated[str | None, Query(max_length=40, description="`next` of the previous page")]
 
 
 class Listed(Protocol):

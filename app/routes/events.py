@@ -36,21 +36,21 @@ class EventStream(StreamingResponse):
 @ROUTER.get(
     "/{job_id}/events",
     response_class=EventStream,
-    summary="Follow a job as it happens",
+    summary="Stream the progress of a job",
     responses=problems(404)
     | {
         200: {
             "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
             "description": "An event `progress` at every change and `end` at the last; each holds the job",
         },
-        204: {"description": "It has ended, and the client knows"},
+        204: {"description": "The job has ended and there are no further events"},
     },
 )
 async def follow_job(
     desk: DeskOf,
     job_id: str,
     last_event_id: Annotated[
-        str | None, Header(max_length=200, description="id of the last event that was heard")
+        str | None, Header(max_length=200, description="id of the last received event")
     ] = None,
 ) -> Response:
     """Follow a job until it ends. The first event tells how far it is, unless Last-Event-ID is up to date."""

@@ -16,13 +16,13 @@ ROUTER = chapter(tag="service")
 PACKAGES = ("clarabel", "cvxpy-base", "fastapi", "numba", "numpy", "pyarrow", "scipy", "sqlalchemy")
 
 
-@ROUTER.get("/healthz", response_model=dict[str, str], summary="Does it live?")
+@ROUTER.get("/healthz", response_model=dict[str, str], summary="Liveness")
 async def healthz() -> Response:
     """Answer as long as the service answers at all."""
     return JSONResponse({"status": "alive"})
 
 
-@ROUTER.get("/readyz", response_model=dict[str, str], summary="Is it ready?", responses=problems(503))
+@ROUTER.get("/readyz", response_model=dict[str, str], summary="Readiness", responses=problems(503))
 def readyz(services: ServicesOf) -> Response:
     """Answer while the database takes writes, a worker has the solver loaded, and the disk has room."""
     services.readiness.require()
@@ -32,7 +32,7 @@ def readyz(services: ServicesOf) -> Response:
 @ROUTER.get(
     "/metrics",
     response_class=Response,
-    summary="Read the figures",
+    summary="Metrics",
     responses=problems(401, 403)
     | {200: {"content": {"text/plain": {"schema": {"type": "string"}}}, "description": "For Prometheus"}},
 )
@@ -43,7 +43,7 @@ def metrics(services: ServicesOf, caller: CallerOf, request: Request) -> Respons
     return Response(content, media_type=media_type)
 
 
-@ROUTER.get("/version", response_model=dict[str, str | dict[str, str]], summary="Which version is it?")
+@ROUTER.get("/version", response_model=dict[str, str | dict[str, str]], summary="Versions")
 def versions() -> Response:
     """Name the versions of the service and of what its numbers depend on."""
     packages = {name: version(name) for name in PACKAGES}

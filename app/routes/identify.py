@@ -62,7 +62,7 @@ FORM_SCHEMA = {
     response_model=ResultDocument,
     summary="Identify a robot from a log in one request",
     responses=problems(400, 413, 415, 422)
-    | {202: {"model": Job, "description": "It takes longer than the client waits; follow the job"}},
+    | {202: {"model": Job, "description": "The job takes longer than the waiting time; follow it"}},
     openapi_extra=body({MULTIPART: {"schema": FORM_SCHEMA}}),
 )
 async def identify(

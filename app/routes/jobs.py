@@ -34,9 +34,9 @@ RESULT_FORMS = ("application/json", "text/csv", "text/html")
     "",
     status_code=202,
     response_model=Job,
-    summary="Ask for a computation",
+    summary="Create a job",
     responses=problems(400, 413, 415, 422)
-    | {200: {"model": Job, "description": "It finished while the client waited"}},
+    | {200: {"model": Job, "description": "The job finished within the waiting time"}},
     openapi_extra=body({"application/json": {"schema": reference(JobRequest), "examples": JOB_REQUESTS}}),
 )
 async def create_job(
@@ -48,11 +48,11 @@ async def create_job(
     idempotency_key: Annotated[
         str | None,
         Header(
-            min_length=1, max_length=200, description="of a request that may be sent twice and is meant once"
+            min_length=1, max_length=200, description="key of a request that may be repeated but runs once"
         ),
     ] = None,
 ) -> Response:
-    """Queue a computation, or find one that asks for the same. What cannot succeed is refused at once."""
+    """Create a job, or return an existing identical one. Invalid requests are refused immediately."""
     require_media_type(request, ("application/json",))
     asked = check(JobRequest, parse_json(await request.body()))
     wanted = Wanted(
@@ -76,7 +76,7 @@ def list_jobs(
     limit: Limit = 100,
     cursor: CursorOf = None,
 ) -> Response:
-    """List jobs, the newest first."""
+    """List jobs, newest first."""
     jobs = desk.store.jobs.page(limit=limit, before=before(cursor))
     return JSONResponse({"jobs": [job_document(job) for job in jobs], "next": following(jobs, limit)})
 
@@ -88,7 +88,7 @@ def list_jobs(
     responses=problems(404) | UNCHANGED,
 )
 async def read_job(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
-    """Read how far a job is. Send the ETag of the last answer as If-None-Match to hear only of changes."""
+    """Read a job and its progress; with the last ETag as If-None-Match, only changes are sent."""
     job = await desk.feed.job((desk.caller.tenant, job_id))
     if job is None:
         raise no_such_job(job_id)
@@ -146,7 +146,7 @@ def read_results(
     responses=problems(404, 409) | {200: {"description": "One HTML file that opens offline"}} | UNCHANGED,
 )
 def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
-    """Read what came out as a page: figures, tables and sentences, without a script."""
+    """Read the report: one HTML file with figures and tables, without scripts."""
     job = find_job(desk, job_id)
     return result_of(desk, job).unless_known(if_none_match, "report", lambda: report_response(desk, job))
 
@@ -154,7 +154,7 @@ def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) ->
 @ROUTER.get(
     "/{job_id}/results/{artifact}",
     response_class=Response,
-    summary="Read a part of the result as a file",
+    summary="Read an export file",
     responses=problems(404, 409, 422) | {200: {"content": CONTENT, "description": "The file"}} | UNCHANGED,
 )
 def read_artifact(
@@ -163,7 +163,7 @@ def read_artifact(
     artifact: Annotated[str, Path(examples=[*ARTIFACTS, TRACES_FILE])],
     if_none_match: IfNoneMatch = None,
 ) -> Response:
-    """Read the identified robot in the form that a tool wants; each file says what its numbers are."""
+    """Read the identified robot in an exchange format."""
     job = find_job(desk, job_id)
     if artifact == TRACES_FILE:
         return file_response(traces_of(desk, job), artifact, TRACES_TYPE, if_none_match)
@@ -186,8 +186,8 @@ def read_artifact(
     summary="Dismiss a job, or delete a finished one",
     responses=problems(404)
     | {
-        200: {"description": "It was unfinished and is now dismissed"},
-        204: {"description": "It was finished and is gone"},
+        200: {"description": "The job was unfinished and is now dismissed"},
+        204: {"description": "The job was finished and is deleted"},
     },
 )
 def delete_job(desk: DeskOf, job_id: str) -> Response:

@@ -74,7 +74,7 @@ async def create_log(
 ) -> Response:
     """Upload a log, as the body itself or as a form.
 
-    Unusable data is refused; usable data comes with its defects listed.
+    Invalid data are refused; defects of usable data are listed.
     """
     media_type = require_media_type(request, (MULTIPART, *LOG_MEDIA_TYPES))
     with desk.store.blobs.receive() as incoming:
@@ -92,12 +92,12 @@ def list_logs(
     limit: Limit = 100,
     cursor: CursorOf = None,
 ) -> Response:
-    """List logs, the newest first."""
+    """List logs, newest first."""
     logs = desk.store.logs.page(limit=limit, before=before(cursor))
     return JSONResponse({"logs": [log_document(log) for log in logs], "next": following(logs, limit)})
 
 
-@ROUTER.get("/{log_id}", response_model=LogSummary, summary="Read what is in a log", responses=problems(404))
+@ROUTER.get("/{log_id}", response_model=LogSummary, summary="Read a log", responses=problems(404))
 def read_log(desk: DeskOf, log_id: str) -> Response:
     """Read the summary of a log with its defects."""
     return JSONResponse(log_document(desk.catalogue.log(log_id)))
@@ -106,7 +106,7 @@ def read_log(desk: DeskOf, log_id: str) -> Response:
 @ROUTER.get(
     "/{log_id}/traces",
     response_model=LogTraces,
-    summary="Look at a log",
+    summary="Read traces of a log",
     responses=problems(404, 422) | UNCHANGED,
 )
 async def read_traces(
@@ -115,7 +115,7 @@ async def read_traces(
     glance: GlanceOf,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
-    """Read every channel with few points, of which no extreme is missing; from and to zoom in."""
+    """Read the channels of a log, min/max decimated; `from` and `to` select a range."""
     log = await anyio.to_thread.run_sync(desk.catalogue.log, log_id)
     glance = replace(glance, channels=_chosen(log, glance.channels))
     asked = (glance.points, "-".join(glance.channels), glance.begin, glance.end)

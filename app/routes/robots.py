@@ -79,11 +79,11 @@ def read_robot(desk: DeskOf, robot_id: str) -> Response:
 @ROUTER.get(
     "/{robot_id}/base-parameters",
     response_model=BaseParameters,
-    summary="Read what can be told apart",
+    summary="Read the base parameters",
     responses=problems(404, 422),
 )
 async def read_base_parameters(services: ServicesOf, desk: DeskOf, robot_id: str) -> Response:
-    """Read the combinations of parameters that some motion can tell apart, with their groupings.
+    """Read the base parameters of a robot with their groupings.
 
     Right after the very first start the answer waits until the solver is compiled.
     """

@@ -16,25 +16,25 @@ ROUTER = chapter("/v1/jobs", tag="jobs")
 @ROUTER.get(
     "/{job_id}/traces",
     response_model=ResultTraces,
-    summary="Look at torque and motion",
+    summary="Read traces of a result",
     responses=problems(404, 409, 422) | UNCHANGED,
 )
 def read_result_traces(
     desk: DeskOf, job_id: str, view: ViewOf, if_none_match: IfNoneMatch = None
 ) -> Response:
-    """Read signals of one joint with few points, of which no extreme is missing; from and to zoom in."""
+    """Read signals of one joint, min/max decimated; `from` and `to` select a range."""
     return traces_response(traces_of(desk, find_job(desk, job_id)), view, if_none_match)
 
 
 @ROUTER.get(
     "/{job_id}/residuals",
     response_model=ResidualViews,
-    summary="Look at what is left of the torque",
+    summary="Read residuals",
     responses=problems(404, 409, 422) | UNCHANGED,
 )
 def read_residual_views(
     desk: DeskOf, job_id: str, joint: Number, log: Number = 1, if_none_match: IfNoneMatch = None
 ) -> Response:
-    """Read a joint's residual over position, velocity and frequency, of the instants that count."""
+    """Read a joint's residual over position, velocity and frequency."""
     kept = traces_of(desk, find_job(desk, job_id))
     return views_response(kept, log=log, joint=joint, if_none_match=if_none_match)

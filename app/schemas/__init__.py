@@ -1,1 +1,1 @@
-"""Say what requests and responses look like: in comes JSON, out go strict models and documentation."""
+"""Declare requests and responses: JSON is validated by strict models, which also document it."""

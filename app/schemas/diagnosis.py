@@ -1,4 +1,4 @@
-"""Describe the diagnosis in a result document: what the simulation gets wrong, why, and what a cure gains."""
+"""Describe the diagnosis in a result document: causes of simulation error and their correction."""
 
 from typing import Annotated, Literal
 
@@ -15,10 +15,10 @@ Interval = Annotated[list[float | None] | None, Field(description="ends of a 95 
 
 
 class FoundParameter(Open):
-    """A number of a finding, and how well it is known."""
+    """A parameter of a finding with its standard deviation."""
 
     name: Annotated[str, Field(examples=["load_coefficient"])]
-    joint: Annotated[int | None, Field(description="None where it belongs to the whole robot")]
+    joint: Annotated[int | None, Field(description="null if it belongs to the whole robot")]
     unit: Annotated[str, Field(examples=["N m"])]
     value: float | None
     standard_deviation: float | None
@@ -26,7 +26,7 @@ class FoundParameter(Open):
 
 
 class Evidence(Open):
-    """A number that decided."""
+    """A statistic that supports the finding."""
 
     statement: str
     statistic: Annotated[str, Field(examples=["likelihood ratio"])]
@@ -34,18 +34,18 @@ class Evidence(Open):
 
 
 class Rival(Open):
-    """Another cause that was weighed for the same trace."""
+    """An alternative cause that was compared."""
 
     cause: str
     title: str
     joints: list[int]
     statistic: float | None
     why: str
-    separating_experiment: Annotated[str, Field(description="empty where the rival was refuted")]
+    separating_experiment: Annotated[str, Field(description="empty if the alternative was rejected")]
 
 
 class Gain(Open):
-    """What a finding gains on rows that no fit has seen; lists have one entry per joint."""
+    """Improvement by one finding on held-out data; lists have one entry per joint."""
 
     rms_residual_before: PerJoint
     rms_residual_after: PerJoint
@@ -70,7 +70,7 @@ class Curve(Open):
 
 
 class Finding(Open):
-    """A named cause with everything that supports it."""
+    """A cause with its statistics."""
 
     cause: Annotated[str, Field(examples=["friction_load_dependent"])]
     title: str
@@ -89,7 +89,7 @@ class Finding(Open):
 
 
 class NotIdentifiable(Open):
-    """A cause that this motion could not have shown."""
+    """A cause that is not identifiable from this motion."""
 
     cause: str
     title: str
@@ -99,36 +99,39 @@ class NotIdentifiable(Open):
 
 
 class Place(Open):
-    """A tenth of a joint's samples in which a generic learner predicts much of what is left."""
+    """A tenth of a joint's samples in which a generic learner explains much of the residual."""
 
     coordinate: Annotated[str, Field(examples=["velocity"])]
     unit: str
     low: float
     high: float
-    rms: Annotated[float, Field(description="of the prediction there, N m or N")]
+    rms: Annotated[float, Field(description="RMS of the prediction in that range, N m or N")]
 
 
 class Pattern(Open):
-    """What the residual of a joint still follows, though no listed cause would."""
+    """A pattern in the residual of a joint that no known cause explains."""
 
     joint: int
     statement: str
-    likelihood_ratio: Annotated[float, Field(description="rise of twice the log-likelihood")]
-    log10_p: Annotated[float, Field(description="of so large a rise by luck, all patterns counted in")]
+    likelihood_ratio: Annotated[float, Field(description="log-likelihood ratio statistic")]
+    log10_p: Annotated[float, Field(description="log10 of the p-value, corrected for all patterns")]
 
 
 class Unexplained(Open):
-    """What is left, per joint: the share a generic learner predicts, and how low noise goes."""
+    """The unexplained residual per joint: its explainable variance and the noise floor."""
 
-    joints: Annotated[list[int], Field(description="where structure is left")]
-    pattern: Annotated[Pattern | None, Field(description="the clearest structure; null where there is none")]
+    joints: Annotated[list[int], Field(description="joints with structure in the residual")]
+    pattern: Annotated[
+        Pattern | None, Field(description="the most significant pattern; null if there is none")
+    ]
     predictable_residual_fraction: Annotated[
-        PerJoint, Field(description="null where the joint moves too little to be judged")
+        PerJoint,
+        Field(description="R2, upper bound; null if the joint moves too little"),
     ]
     interval_95: list[Interval]
     at_rest_fraction: Annotated[
         PerJoint,
-        Field(description="share of the squared error that is friction at rest; null where it hardly moves"),
+        Field(description="share of the squared error due to stiction; null if the joint hardly moves"),
     ] = Field(default=[])
     rms_residual: PerJoint
     places: Annotated[list[list[Place]], Field(description="per joint, the largest first")]
@@ -136,15 +139,15 @@ class Unexplained(Open):
     noise_floor_source: list[Literal["repeats", "high_band", "none"]]
     noise_tilt: Annotated[
         PerJoint,
-        Field(description="the noise's power density at the low over that at the high end of its band"),
+        Field(description="power density of the noise at the low end of its band over that at the high end"),
     ] = Field(default=[])
     motion_period_s: Annotated[
-        float | None, Field(description="after which the motion repeats; null where it does not")
+        float | None, Field(description="period of the motion; null if it does not repeat")
     ] = None
 
 
 class JointGain(Open):
-    """What the cure as a whole gains on one joint, on blocks that no fit has seen."""
+    """Improvement by all corrections on one joint, on held-out blocks."""
 
     joint: int
     rms_residual_before: float | None
@@ -155,51 +158,53 @@ class JointGain(Open):
 
 
 class Side(Open):
-    """The model before or after the cure, fitted and held out."""
+    """The model before or after the correction, fitted and held out."""
 
     fit: list[JointFit] = Field(default=[])
     fit_total_percent: float | None = None
     validation: list[JointFit]
     validation_total_percent: float | None = None
     base_parameters: list[dict[str, JsonValue]] = Field(default=[])
-    feasible: Annotated[bool | None, Field(description="whether the extended robot can exist")] = None
+    feasible: Annotated[
+        bool | None, Field(description="whether the extended model is physically consistent")
+    ] = None
     solver: dict[str, JsonValue] = Field(default={})
     model: Annotated[
         dict[str, JsonValue] | None,
-        Field(description="the whole extended model, as in the file model.json of the results"),
+        Field(description="the complete extended model, as in the file model.json of the results"),
     ] = None
 
 
 class Repair(Open):
-    """What a finding asks to be changed, before the log is identified or diagnosed again."""
+    """The correction for a finding, to be made before the next identification or diagnosis."""
 
     cause: str
     joints: list[int]
     mends: Annotated[
         Literal["robot", "log", "model", "nothing"],
-        Field(description="the description, the log, the model alone (a further term), or nothing"),
+        Field(description="corrected object: robot description, log, model (a further term), or nothing"),
     ]
     what: Annotated[str, Field(examples=["Joint 3's d in the kinematic table goes from 0.25 to 0.268 m"])]
-    numbers: Annotated[dict[str, float], Field(description="what it is done with, in SI")]
+    numbers: Annotated[dict[str, float], Field(description="values of the correction, SI units")]
 
 
 class Motion(Open):
-    """How far the simulated robot strays from the measured one; rows are horizons, columns joints."""
+    """Error of the simulated motion; rows are horizons, columns are joints."""
 
     horizons_s: list[float] = Field(default=[])
     windows: int = 0
     position_rms: Matrix = Field(default=[])
     velocity_rms: Matrix = Field(default=[])
-    steady_rms: Annotated[Matrix, Field(description="of keeping the velocity")] = Field(default=[])
+    steady_rms: Annotated[Matrix, Field(description="error of constant velocity")] = Field(default=[])
 
 
 class Simulation(Open):
-    """The model before and after the cure, made to move; empty where that was not done."""
+    """Simulated motion of the model before and after the correction; empty if it was not simulated."""
 
     before: Motion
     after: Motion
     note: Annotated[
-        str, Field(description="which findings are inputs to the simulation; or why there is none")
+        str, Field(description="findings that are simulation inputs, or why there is no simulation")
     ] = ""
     held_out: bool = True
     improvement_percent: Matrix = Field(default=[])
@@ -208,7 +213,7 @@ class Simulation(Open):
 
 
 class Dependence(Open):
-    """What is left of one joint's residual over one coordinate, in bins."""
+    """Mean residual of one joint over one coordinate, in bins."""
 
     coordinate: str
     joint: int
@@ -223,7 +228,7 @@ class Dependence(Open):
 
 
 class Spectrum(Open):
-    """Power density of what is left of one joint's residual, beside the noise floor's, (N m)^2/Hz."""
+    """Power density of one joint's residual and of the noise floor, (N m)^2/Hz."""
 
     joint: int
     frequency_hz: Numbers
@@ -232,16 +237,16 @@ class Spectrum(Open):
 
 
 class SearchStep(Open):
-    """One decision on the way to the findings."""
+    """One decision of the stepwise search."""
 
     action: Literal["added", "dropped", "swapped", "kept"]
     cause: str
     joints: list[int]
-    statistic: Annotated[float | None, Field(description="rise of twice the log-likelihood")]
+    statistic: Annotated[float | None, Field(description="log-likelihood ratio statistic")]
 
 
 class ComparedParameter(Open):
-    """A base parameter as the reference has it, and as it was identified anew."""
+    """A base parameter of the reference and as identified from the logs."""
 
     name: str
     reference: float | None
@@ -249,45 +254,45 @@ class ComparedParameter(Open):
 
 
 class Reference(Open):
-    """What the logs were compared with."""
+    """The reference model of a diagnosis."""
 
     name: Annotated[str, Field(description="the id of a job, or prior")]
     left_open: Annotated[
         list[str],
-        Field(description="base parameters of which it tells nothing: they are filled in from the logs"),
+        Field(description="base parameters that it does not determine; they are identified from the logs"),
     ]
     worse_than_nothing: Annotated[
-        list[int], Field(description="joints whose torque it misses by more than there is")
+        list[int], Field(description="joints whose torque error exceeds their RMS torque")
     ]
     base_parameters: list[ComparedParameter]
 
 
 class Diagnosis(Open):
-    """What the simulation gets wrong, why, what was cured, and what is left."""
+    """Causes of simulation error, their corrections, and the unexplained residual."""
 
     verdict: Literal["causes_found", "nothing_found", "unexplained"]
     findings: list[Finding]
     not_identifiable: list[NotIdentifiable]
     unexplained: Unexplained
     reference: Annotated[
-        Reference | None, Field(description="None where everything was identified from the logs first")
+        Reference | None, Field(description="null if the model was identified from the logs")
     ] = None
     gain: list[JointGain]
     before: Side
     after: Side
-    repairs: Annotated[list[Repair], Field(description="one per finding, in their order")] = Field(default=[])
+    repairs: Annotated[list[Repair], Field(description="corrections, one per finding, in the same order")] = (
+        Field(default=[])
+    )
     repaired_robot: Annotated[
         RobotDescription | None,
-        Field(description="the description after its repairs, for POST /v1/robots; null where it has none"),
+        Field(description="corrected description, for POST /v1/robots; null if there is none"),
     ] = None
     simulation: Simulation
     atlas: list[Dependence]
     spectra: list[Spectrum] = Field(default=[])
-    search: Annotated[list[SearchStep], Field(description="in the order in which it went")] = Field(
-        default=[]
-    )
-    band_hz: Annotated[float | None, Field(description="up to where the diagnosis looked")] = None
+    search: Annotated[list[SearchStep], Field(description="steps in chronological order")] = Field(default=[])
+    band_hz: Annotated[float | None, Field(description="upper frequency limit of the diagnosis")] = None
     held_out: Annotated[
         list[HeldOutSpan],
-        Field(description="what the search has not seen; the findings' own gains are of it"),
+        Field(description="spans held out from the search"),
     ] = Field(default=[])

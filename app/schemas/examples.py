@@ -1,4 +1,4 @@
-"""Give the examples that fill /docs, so that "Try it out" works at once with the YuMi arm.
+"""Give the examples for /docs, so that "Try it out" works with the YuMi arm.
 
 The ids of the example logs follow from the bytes of the files that ship with the project, uploaded under
 their own names; a test keeps them together.
@@ -24,8 +24,8 @@ DIAGNOSE_REQUEST: dict[str, object] = {
     "options": {"reference": None},
 }
 JOB_REQUESTS: dict[str, object] = {
-    "identify": {"summary": "Identify the arm from the first shipped log", "value": JOB_REQUEST},
-    "diagnose": {"summary": "Find what the second shipped log hides", "value": DIAGNOSE_REQUEST},
+    "identify": {"summary": "Identify the arm from the first example log", "value": JOB_REQUEST},
+    "diagnose": {"summary": "Diagnose the second example log", "value": DIAGNOSE_REQUEST},
 }
 PENDULUM_URDF = """<robot name="pendulum">
   <link name="base"/>

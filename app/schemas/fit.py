@@ -1,4 +1,4 @@
-"""Describe how well a model predicts torque, and on what no fit has seen."""
+"""Describe torque prediction errors and held-out spans."""
 
 from typing import Annotated
 
@@ -8,7 +8,7 @@ from .common import Open
 
 
 class JointFit(Open):
-    """How well the model predicts the torque of a joint."""
+    """Torque prediction error of a joint."""
 
     joint: int
     samples: int = 0
@@ -19,7 +19,7 @@ class JointFit(Open):
 
 
 class HeldOutSpan(Open):
-    """A stretch of a log that no fit has seen."""
+    """A held-out span of a log."""
 
     log: Annotated[int, Field(description="counted from 1")]
     begin_s: float

@@ -1,4 +1,4 @@
-"""Describe jobs as they are sent and answered."""
+"""Describe requests for jobs, and jobs."""
 
 from typing import Annotated, Literal
 
@@ -10,7 +10,7 @@ State = Literal["accepted", "running", "successful", "failed", "dismissed"]
 
 
 class JobRequest(Strict):
-    """What to compute: the kind, a robot and logs by id, and options."""
+    """A request for a job: kind, robot and logs by id, and options."""
 
     kind: Annotated[Literal["identify", "diagnose"], Field(description="what to compute")]
     robot: Identity
@@ -21,14 +21,14 @@ class JobRequest(Strict):
 
 
 class Progress(Open):
-    """How far a job is."""
+    """Progress of a job."""
 
     stage: str
     fraction: Annotated[float, Field(ge=0, le=1)]
 
 
 class Job(Open):
-    """A job: what was asked for, how far it is, and how it ended."""
+    """A job: request, progress, and outcome."""
 
     id: str
     kind: str

@@ -9,18 +9,18 @@ from .common import Instant, Next, Open
 
 
 class Defect(Open):
-    """Something that is wrong with usable data."""
+    """A defect of a usable log."""
 
     kind: Annotated[str, Field(examples=["gap", "jitter", "repeated_rows", "standstill"])]
     channel: str
-    joint: Annotated[int | None, Field(description="counted from 1; null where it concerns all joints")]
-    count: Annotated[int, Field(description="samples it touches")]
+    joint: Annotated[int | None, Field(description="counted from 1; null if it concerns all joints")]
+    count: Annotated[int, Field(description="number of affected samples")]
     intervals: Annotated[list[list[float]], Field(description="start and end in s, at most twenty")]
     statement: str
 
 
 class LogSummary(Open):
-    """What is in a log. It never changes: the same bytes under the same name and mapping have the same id."""
+    """Summary of a log. Logs are immutable: the same bytes, name and mapping have the same id."""
 
     id: str
     name: str
@@ -49,12 +49,12 @@ class LogList(Open):
 
 
 class Trace(Open):
-    """A channel of a joint, thinned for the eye; null at gaps."""
+    """A channel of a joint, min/max decimated; null at gaps."""
 
     channel: Annotated[str, Field(examples=[channel.name for channel in JOINT_CHANNELS])]
     joint: Annotated[int, Field(description="counted from 1")]
     unit: Annotated[
-        str, Field(description="the robot tells which of two: whether the joint is revolute or prismatic")
+        str, Field(description="of two units, the type of the joint decides: revolute or prismatic")
     ]
     values: Annotated[list[float | None], Field(max_length=4000)]
 
@@ -67,12 +67,10 @@ class Stamps(Open):
 
 
 class LogTraces(Open):
-    """A log to look at: of every stretch of rows the smallest and the largest value, in order of time."""
+    """A log for plotting, min/max decimated: minimum and maximum of each group of rows, in order of time."""
 
     name: str
     samples: int
-    rows_per_stretch: Annotated[
-        int, Field(description="rows of which two points are left; 1 where every row is there")
-    ]
+    rows_per_stretch: Annotated[int, Field(description="rows per decimation group; 1 without decimation")]
     time: Stamps
     traces: list[Trace]

@@ -1,4 +1,4 @@
-"""Describe the result document; it is stored and sent as the bytes that the computation wrote."""
+"""Describe the result document; it is stored and sent as the computation wrote it."""
 
 from typing import Annotated, Literal
 
@@ -10,13 +10,15 @@ from .fit import HeldOutSpan, JointFit
 
 
 class BaseParameter(Open):
-    """A combination of standard parameters, how large it is and how well it is known."""
+    """A base parameter: an identifiable combination of standard parameters."""
 
     name: Annotated[str, Field(examples=["ZZR1"])]
     joint: int
     unit: Annotated[str, Field(examples=["kg m2"])]
-    value: Annotated[float, Field(description="of the robot that can exist")]
-    value_ols: Annotated[float, Field(description="of ordinary least squares, which knows nothing of bodies")]
+    value: Annotated[float, Field(description="physically consistent estimate")]
+    value_ols: Annotated[
+        float, Field(description="ordinary least squares, without the consistency constraint")
+    ]
     standard_deviation: float
     relative_deviation_percent: Annotated[float | None, Field(description="%P")]
     essential: bool | None = None
@@ -34,19 +36,19 @@ class StandardParameter(Open):
 
 
 class Body(Open):
-    """A link's body as the solid ellipsoid of even density with the same mass, mass centre and inertia."""
+    """A link's body as the ellipsoid of uniform density with the same mass, centre of mass and inertia."""
 
-    link: Annotated[int, Field(description="counted from 1; what follows is in its frame")]
+    link: Annotated[int, Field(description="counted from 1; the other fields are in its frame")]
     mass: Annotated[float, Field(description="kg")]
     mass_centre: Annotated[list[float], Field(min_length=3, max_length=3, description="m")]
     half_axes: Annotated[
-        list[float] | None, Field(description="m, ascending; null where no such body can exist")
+        list[float] | None, Field(description="m, ascending; null if the body is physically inconsistent")
     ]
     axes: Annotated[list[list[float]] | None, Field(description="their directions, as columns of a rotation")]
 
 
 class ResultDocument(Open):
-    """The identified robot: its parameters, how well each is known, and how well it predicts."""
+    """The identified robot: parameters, standard deviations, and prediction errors."""
 
     schema_version: str
     kind: Literal["identify", "diagnose"]
@@ -57,16 +59,15 @@ class ResultDocument(Open):
     base_parameters: list[BaseParameter]
     standard_parameters: list[StandardParameter]
     bodies: Annotated[
-        list[Body], Field(description="one feasible representative of each link; none where not modelled")
+        list[Body],
+        Field(description="one feasible representative of each link; empty if links are not modelled"),
     ] = Field(default=[])
     feasibility: dict[str, JsonValue]
     solver: dict[str, JsonValue]
     fit: list[JointFit]
-    validation: Annotated[list[JointFit], Field(description="on blocks that the fit has not seen")]
+    validation: Annotated[list[JointFit], Field(description="on held-out blocks")]
     held_out: list[HeldOutSpan] = Field(default=[])
     condition_number: float | None
     defects: list[JsonValue]
-    doubts: Annotated[
-        list[str], Field(description="sentences: what deserves a second look before it is used")
-    ]
+    doubts: Annotated[list[str], Field(description="warnings, as sentences")]
     diagnosis: Annotated[Diagnosis | None, Field(description="of a job of kind diagnose")] = None

@@ -1,4 +1,4 @@
-"""Describe robots as they are sent and answered.
+"""Describe robots in requests and responses.
 
 `RobotDescription` documents what `core.robot.description` reads and judges; a test keeps the two naming the
 same fields.
@@ -30,7 +30,7 @@ class JointDescription(Strict):
     """
 
     name: Annotated[str | None, Field(max_length=100)] = None
-    link: Annotated[str | None, Field(max_length=100, description="the moving body's name")] = None
+    link: Annotated[str | None, Field(max_length=100, description="name of the moving body")] = None
     type: Literal["revolute", "prismatic"]
     antecedent: Annotated[
         int | None,
@@ -79,11 +79,11 @@ class JointDescription(Strict):
 
 
 class CouplingDescription(Strict):
-    """A motor that turns with a weighted sum of joints (Staubli TX40: motor 6 turns with q5 + q6)."""
+    """A motor that rotates with a weighted sum of joints (Staubli TX40: motor 6 with q5 + q6)."""
 
     name: Annotated[str, Field(max_length=100)]
     number: Annotated[
-        int | None, Field(ge=1, description="in its parameters' names; default: its last joint")
+        int | None, Field(ge=1, description="used in its parameters' names; default: its last joint")
     ] = None
     joints: Annotated[list[int], Field(min_length=2, description="counted from 1")]
     weights: Annotated[list[float], Field(min_length=2)]
@@ -105,7 +105,7 @@ class StandardParameters(Strict):
 
 
 class LinkPrior(Strict):
-    """A belief about a link: either standard, or mass, center_of_mass and inertia_at_com."""
+    """Prior of a link: either standard, or mass, center_of_mass and inertia_at_com."""
 
     standard: StandardParameters | None = None
     mass: Annotated[float | None, Field(description="kg")] = None
@@ -116,7 +116,7 @@ class LinkPrior(Strict):
 
 
 class RobotDescription(Strict):
-    """A robot: its joints, gravity in the base frame, couplings, and what is believed about its bodies."""
+    """A robot: joints, gravity in the base frame, couplings, and the prior of its bodies."""
 
     name: Annotated[str, Field(max_length=100)]
     convention: Literal["modified-dh", "frames"] = "modified-dh"
@@ -140,11 +140,11 @@ class RobotSummary(Open):
 
 
 class Robot(RobotSummary):
-    """A robot. It never changes: the same description has the same id."""
+    """A robot. Robots are immutable: the same description has the same id."""
 
     suspicions: Annotated[
         list[str],
-        Field(description="what looks like a mistake, such as degrees for radians, although it can be used"),
+        Field(description="warnings about a valid description, such as degrees instead of radians"),
     ]
     description: RobotDescription
 
@@ -157,7 +157,7 @@ class RobotList(Open):
 
 
 class BaseParameters(Open):
-    """The combinations of standard parameters that motion can tell apart."""
+    """The base parameters of a robot."""
 
     robot: str
     counts: dict[str, int]

@@ -1,4 +1,4 @@
-"""Describe the traces of a result: what was measured and what the model says, instant by instant."""
+"""Describe the traces of a result: measured and modelled signals at every sample."""
 
 from typing import Annotated
 
@@ -11,7 +11,7 @@ Span = Annotated[list[float], Field(min_length=2, max_length=2, description="beg
 
 
 class ResultTrace(Open):
-    """A signal of a joint, thinned for the eye; null at gaps."""
+    """A signal of a joint, min/max decimated; null at gaps."""
 
     signal: Annotated[str, Field(examples=["torque_filtered", "torque_estimated", "residual"])]
     joint: Annotated[int, Field(description="counted from 1")]
@@ -20,7 +20,7 @@ class ResultTrace(Open):
 
 
 class ResidualCurve(Open):
-    """A residual over a coordinate: per bin the mean, and what 5 and 95 of 100 instants stay below."""
+    """A residual over a coordinate: mean, 5 % and 95 % quantile per bin."""
 
     signal: Annotated[str, Field(examples=["residual"])]
     mean: list[float]
@@ -29,7 +29,7 @@ class ResidualCurve(Open):
 
 
 class ResidualOver(Open):
-    """Residuals over one coordinate, in bins of nearly equally many instants."""
+    """Residuals over one coordinate, in bins with nearly equal counts."""
 
     coordinate: Annotated[str, Field(examples=["velocity"])]
     unit: str
@@ -38,7 +38,7 @@ class ResidualOver(Open):
 
 
 class ResidualDensity(Open):
-    """The power density of a residual, the square of its unit per Hz; empty where it never lasts long."""
+    """Power density of a residual, the square of its unit per Hz; empty if no segment is long enough."""
 
     signal: str
     frequency_hz: list[float]
@@ -46,27 +46,27 @@ class ResidualDensity(Open):
 
 
 class ResidualViews(Open):
-    """What is left of one joint's torque, over what it may depend on."""
+    """The residual of one joint over coordinates and frequency."""
 
     log: Annotated[int, Field(description="counted from 1")]
     joint: Annotated[int, Field(description="counted from 1")]
     unit: str
-    samples: Annotated[int, Field(description="instants that count")]
+    samples: Annotated[int, Field(description="number of samples used")]
     over: list[ResidualOver]
     densities: list[ResidualDensity]
 
 
 class ResultTraces(Open):
-    """Signals of one joint over a stretch of one log, on one time axis."""
+    """Signals of one joint over a span of one log, on one time axis."""
 
     log: Annotated[int, Field(description="counted from 1")]
     joint: Annotated[int, Field(description="counted from 1")]
-    extent: Annotated[Span, Field(description="first and last instant of the whole log, s")]
+    extent: Annotated[Span, Field(description="first and last time stamp of the log, s")]
     rows_per_stretch: Annotated[
         int,
-        Field(description="rows of which the smallest and the largest value are left; 1: every row is there"),
+        Field(description="rows per decimation group (minimum and maximum); 1 without decimation"),
     ]
     time: Stamps
     traces: list[ResultTrace]
-    held_out: Annotated[list[Span], Field(description="what no fit has seen")]
-    left_out: Annotated[list[Span], Field(description="what does not count for this joint: standstill, ends")]
+    held_out: Annotated[list[Span], Field(description="held-out spans")]
+    left_out: Annotated[list[Span], Field(description="spans not used for this joint: standstill, ends")]

@@ -17,12 +17,12 @@ from ..json_text import json_bytes
 from ..problems import Problem
 
 Number = Annotated[int, Query(ge=1, description="counted from 1")]
-Stamp = Annotated[float | None, Query(allow_inf_nan=False, description="s on the log's own clock")]
+Stamp = Annotated[float | None, Query(allow_inf_nan=False, description="s, on the clock of the log")]
 Channels = Annotated[
-    str | None, Query(max_length=100, description="their names, with commas; all by default")
+    str | None, Query(max_length=100, description="names, separated by commas; default: all")
 ]
-Names = Annotated[str, Query(max_length=200, description="their names, with commas between them")]
-Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="the most points per trace")]
+Names = Annotated[str, Query(max_length=200, description="names, separated by commas")]
+Points = Annotated[int, Query(ge=FEWEST_POINTS, le=MOST_POINTS, description="maximum points per trace")]
 
 
 def _view(

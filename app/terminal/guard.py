@@ -88,19 +88,19 @@ def _other(error: Exception) -> Exit:
         return exit_of(error.kind)
     if isinstance(error, OSError) and error.errno == errno.EBADF and not error.filename:
         complain(
-            "standard output is closed, and this command has something to say there",
+            "standard output is closed",
             {"reason": error.strerror},
-            "leave it open, or send it to a file or to /dev/null",
+            "keep it open, or redirect it to a file or to /dev/null",
         )
         return Exit.INPUT
     if isinstance(error, OSError) and error.errno in NO_ROOM:
         complain(
-            "there is no room for what is to be written",
+            "no space left on the device",
             {
                 "reason": error.strerror,
                 "where": error.filename or "standard output, or a temporary file",
             },
-            "make room, or write elsewhere; TMPDIR names the folder of temporary files",
+            "free space, or write elsewhere; TMPDIR sets the folder of temporary files",
         )
         return Exit.INPUT
     with tempfile.NamedTemporaryFile(
@@ -108,7 +108,7 @@ def _other(error: Exception) -> Exit:
     ) as file:
         file.write("".join(traceback.format_exception(error)))
     complain(
-        "this is a mistake of ours",
+        "internal error",
         {"what": f"{type(error).__name__}: {error}"},
         f"report it with {Path(file.name)}",
     )

@@ -53,7 +53,7 @@ def _veritorque(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
-    """From a robot's log to a robot that can physically exist."""
+    """Physically consistent dynamic identification of robots from their logs."""
 
 
 def main() -> None:

@@ -14,17 +14,17 @@ Document = dict[str, Any]
 RobotArgument = Annotated[
     str,
     typer.Argument(
-        metavar="ROBOT", help="A built-in robot, a description (JSON) or a URDF; with --url also an id."
+        metavar="ROBOT", help="Built-in robot, description (JSON) or URDF; with --url also an id."
     ),
 ]
-BaseLinkOption = Annotated[str, typer.Option(help="Of a URDF: the link that stands still.")]
-TipLinkOption = Annotated[str, typer.Option(help="Of a URDF: the last link that is meant.")]
+BaseLinkOption = Annotated[str, typer.Option(help="URDF: the fixed base link.")]
+TipLinkOption = Annotated[str, typer.Option(help="URDF: the last link of the robot.")]
 GravityOption = Annotated[
-    str, typer.Option(metavar="X,Y,Z", help="Of a URDF: gravity in the base link's frame, m/s2.")
+    str, typer.Option(metavar="X,Y,Z", help="URDF: gravity in the base link's frame, m/s2.")
 ]
 LogsArgument = Annotated[list[Path], typer.Argument(metavar="LOG...", help="Logs in any format.")]
 MappingOption = Annotated[
-    str, typer.Option(metavar="JSON|FILE", help="Which column is what in which unit; see docs/logs.md.")
+    str, typer.Option(metavar="JSON|FILE", help="Columns and units of the channels; see docs/logs.md.")
 ]
 ProfileOption = Annotated[str, typer.Option(help="The recorder that wrote the log, such as ur-rtde.")]
 OptionsOption = Annotated[
@@ -35,15 +35,13 @@ SetOption = Annotated[
     list[str], typer.Option("--set", metavar="NAME=VALUE", help="One option, such as filter.cutoff_hz=10.")
 ]
 UrlOption = Annotated[
-    str, typer.Option(envvar="VERITORQUE_URL", help="Let the service at this address do it.")
+    str, typer.Option(envvar="VERITORQUE_URL", help="Address of the service that computes.")
 ]
 KeyOption = Annotated[
     str,
-    typer.Option(
-        envvar="VERITORQUE_KEY", help="Key of the service; better in the environment, where nobody sees it."
-    ),
+    typer.Option(envvar="VERITORQUE_KEY", help="Key of the service; safer in the environment variable."),
 ]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print a document, and nothing else.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print a JSON document only.")]
 
 
 def part_of(base_link: str, tip_link: str, gravity: str) -> FromUrdf:

@@ -26,9 +26,9 @@ def read_result(given: str) -> dict[str, Any]:
         document: dict[str, Any] = json.loads(content)
     except (OSError, ValueError) as error:
         raise OptionError(
-            f"{given} is not a result that can be read",
+            f"{given} cannot be read as a result",
             evidence={"reason": getattr(error, "strerror", None) or str(error)},
-            remedy="name a file that `veritorque identify --out` wrote, or give --url with the id of a job",
+            remedy="name a file written by `veritorque identify --out`, or give --url with the id of a job",
         ) from error
     try:
         ResultDocument.model_validate_json(content)
@@ -37,6 +37,6 @@ def read_result(given: str) -> dict[str, Any]:
         raise OptionError(
             f"{given} is not a result document",
             evidence={"at": "/".join(map(str, first["loc"])) or "the whole file", "reason": first["msg"]},
-            remedy="name a file that `veritorque identify --out` wrote, and leave it as it is",
+            remedy="name an unchanged file written by `veritorque identify --out`",
         ) from error
     return document

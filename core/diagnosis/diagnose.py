@@ -80,7 +80,7 @@ def diagnose(question: DiagnosisProblem, progress: Progress | None = None) -> Di
     refuse_too_little(dataset.clear)
     fitter, searched = _searched(question, dataset, tell)
     dataset = fitter.dataset
-    tell("weigh rivals", 0.6)
+    tell("compare alternatives", 0.6)
     selection, comparisons = _weighed(fitter, searched)
     chosen, everyone = selection.chosen, range(len(selection.chosen.members))
     after = fitter.residual(chosen)
@@ -92,10 +92,10 @@ def diagnose(question: DiagnosisProblem, progress: Progress | None = None) -> Di
         finding(fitter, chosen, place, one, after, unnamed) for place, one in enumerate(comparisons)
     ] + raw
     most = max((one.statistic for one in comparisons), default=0.0)
-    tell("learn what is left", 0.8)
+    tell("predict the residual", 0.8)
     noise = tuple(one.noise for one in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)
-    tell("lay out", 0.95)
+    tell("prepare figures", 0.95)
     return Diagnosis(
         verdict=_verdict(found, predictable, unnamed_pattern, most),
         findings=tuple(sorted(found, key=lambda one: one.p_value)),

@@ -1,32 +1,33 @@
-"""Say in every file what its numbers are: which are known only together, and what the file leaves out."""
+"""Write the notes of exported files: identifiability of the parameters, and what a format omits."""
 
 from collections.abc import Iterable
 
 import numpy as np
 
+from ..robot.joint_units import joint_unit
 from .identified import IdentifiedRobot
 
-SOURCE = "Written by Veritorque from measured motion. Units are SI, angles are in rad, joints count from 1."
+SOURCE = "Written by Veritorque from measured motion. SI units, angles in rad, joints counted from 1."
 REPRESENTATIVE = (
-    "The standard parameters (masses, mass centres, inertias, drives) are one feasible representative: "
-    "every set of them with the same base parameters gives the same torque on every motion. "
-    "Do not read a single mass off this file unless it is identifiable individually."
+    "The standard parameters (masses, centres of mass, inertias, drives) are one feasible representative: "
+    "every set with the same base parameters gives the same torque for every motion. "
+    "Do not use a single mass from this file unless it is identifiable individually."
 )
 TITLES = {
     "individually": "Identifiable individually",
     "in_combination": "Identifiable only in combination",
-    "no": "Without effect on any torque",
+    "no": "Not identifiable (no effect on the torque)",
 }
 
 
 def caveats(identified: IdentifiedRobot) -> tuple[str, ...]:
-    """Say what the numbers are, which of them are known only in combination, and in which."""
+    """List source, meaning and identifiability of the parameters, and remarks."""
     return (
         SOURCE,
         REPRESENTATIVE,
         *by_identifiability(identified),
         *(
-            ["Base parameters, which the motion did tell: " + "; ".join(_groupings(identified)) + "."]
+            ["Base parameters, identified from the motion: " + "; ".join(_groupings(identified)) + "."]
             if identified.base
             else []
         ),
@@ -45,43 +46,44 @@ def by_identifiability(identified: IdentifiedRobot) -> list[str]:
 
 
 def without_place(format_name: str, what: str, values: Iterable[str]) -> tuple[str, ...]:
-    """Say what a format has no place for, with the numbers; nothing where there are none."""
+    """Note what a format cannot represent, with the numbers; empty if there are none."""
     listed = "; ".join(values)
-    sentence = f"{format_name} has no place for {what}, which this file leaves out: {listed}."
+    sentence = f"{format_name} cannot represent {what}; omitted from this file: {listed}."
     return (sentence,) if listed else ()
 
 
 def rotors(identified: IdentifiedRobot) -> list[str]:
-    """Write the rotors' inertias joint by joint."""
-    return per_joint(identified, "IA", "kg m2 (slide: kg)")
+    """List the rotor inertias of the joints."""
+    return per_joint(identified, "IA", "kg m2")
 
 
 def per_joint(identified: IdentifiedRobot, symbol: str, unit: str) -> list[str]:
-    """Write a drive's parameter joint by joint, as ``joint_1 0.02 kg m2``; zeros are left out."""
-    joints = identified.robot.joints
+    """List a drive's nonzero parameters, as ``joint_1 0.02 kg m2``; `unit` is that of a revolute joint."""
+    robot = identified.robot
+    named = zip(robot.joints, identified.of_joints(symbol), strict=True)
     return [
-        f"{joint.name} {float(value)!r} {unit}"
-        for joint, value in zip(joints, identified.of_joints(symbol), strict=True)
+        f"{joint.name} {float(value)!r} {joint_unit(robot, number, unit)}"
+        for number, (joint, value) in enumerate(named, start=1)
         if value
     ]
 
 
 def of_motors(identified: IdentifiedRobot) -> list[str]:
-    """Write the coupled motors in words."""
+    """Describe the coupled motors."""
     found = []
     for motor in identified.motors:
-        one = motor.coupling
-        names = [identified.robot.joints[joint - 1].name for joint in one.joints]
-        speed = " + ".join(f"{weight:g} {name}" for weight, name in zip(one.weights, names, strict=True))
+        coupling = motor.coupling
+        names = [identified.robot.joints[joint - 1].name for joint in coupling.joints]
+        speed = " + ".join(f"{weight:g} {name}" for weight, name in zip(coupling.weights, names, strict=True))
         found.append(
-            f"motor {one.name} turns with {speed} and has IAM {motor.rotor_inertia!r} kg m2, "
+            f"motor {coupling.name} rotates with {speed} and has IAM {motor.rotor_inertia!r} kg m2, "
             f"FVM {motor.viscous!r} N m s/rad, FCM {motor.coulomb!r} N m"
         )
     return found
 
 
 def smoothing(identified: IdentifiedRobot) -> tuple[str, ...]:
-    """Say over what speeds the sign of Coulomb friction was smoothed; nothing where it was not."""
+    """Note the widths of smoothed Coulomb friction; empty if it was not smoothed."""
     widths = next((term.widths for term in identified.model.terms if term.name == "coulomb"), ())  # type: ignore[attr-defined]  # Coulomb friction alone has them
     if not np.any(widths):
         return ()
@@ -90,4 +92,4 @@ def smoothing(identified: IdentifiedRobot) -> tuple[str, ...]:
 
 
 def _groupings(identified: IdentifiedRobot) -> list[str]:
-    return [f"{one.name} = {one.grouping}" for one in identified.base]
+    return [f"{parameter.name} = {parameter.grouping}" for parameter in identified.base]

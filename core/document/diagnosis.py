@@ -91,8 +91,8 @@ def _doubts(compared: Compared | None) -> list[str]:
         return []
     joints = ", ".join(map(str, compared.worse_than_nothing))
     sentence = (
-        f"The reference misses the torque of joint {joints} by more than there is of it: it may be another "
-        "robot's, or in other units or signs"
+        f"The torque error of the reference exceeds the RMS torque of joint {joints}: it may be of "
+        "another robot, or have other units or signs"
     )
     return [sentence]
 

@@ -9,7 +9,7 @@ TYPES_AND_TORQUE = r"""#ifndef VERITORQUE_INVERSE_DYNAMICS
 
 typedef struct {
     const char *name;
-    int prismatic;         /* 0: turns about z, 1: slides along z */
+    int prismatic;         /* 0: revolute about z, 1: prismatic along z */
     int antecedent;        /* number of the link that carries it, from 1; 0: the base */
     int joint;             /* number of the joint that moves it, from 1 */
     double rotation[9];    /* row by row: from this frame into the antecedent's, at zero coordinate */
@@ -20,10 +20,10 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    double IA;    /* rotor inertia seen at the joint, kg m2 (slide: kg) */
-    double FV;    /* viscous friction, N m s/rad (slide: N s/m) */
-    double FC;    /* Coulomb friction, N m (slide: N) */
-    double OFF;   /* torque offset, N m (slide: N) */
+    double IA;    /* rotor inertia seen at the joint, kg m2 (prismatic: kg) */
+    double FV;    /* viscous friction, N m s/rad (prismatic: N s/m) */
+    double FC;    /* Coulomb friction, N m (prismatic: N) */
+    double OFF;   /* torque offset, N m (prismatic: N) */
     double width; /* rad/s (m/s): FC acts as FC tanh(dq / width); 0: as FC sign(dq) */
 } veritorque_joint;
 
@@ -61,7 +61,7 @@ static inline void veritorque_add_inertia(const double *p, const double *v, doub
     sum[2] += p[2] * v[0] + p[4] * v[1] + p[5] * v[2];
 }
 
-/* Joint torque (N m; slide: N) of a motion: q (rad, m), dq and ddq per second; one number per joint each.
+/* Joint torque (N m; prismatic: N) of a motion: q (rad, m), dq and ddq per second; one number per joint each.
    Recursive Newton-Euler: Luh, Walker & Paul 1980; rotors, friction and offsets are added joint by joint. */
 static inline void veritorque_inverse_dynamics(const veritorque_robot *robot, const double *q,
                                                const double *dq, const double *ddq, double *tau)

@@ -12,16 +12,16 @@ from ..robot.model import Link
 from ..robot.parameters import INERTIAL_SYMBOLS
 
 FRAMES = (
-    "Link frame j sits at rotation (into the antecedent's frame) and translation (m) on its antecedent (0: "
-    "the base), and turns about (revolute) or slides along (prismatic) its z axis by ratio * q + offset."
+    "Link frame j has rotation (into the antecedent's frame) and translation (m) relative to its antecedent "
+    "(0: the base), and moves about (revolute) or along (prismatic) its z axis by ratio * q + offset."
 )
 BODIES = (
     "XX XY XZ YY YZ ZZ (kg m2) are about the link frame's origin, XY = -integral xy dm; MX MY MZ (kg m) are "
     "first moments, M (kg) is the mass."
 )
 DRIVES = (
-    "tau = bodies + IA ddq + FV dq + FC sign(dq) + OFF (N m; slide: N). A coupled motor turns with the sum s "
-    "of weights * q and adds weight * (IAM dds + FVM ds + FCM sign(ds)) to each of its joints."
+    "tau = bodies + IA ddq + FV dq + FC sign(dq) + OFF (N m; prismatic: N). A coupled motor rotates with "
+    "s = sum of weights * q and adds weight * (IAM dds + FVM ds + FCM sign(ds)) to each of its joints."
 )
 NOTES = (SOURCE, REPRESENTATIVE, FRAMES, BODIES, DRIVES)
 DRIVE_SYMBOLS = ("IA", "FV", "FC", "OFF")

@@ -92,6 +92,6 @@ FORMATS: Mapping[str, Format] = {
     "robot.urdf": Format("application/xml", "URDF", _urdf),
     "robot.xml": Format("application/xml", "MJCF, for MuJoCo", _mjcf),
     "robot.sdf": Format("application/xml", "SDFormat, for Gazebo", _sdf),
-    "model.json": Format("application/json", "the whole model, to be loaded again", _model),
+    "model.json": Format("application/json", "the complete model, for a later job", _model),
 }
 """All files by name."""

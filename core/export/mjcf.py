@@ -45,7 +45,7 @@ def write_mjcf(identified: IdentifiedRobot) -> str:
 
 _DRIVES = (
     "armature is IA, damping FV, frictionloss FC; a tendon is a coupled motor with IAM, FVM and FCM. "
-    "An actuator's ctrl is the joint torque as it was logged: its bias takes the offset OFF away."
+    "An actuator's ctrl is the logged joint torque; its bias subtracts the offset OFF."
 )
 
 

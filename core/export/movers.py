@@ -106,7 +106,7 @@ def _owner(robot: RobotModel, number: int) -> int:
         raise RobotError(
             f"no link moves by the coordinate of joint {joint}, and the format cannot scale a coordinate",
             evidence={"joint": joint, "ratios": [link.ratio for _, link in moved]},
-            remedy="describe the joint by its own angle or stroke, and scale the log instead",
+            remedy="describe the joint by its own coordinate, and scale the log instead",
         )
     return (alike or turned)[0]
 

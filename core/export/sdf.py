@@ -62,8 +62,8 @@ def write_sdf(identified: IdentifiedRobot) -> str:
 def _of_rotors(identified: IdentifiedRobot) -> tuple[str, ...]:
     listed = "; ".join(rotors(identified))
     sentence = (
-        "SDFormat has no place for rotor inertia (armature, IA); Drake reads it from drake:rotor_inertia, "
-        f"others leave it out: {listed}."
+        "SDFormat cannot represent rotor inertia (armature, IA); Drake reads it from drake:rotor_inertia, "
+        f"other tools ignore it: {listed}."
     )
     return (sentence,) if listed else ()
 

@@ -20,7 +20,7 @@ from .movers import Mover, free_name, movers
 UNLIMITED = 1e9
 """URDF wants effort and velocity limits: N m and rad/s where none is known."""
 LONGEST_STROKE = 1e3
-"""URDF wants limits of a slide: m, where none is known."""
+"""Limits of a prismatic joint, m, which URDF requires even if none are known."""
 
 
 def write_urdf(identified: IdentifiedRobot) -> str:
@@ -53,9 +53,9 @@ def write_urdf(identified: IdentifiedRobot) -> str:
 
 
 def left_out(identified: IdentifiedRobot, format_name: str) -> tuple[str, ...]:
-    """Say what URDF, and SDF likewise, has no place for."""
+    """List what URDF (and SDF) cannot represent."""
     return (
-        *without_place(format_name, "torque offsets (OFF)", per_joint(identified, "OFF", "N m (slide: N)")),
+        *without_place(format_name, "torque offsets (OFF)", per_joint(identified, "OFF", "N m")),
         *without_place(format_name, "coupled motors", of_motors(identified)),
         *smoothing(identified),
     )

@@ -1,7 +1,7 @@
-"""Say what a reader should doubt about an identification that succeeded, in sentences with numbers.
+"""List warnings about a successful identification, in sentences with numbers.
 
-A programme that ends at an optimum has answered the question it was given; whether the question made sense
-(signs, units, gravity, a motion that excites) shows in what the answer cost and what it leaves unexplained.
+An optimum exists even for wrong signs, units or gravity and for poor excitation. These show in the cost of
+the consistency constraint and in the residual.
 """
 
 import numpy as np
@@ -10,38 +10,38 @@ from ..arrays import JointVector, Mask
 from ..estimate.estimate import Estimate
 from .result import Identification
 
-HIGH_PRICE = 1.25
-"""Constraints that raise the squared error by more than a quarter are at odds with the log."""
+HIGH_COST = 1.25
+"""Constraints that raise the squared error by more than a quarter contradict the log."""
 POOR_PREDICTION_PERCENT = 50.0
-UNSEEN_OVER_SEEN = 2.0
+HELD_OUT_OVER_FITTED = 2.0
 CERTAIN = 3.0
-"""A value this many deviations from zero has a sign."""
+"""A value this many standard deviations from zero has a significant sign."""
 
 
 def doubts(found: Identification) -> tuple[str, ...]:
-    """List what does not look right."""
-    return (*_price(found), *_signs(found), *_unexplained(found), *_unseen(found), *_left_open(found))
+    """List the warnings."""
+    return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found), *_not_excited(found))
 
 
-def _price(found: Identification) -> list[str]:
+def _cost(found: Identification) -> list[str]:
     estimate = found.estimate
-    price = _price_ratio(estimate)
-    if price <= HIGH_PRICE:
+    cost = _cost_ratio(estimate)
+    if cost <= HIGH_COST:
         return []
-    joints = ", ".join(str(joint + 1) for joint in np.flatnonzero(_joint_price(found) > HIGH_PRICE))
+    joints = ", ".join(str(joint + 1) for joint in np.flatnonzero(_joint_cost(found) > HIGH_COST))
     sentence = (
-        f"A robot that can exist fits {price:.3g} times worse (squared error) than plain least squares, "
-        f"most on joints {joints or 'none alone'}: the log and the description may disagree in the sign of a "
-        "torque, in units, in gravity, or the torque was not measured where the model has it"
+        f"The consistency constraint raises the squared error by a factor of {cost:.3g} over least "
+        f"squares, mainly on joints {joints or 'none alone'}: the log and the description may disagree "
+        "in the sign of a torque, in units or in gravity, or the torque was measured elsewhere than modelled"
     )
     return [sentence]
 
 
-def _price_ratio(estimate: Estimate) -> float:
+def _cost_ratio(estimate: Estimate) -> float:
     return estimate.objective / max(estimate.objective_unconstrained, np.finfo(float).tiny)
 
 
-def _joint_price(found: Identification) -> JointVector:
+def _joint_cost(found: Identification) -> JointVector:
     observation, estimate = found.observation, found.estimate
     pairs = zip(observation.joint_factors(), observation.columns_of, strict=True)
     return np.array(
@@ -57,7 +57,7 @@ def _joint_price(found: Identification) -> JointVector:
 
 def _signs(found: Identification) -> list[str]:
     # Least squares leaves a smaller residual than the estimate that the deviations were taken from.
-    deviation = found.precision.standard_deviation / np.sqrt(_price_ratio(found.estimate))
+    deviation = found.precision.standard_deviation / np.sqrt(_cost_ratio(found.estimate))
     negative = {
         found.base.names[row]: found.estimate.unconstrained[row] / deviation[row]
         for row in range(len(found.base.kept))
@@ -67,36 +67,34 @@ def _signs(found: Identification) -> list[str]:
     both = [j for j in joints if all(negative.get(f"{s}{j}", 0.0) < -CERTAIN for s in ("FV", "FC"))]
     return [
         f"Least squares finds negative viscous and Coulomb friction on joint {joint}, each more than "
-        f"{CERTAIN:g} deviations below zero: its torque may be logged with the opposite sign"
+        f"{CERTAIN:g} standard deviations below zero: its torque may have the opposite sign"
         for joint in both
     ]
 
 
 def _unexplained(found: Identification) -> list[str]:
     return [
-        f"The model leaves {score.nrmse_of_rms_percent:.3g} % of joint {score.joint}'s rms torque unexplained"
+        f"The model leaves {score.nrmse_of_rms_percent:.3g} % of joint {score.joint}'s RMS torque unexplained"
         for score in found.fit
         if score.nrmse_of_rms_percent > POOR_PREDICTION_PERCENT
     ]
 
 
-def _unseen(found: Identification) -> list[str]:
-    seen, unseen = found.fit_total_percent, found.validation_total_percent
-    if not found.validation or unseen <= UNSEEN_OVER_SEEN * seen:
+def _held_out(found: Identification) -> list[str]:
+    fitted, held_out = found.fit_total_percent, found.validation_total_percent
+    if not found.validation or held_out <= HELD_OUT_OVER_FITTED * fitted:
         return []
-    spiked = _spiked_where_held_out(found)
-    outliers = (
-        f"outliers of the torque, which count in full, lie there (joint {spiked}), or " if spiked else ""
-    )
+    joints = _joints_with_held_out_outliers(found)
+    outliers = f"it has torque outliers (joint {joints}), or " if joints else ""
     sentence = (
-        f"The error on held-out data ({unseen:.3g} %) is {unseen / seen:.3g} times that on fitted data "
-        f"({seen:.3g} %): {outliers}the held-out motion may visit what the fitted motion does not excite"
+        f"The error on held-out data ({held_out:.3g} %) is {held_out / fitted:.3g} times the error on fitted "
+        f"data ({fitted:.3g} %): {outliers}the held-out motion may excite what the fitted motion does not"
     )
     return [sentence]
 
 
-def _spiked_where_held_out(found: Identification) -> str:
-    """Name the joints whose torque has outliers in blocks that were held out."""
+def _joints_with_held_out_outliers(found: Identification) -> str:
+    """Name the joints whose torque has outliers in held-out blocks."""
     joints = {
         defect.joint
         for block in found.observation.blocks
@@ -108,18 +106,18 @@ def _spiked_where_held_out(found: Identification) -> str:
     return ", ".join(str(joint) for joint in sorted(joints))
 
 
-def _left_open(found: Identification) -> list[str]:
-    is_open = ~np.isfinite(found.precision.standard_deviation)
-    silent = np.diag(found.precision.information) == 0.0
+def _not_excited(found: Identification) -> list[str]:
+    unknown = ~np.isfinite(found.precision.standard_deviation)
+    unexcited = np.diag(found.precision.information) == 0.0
     sentences = []
-    if silent.any():
+    if unexcited.any():
         sentences.append(
-            f"The motion does not excite {_names(found, silent)}: their values come from the prior alone"
+            f"The motion does not excite {_names(found, unexcited)}: their values are those of the prior"
         )
-    if (is_open & ~silent).any():
+    if (unknown & ~unexcited).any():
         sentences.append(
-            f"The motion cannot tell {_names(found, is_open & ~silent)} apart from each other: "
-            "only combinations of them are known, the prior chooses among these"
+            f"The motion does not separate {_names(found, unknown & ~unexcited)}: "
+            "only combinations of them are determined, the prior selects among these"
         )
     return sentences
 

@@ -112,7 +112,7 @@ def print_problem(console: Console, error: VeritorqueError) -> None:
     for name, value in error.evidence.items():
         console.print(f"  {escape(name)}: {escape(str(value))}")
     if error.remedy:
-        console.print(f"what to do: {escape(error.remedy)}")
+        console.print(f"remedy: {escape(error.remedy)}")
 
 
 def parse(words: list[str] | None) -> argparse.Namespace:

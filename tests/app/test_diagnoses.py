@@ -170,7 +170,14 @@ def test_a_diagnosis_tells_its_stages_in_order_with_a_fraction_that_never_falls(
     _, result = diagnosed(client, measured(rippled, noise=0.1))
     assert [one["cause"] for one in result["diagnosis"]["findings"]] == ["torque_ripple"]
     stages = [stage for stage, _ in client.executor.told]
-    once = ["condition", "search", "weigh rivals", "learn what is left", "lay out", "simulate"]
+    once = [
+        "condition",
+        "search",
+        "compare alternatives",
+        "predict the residual",
+        "prepare figures",
+        "simulate",
+    ]
     assert [stage for stage in dict.fromkeys(stages) if stage in once] == once
     fractions = [fraction for _, fraction in client.executor.told]
     assert fractions == sorted(fractions)

@@ -64,7 +64,7 @@ def test_a_browser_at_an_address_that_is_not_there_is_shown_a_page_that_leads_on
     assert page.status_code == 404
     assert page.headers["content-type"].startswith("text/html")
     assert "default-src 'none'" in page.headers["content-security-policy"]
-    assert "There is nothing at this address" in page.text
+    assert "Page not found" in page.text
     addresses = Addresses(page.text)
     assert addresses.inline == []
     assert "/" in addresses.found

@@ -30,7 +30,7 @@ def test_the_new_study_page_with_all_that_it_can_show_has_no_barriers(look, serv
     page = seen.open(f"/new?robot=yumi-left&log={log}")
     page.locator(".plot").nth(3).wait_for()
     page.get_by_text("Options", exact=True).click()
-    page.get_by_role("radio", name="What does its simulation get wrong?").check()
+    page.get_by_role("radio", name="Diagnosis").check()
     page.locator(".stage3d .joint").first.wait_for()
     seen.photograph("new_" + ("phone" if "width" in look_at else look_at.get("scheme", "options")))
     assert seen.barriers() == []
@@ -41,7 +41,7 @@ def test_the_new_study_page_with_all_that_it_can_show_has_no_barriers(look, serv
 def test_the_table_of_a_known_robot_has_no_barriers(look, service, look_at):
     seen = look(service, **look_at)
     page = seen.open("/new")
-    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("radio", name="DH table").check()
     page.get_by_label("Start from").select_option("yumi-left")
     page.get_by_label("Joint 7: alpha, deg", exact=True).wait_for()
     page.get_by_label("more columns").check()

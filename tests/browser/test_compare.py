@@ -69,12 +69,12 @@ def test_parameters_differ_by_standard_deviations_of_the_difference(look, servic
 def test_what_was_asked_differently_is_marked(look, service, pair):
     page = look(service).open(f"/compare?left={pair[0]}&right={pair[1]}")
     page.locator(".compared").wait_for()
-    marked = page.locator("section[aria-labelledby=what-was-asked] tr.differs th").all_inner_texts()
+    marked = page.locator("section[aria-labelledby=settings] tr.differs th").all_inner_texts()
     assert {"Logs", "Kind"} <= set(marked)
     assert "Robot" not in marked
     only_right = page.locator("section[aria-labelledby=findings] tbody tr").all_inner_texts()
     assert len(only_right) == 2
-    assert all("not looked for" in row and "right only" in row for row in only_right)
+    assert all("not diagnosed" in row and "right only" in row for row in only_right)
 
 
 def test_studies_without_a_common_parameter_are_said_to_have_none_and_why(look, service, pair):
@@ -87,7 +87,7 @@ def test_studies_without_a_common_parameter_are_said_to_have_none_and_why(look, 
 
     page.route(f"**/v1/jobs/{pair[1]}/results", renamed)
     page.goto(f"{service}/compare?left={pair[0]}&right={pair[1]}")
-    page.get_by_text("There is nothing to compare: both studies are of the same robot").wait_for()
+    page.get_by_text("No common parameters: both studies are of the same robot").wait_for()
     assert page.locator("section[aria-labelledby=parameters] table").count() == 0
 
 
@@ -100,7 +100,7 @@ def test_the_torque_of_one_log_is_laid_over_itself_by_both_models(look, service,
 
 def test_another_study_is_chosen_and_the_address_tells_which(look, service, pair, again):
     page = look(service).open(f"/compare?left={pair[0]}&right={pair[0]}")
-    page.get_by_text("Both sides are the same study").wait_for()
+    page.get_by_text("Left and right are the same study").wait_for()
     page.get_by_label("Right study").select_option(again)
     page.locator(".compared").wait_for()
     assert page.url.endswith(f"left={pair[0]}&right={again}")

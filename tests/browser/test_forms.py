@@ -40,14 +40,14 @@ def posted(page, path, act):
 def test_a_table_in_degrees_and_millimetres_is_sent_in_si(look, service):
     seen = look(service)
     page = seen.open("/new")
-    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("radio", name="DH table").check()
     page.get_by_role("radio", name="mm").check()
     page.get_by_label("Name", exact=True).fill("typed arm")
     page.get_by_role("button", name="Remove joint 3").click()
     typed = {
         "Joint 1: alpha, deg": "0", "Joint 1: d, mm": "0",
         "Joint 1: theta, deg": "-180", "Joint 1: r, mm": "166",
-        "Joint 1: lowest q, deg": "-168,5", "Joint 1: highest q, deg": "168.5",
+        "Joint 1: minimum q, deg": "-168,5", "Joint 1: maximum q, deg": "168.5",
         "Joint 2: alpha, deg": "90", "Joint 2: d, mm": "30",
         "Joint 2: theta, deg": "0", "Joint 2: r, mm": "0",
     }  # fmt: skip  # a table
@@ -88,28 +88,28 @@ def test_a_cell_that_is_no_number_is_named_and_one_that_is_refused_is_marked(loo
     seen = look(service)
     seen.statuses.add(422)
     page = seen.open("/new")
-    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("radio", name="DH table").check()
     cell = page.get_by_label("Joint 2: d, m", exact=True)
     cell.fill("wide")
     page.get_by_text("“wide” is no number.").wait_for()
     cell.fill("0.2")
-    page.get_by_label("Joint 3: lowest q, deg", exact=True).fill("10")
-    page.get_by_label("Joint 3: highest q, deg", exact=True).fill("-10")
+    page.get_by_label("Joint 3: minimum q, deg", exact=True).fill("10")
+    page.get_by_label("Joint 3: maximum q, deg", exact=True).fill("-10")
     page.get_by_role("button", name="Use this robot").click()
     page.get_by_role("alert").get_by_text("lower limit at or above the upper one").first.wait_for()
-    assert page.evaluate("document.activeElement.getAttribute('aria-label')").startswith("Joint 3: lowest q")
+    assert page.evaluate("document.activeElement.getAttribute('aria-label')").startswith("Joint 3: minimum q")
 
 
 def test_a_table_that_is_changed_has_to_be_taken_again(look, service):
     page = look(service).open("/new")
-    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("radio", name="DH table").check()
     page.get_by_label("Name", exact=True).fill("edited arm")
     page.get_by_role("button", name="Use this robot").click()
     page.locator(".chosen", has_text="edited arm").wait_for()
-    assert page.get_by_text("choose a robot").count() == 0
+    assert page.get_by_text("Missing: robot").count() == 0
     for written in ("0.7", "1/0"):
         page.get_by_label("Joint 2: d, m", exact=True).fill(written)
-        page.get_by_text("choose a robot").wait_for()
+        page.get_by_text("Missing: robot").wait_for()
         assert page.locator(".chosen").count() == 0
 
 
@@ -130,20 +130,20 @@ def test_columns_that_say_nothing_are_mapped_in_a_form(look, service, odd_log):
     seen.statuses.add(422)
     page = seen.open("/new")
     page.set_input_files("#log input[type=file]", odd_log)
-    page.get_by_role("heading", name="Say which column is what").wait_for()
-    assert page.get_by_label("What clock_ms is").input_value() == ""  # no name of time that is known
-    page.get_by_label("What clock_ms is").select_option("time")
-    assert page.get_by_label("What effort_a is").input_value() == "torque"
+    page.get_by_role("heading", name="Map columns").wait_for()
+    assert page.get_by_label("Channel of clock_ms").input_value() == ""  # no name of time that is known
+    page.get_by_label("Channel of clock_ms").select_option("time")
+    assert page.get_by_label("Channel of effort_a").input_value() == "torque"
     for column, joint in {"pos_b": 2, "pos_a": 1, "effort_b": 2, "effort_a": 1}.items():
         page.get_by_label(f"Joint of {column}").fill(str(joint))
         page.get_by_label(f"Joint of {column}").press("Tab")
-    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("button", name="Apply mapping").click()
     page.get_by_text("Choose the unit of time").wait_for()  # units are never guessed
     for channel, unit in {"time": "ms", "position": "deg", "torque": "mN m"}.items():
         page.get_by_label(f"Unit of {channel}").select_option(unit)
     seen.photograph("new_mapping_light")
     assert seen.barriers() == []
-    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("button", name="Apply mapping").click()
     page.get_by_role("article", name="Log odd.csv").wait_for()
     assert "note" in page.locator(".facts").text_content()
     page.locator(".plot").nth(3).wait_for()
@@ -158,18 +158,18 @@ def test_joints_that_differ_have_a_unit_each(look, service, odd_log):
     seen.statuses.add(422)
     page = seen.open("/new")
     page.set_input_files("#log input[type=file]", odd_log)
-    page.get_by_label("What clock_ms is").select_option("time")
+    page.get_by_label("Channel of clock_ms").select_option("time")
     for channel, unit in {"time": "ms", "position": "each", "torque": "mN m"}.items():
         page.get_by_label(f"Unit of {channel}", exact=True).select_option(unit)
     page.get_by_label("Unit of pos_a").focus()
     page.get_by_label("Unit of pos_a").select_option("counts")
     assert page.evaluate("document.activeElement.getAttribute('aria-label')") == "Unit of pos_a"
-    again = page.get_by_role("button", name="Read the log so")
+    again = page.get_by_role("button", name="Apply mapping")
     again.click()
     page.get_by_text("Choose the unit of pos_b").wait_for()
     page.get_by_label("Unit of pos_b").select_option("deg")
     again.click()
-    page.get_by_text("Say what one count of pos_a is").wait_for()
+    page.get_by_text("Enter the value of one count of pos_a").wait_for()
     page.get_by_label("One count of pos_a, in rad or m").fill("pi/180")
     assert seen.barriers() == []
     again.click()
@@ -192,15 +192,15 @@ def test_currents_are_offered_as_such_with_what_makes_torques_of_them(look, serv
     page = seen.open("/new?robot=yumi-left")
     page.set_input_files("#log input[type=file]", path)
     page.get_by_text("torque constant (N m/A) times gear ratio").wait_for()
-    assert [page.get_by_label(f"What i_{joint} is").input_value() for joint in (1, 2)] == ["current"] * 2
+    assert [page.get_by_label(f"Channel of i_{joint}").input_value() for joint in (1, 2)] == ["current"] * 2
     for channel, unit in {"time": "s", "position": "rad", "current": "A"}.items():
         page.get_by_label(f"Unit of {channel}").select_option(unit)
-    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("button", name="Apply mapping").click()
     page.get_by_role("article", name="Log amperes.csv").wait_for()
-    page.get_by_role("radio", name="Describe it").check()
+    page.get_by_role("radio", name="DH table").check()
     page.get_by_role("button", name="Remove joint 3").click()
     page.get_by_role("button", name="Use this robot").click()
-    page.get_by_text("does not say what torque they give").wait_for()
+    page.get_by_text("has no drive gains").wait_for()
     assert page.get_by_role("button", name="Start").is_disabled()
 
 
@@ -217,9 +217,9 @@ def test_a_value_that_is_missing_is_named_with_column_and_row_before_any_mapping
     alert = page.get_by_role("alert")
     alert.get_by_text("The column 'q_1' holds 1 value missing").wait_for()
     alert.get_by_text("the first in row 8").wait_for()
-    form = page.get_by_role("heading", name="Say which column is what")
+    form = page.get_by_role("heading", name="Map columns")
     assert not form.is_visible()
-    page.get_by_text("Map them otherwise").click()
+    page.get_by_text("Change the column mapping").click()
     form.wait_for()
 
 
@@ -251,8 +251,8 @@ def test_a_log_of_another_number_of_joints_cannot_be_started_with(look, service,
     page.set_input_files("#log input[type=file]", holed_log)
     page.get_by_text("holed.csv has 2 joints, yumi-left has 7.").wait_for()
     assert page.get_by_role("button", name="Start").is_disabled()
-    page.get_by_role("button", name="Take out holed.csv").click()
-    page.get_by_text("Still to do: add a log.").wait_for()
+    page.get_by_role("button", name="Remove holed.csv").click()
+    page.get_by_text("Missing: log.").wait_for()
 
 
 def test_a_log_that_is_mapped_otherwise_takes_the_place_of_what_it_was(look, service, tmp_path):
@@ -261,17 +261,17 @@ def test_a_log_that_is_mapped_otherwise_takes_the_place_of_what_it_was(look, ser
     page = look(service).open("/new")
     page.set_input_files("#log input[type=file]", path)
     logs = page.get_by_role("article", name="Log plain.csv")
-    logs.get_by_role("button", name="Map the columns otherwise").click()
+    logs.get_by_role("button", name="Change column mapping").click()
     for channel, unit in {"time": "s", "position": "deg", "torque": "N m"}.items():
         page.get_by_label(f"Unit of {channel}").select_option(unit)
     page.get_by_label("Joint of tau_2").fill("1")
     page.get_by_label("Joint of tau_2").press("Tab")
-    page.get_by_role("button", name="Read the log so").click()
+    page.get_by_role("button", name="Apply mapping").click()
     page.get_by_text("Number the joints of torque from 1 to 2, each once.").wait_for()
     page.get_by_label("Joint of tau_2").fill("2")
     page.get_by_label("Joint of tau_2").press("Tab")
-    page.get_by_role("button", name="Read the log so").click()
-    page.get_by_role("heading", name="Say which column is what").wait_for(state="detached")
+    page.get_by_role("button", name="Apply mapping").click()
+    page.get_by_role("heading", name="Map columns").wait_for(state="detached")
     assert logs.count() == 1
 
 
@@ -280,14 +280,14 @@ def test_a_mapping_that_is_refused_stays_to_be_corrected(look, service, odd_log)
     seen.statuses.add(422)
     page = seen.open("/new")
     page.set_input_files("#log input[type=file]", odd_log)
-    page.get_by_label("What clock_ms is").select_option("")
+    page.get_by_label("Channel of clock_ms").select_option("")
     for channel, unit in {"position": "deg", "torque": "mN m"}.items():
         page.get_by_label(f"Unit of {channel}").select_option(unit)
-    page.get_by_role("button", name="Read the log so").click()
-    page.get_by_text("Choose the column that is time, or give the rate.").wait_for()
+    page.get_by_role("button", name="Apply mapping").click()
+    page.get_by_text("Choose a time column, or enter the rate.").wait_for()
     page.get_by_label("Rate, Hz").fill("-1")
     with page.expect_response("**/v1/logs?*") as refused:
-        page.get_by_role("button", name="Read the log so").click()
+        page.get_by_role("button", name="Apply mapping").click()
     assert refused.value.status == 422
     page.get_by_role("alert").wait_for()
     assert page.get_by_label("Rate, Hz").input_value() == "-1"

@@ -11,7 +11,7 @@ from tests.browser.test_burden import LARGEST_PAGE
 HIDDEN_LOG = Path(__file__).parents[2] / "examples" / "yumi" / "hidden_log.csv"
 SAMPLES = 3750
 """The first quarter of a minute tells both things that are hidden, and is diagnosed in less time."""
-COMMON = ["torque", "parameters", "residuals", "bodies", "excitation", "motion", "take-home"]
+COMMON = ["torque", "parameters", "residuals", "bodies", "excitation", "motion", "export"]
 LOOKS = {"light": {}, "dark": {"scheme": "dark"}, "phone": {"width": 390, "height": 800}}
 DIAGNOSED = ["findings", "remainder", *COMMON]
 
@@ -94,8 +94,8 @@ def test_the_first_screen_says_what_came_out(look, service, studied):
     told = page.locator(".headline").inner_text()
     assert f"{document['counts']['essential']} of {document['counts']['base']}" in told
     assert f"{document['validation_total_percent']:.3g}" in told
-    assert "held-out motion, RMS of residual over RMS of torque" in told
-    assert "Can exist" in told
+    assert "held-out data, RMS of residual over RMS of torque" in told
+    assert "Physically consistent" in told
     assert "yumi-left: identification" not in told  # the page's own heading says so
     assert " (joint " in told
     of_one_joint = page.evaluate(
@@ -120,7 +120,7 @@ def test_findings_are_told_with_their_figures_as_the_report_tells_them(look, ser
     for place, finding in enumerate(findings):
         told = cards.nth(place).inner_text()
         assert finding["statement"].split(" ")[0] in told
-        assert "confidence that this is the cause" in told
+        assert "confidence in this cause" in told
         assert cards.nth(place).locator("svg").count() == 2
 
 
@@ -210,7 +210,7 @@ def test_the_residual_of_another_joint_is_a_click_away(look, service, studied):
 def test_every_body_is_drawn_and_can_be_turned_by_keys(look, service, studied):
     page = drawn(look(service).open(studied.removeprefix(service)), ["bodies"])
     assert page.get_by_text("configurations of the workspace, in kg m²").count() == 1
-    assert page.get_by_text("its sign is what counts").count() == 1
+    assert page.get_by_text("only its sign matters").count() == 1
     ellipses = page.locator("#bodies ellipse.body")
     assert ellipses.count() == len(document_of(page)["bodies"]) == 7
     before = ellipses.nth(2).get_attribute("transform")
@@ -219,7 +219,7 @@ def test_every_body_is_drawn_and_can_be_turned_by_keys(look, service, studied):
 
 
 def test_every_file_that_is_offered_is_there(look, service, studied):
-    page = drawn(look(service).open(studied.removeprefix(service)), ["take-home"])
-    offered = [link.get_attribute("href") for link in page.locator("#take-home .files a").all()]
+    page = drawn(look(service).open(studied.removeprefix(service)), ["export"])
+    offered = [link.get_attribute("href") for link in page.locator("#export .files a").all()]
     assert len(offered) == len(set(offered)) >= 12
     assert {path: page.request.get(service + path).status for path in offered} == dict.fromkeys(offered, 200)

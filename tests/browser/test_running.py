@@ -62,7 +62,7 @@ def test_a_study_that_fails_says_why_and_what_to_do(held):
     alert = seen.page.get_by_role("alert")
     alert.wait_for()
     assert "The motion is too slow." in alert.text_content()
-    assert "What to do: Move faster." in alert.text_content()
+    assert "Remedy: Move faster." in alert.text_content()
     seen.photograph("study_failed_light")
     assert seen.barriers() == []
 
@@ -90,7 +90,7 @@ def test_whoever_has_no_key_is_asked_for_one_and_goes_on(look, staged, key):
     seen = look(staged[1])
     seen.statuses.add(401)
     page = seen.open("/")
-    dialog = page.get_by_role("dialog", name="This service asks for a key")
+    dialog = page.get_by_role("dialog", name="This service requires an API key")
     dialog.wait_for()
     seen.photograph("key_light")
     assert seen.barriers() == []
@@ -113,7 +113,7 @@ def test_result_report_and_comparison_are_there_for_whoever_has_a_key(held):
     with page.expect_download() as saving:
         page.get_by_role("link", name="Open the report").click()
     assert saving.value.suggested_filename == "report.html"
-    assert "is identified as a robot that can exist" in saving.value.path().read_text(encoding="utf-8")
+    assert "physically consistent" in saving.value.path().read_text(encoding="utf-8")
     again = """async (id) => {
       const { get, post } = await import("/static/api.js");
       const { kind, robot, logs } = await get(`/v1/jobs/${id}`);
@@ -136,14 +136,14 @@ def test_a_wrong_key_is_asked_for_again_and_none_is_a_problem(look, staged):
     dialog.get_by_role("button", name="Use this key").click()
     dialog.get_by_text("not known, or was revoked").wait_for()
     dialog.get_by_role("button", name="Cancel").click()
-    page.get_by_role("alert").get_by_text("The request carries no key that is known").wait_for()
+    page.get_by_role("alert").get_by_text("Authentication failed").wait_for()
 
 
 def test_a_study_that_does_not_exist_is_said_so(look, service):
     seen = look(service)
     seen.statuses.add(404)
     page = seen.open("/studies/job-none")
-    page.get_by_role("alert").get_by_text("There is no such resource").wait_for()
+    page.get_by_role("alert").get_by_text("Resource not found").wait_for()
 
 
 class Keyboard:

@@ -33,9 +33,7 @@ def test_from_the_start_page_to_the_report_of_a_log_of_ones_own(look, service, s
     finger.choose("Robot", "yumi-left")
     finger.give("#log input[type=file]", LOG)
     page.locator(".plot").nth(13).wait_for()
-    page.get_by_text("No defects were found").or_(
-        page.get_by_text("found, marked where they have a place")
-    ).wait_for()
+    page.get_by_text("No defects found").or_(page.get_by_text("found, marked in the plots")).wait_for()
     seen.photograph("new_light")
     finger.click("button", "Start")
     page.locator(".state.successful").wait_for()
@@ -77,6 +75,6 @@ def test_the_start_page_fits_every_window(look, service, studied, name, look_at)
 
 def test_the_theme_can_be_chosen_and_is_kept(look, service):
     page = look(service, scheme="light").open("/")
-    page.get_by_role("button", name="Show the page dark").click()
+    page.get_by_role("button", name="Switch to the dark theme").click()
     page.reload()
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"

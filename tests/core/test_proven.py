@@ -57,8 +57,8 @@ def test_proving_is_told_of_between_the_search_and_the_cure(monkeypatch):
     told = []
     studied(monkeypatch, HIDDEN, lambda stage, done: told.append((stage, done)))
     stages = [stage for stage, _ in told]
-    assert "prove" in stages
-    assert stages[stages.index("prove") :].count("simulate") == 1
+    assert "verify" in stages
+    assert stages[stages.index("verify") :].count("simulate") == 1
     assert [done for _, done in told] == sorted(done for _, done in told)
 
 

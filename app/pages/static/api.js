@@ -74,7 +74,7 @@ export function follow(link) {
 export function problemFrom(error) {
   if (error instanceof ProblemError) return error.problem;
   return {
-    title: "The page made a mistake",
+    title: "Internal error of the page",
     cause: String(error?.message ?? error),
     evidence: {},
     remedy: "reload the page",
@@ -102,7 +102,7 @@ function sent(path, file, mediaType, told, signal) {
       resolve({ status: exchange.status, document: exchange.response ?? silence() }),
     );
     exchange.addEventListener("error", () => reject(new ProblemError(silence())));
-    exchange.addEventListener("abort", () => reject(new DOMException("given up", "AbortError")));
+    exchange.addEventListener("abort", () => reject(new DOMException("aborted", "AbortError")));
     signal?.addEventListener("abort", () => exchange.abort());
     exchange.send(file);
   });
@@ -113,8 +113,8 @@ async function problemOf(response) {
     return await response.json();
   } catch {
     return {
-      title: "The answer cannot be read",
-      cause: `the service answered ${response.status} without a word`,
+      title: "The response cannot be read",
+      cause: `the service answered with status ${response.status} and no problem document`,
       evidence: {},
       remedy: "try again",
     };
@@ -126,6 +126,6 @@ function silence() {
     title: "The service does not answer",
     cause: "the connection failed or was closed",
     evidence: {},
-    remedy: "see whether the service still runs, then try again",
+    remedy: "check that the service is running, then try again",
   };
 }

@@ -1,4 +1,4 @@
-// Whether such a robot can exist: its bodies drawn on the chain, the eigenvalues that say so, and the bounds they touch.
+// Physical consistency: bodies drawn on the chain, eigenvalues of the pseudo-inertias, and active constraints.
 import { drawChain } from "./chain.js";
 import { element, fill } from "./dom.js";
 import { wide } from "./wide.js";
@@ -15,7 +15,7 @@ export function showBodies(container, { document }) {
   }));
   const figure = element("div", {});
   fill(container, element("div", { class: "split" },
-    element("div", {}, figure, element("p", { class: "hint" }, "Each ellipsoid is the solid body of even density with the link's identified mass, mass centre and inertia: one feasible representative, nearest to the belief. It is no picture of the link's shape.")),
+    element("div", {}, figure, element("p", { class: "hint" }, "Each ellipsoid is the solid of uniform density with the link's identified mass, centre of mass and inertia. It is one feasible representative, the one closest to the prior. It does not show the shape of the link.")),
     element("div", {}, element("ul", { class: "facts" }, facts(feasibility, solver, robot)), eigenvalues(feasibility, bodies))));
   if (bodies.length) drawChain(figure, robot, { bodies: drawn });
   else fill(figure, element("p", { class: "soft" }, "The model has no bodies to draw."));
@@ -24,30 +24,30 @@ export function showBodies(container, { document }) {
 function facts(feasibility, solver, robot) {
   const mass = feasibility.mass_matrix_min_eigenvalue ?? {};
   const active = feasibility.active_constraints ?? [];
-  const price = solver.objective_ols > 0 ? solver.objective / solver.objective_ols - 1 : null;
+  const cost = solver.objective_ols > 0 ? solver.objective / solver.objective_ols - 1 : null;
   return [
-    element("li", {}, element("strong", {}, feasibility.feasible ? "The identified robot can exist. " : "The identified robot cannot exist. "),
-      `Plain least squares gives one that ${feasibility.ols_feasible ? "can as well" : "cannot"}.`),
-    price === null ? null : element("li", {}, `The price of existence: a squared error ${relative(100 * price)} above the least-squares optimum.`),
+    element("li", {}, element("strong", {}, feasibility.feasible ? "The identified parameters are physically consistent. " : "The identified parameters are physically inconsistent. "),
+      `Those of ordinary least squares are ${feasibility.ols_feasible ? "consistent as well" : "inconsistent"}.`),
+    cost === null ? null : element("li", {}, `Cost of the consistency constraint: squared error ${relative(100 * cost)} above the least-squares optimum.`),
     mass.workspace === undefined ? null : element("li", {}, `Mass matrix: smallest eigenvalue ${number(mass.trajectory, 3)} along the motion, ${number(mass.workspace, 3)} in ${plural("configuration", mass.configurations)} of the workspace, ${unitOfMassMatrix(robot)}.`),
-    active.length ? touched(active) : element("li", {}, "No constraint is touched: every body lies well within what can exist."),
+    active.length ? activeConstraints(active) : element("li", {}, "No constraint is active: every body lies in the interior of the feasible set."),
     element("li", {}, `Solver: ${solver.status}, ${plural("iteration", solver.iterations)}.`),
   ];
 }
 
 // An eigenvalue of the mass matrix has a unit of its own where all joints are of one kind.
 function unitOfMassMatrix({ joints }) {
-  const sliding = joints.filter((joint) => joint.type === "prismatic").length;
-  if (!sliding) return "in kg m²";
-  return sliding === joints.length ? "in kg" : "in SI units, of entries in kg m², kg m and kg";
+  const prismatic = joints.filter((joint) => joint.type === "prismatic").length;
+  if (!prismatic) return "in kg m²";
+  return prismatic === joints.length ? "in kg" : "in SI units, with entries in kg m², kg m and kg";
 }
 
-// Which bodies lie at the edge of what can exist, and which parameters at their lower bound, by the names of the result.
-function touched(active) {
+// List bodies on the boundary of the feasible set and parameters at their lower bound.
+function activeConstraints(active) {
   const links = active.filter((name) => name.startsWith("pseudo_inertia_")).map((name) => name.split("_").pop());
   const others = active.filter((name) => !name.startsWith("pseudo_inertia_"));
   return [
-    links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} at the edge of what can exist, as thin as the margin allows.`) : null,
+    links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} on the boundary of the feasible set (active semidefinite constraint).`) : null,
     others.length ? element("li", {}, `At the lower bound: ${listed(others)}.`) : null,
   ];
 }
@@ -60,7 +60,7 @@ function eigenvalues(feasibility, bodies) {
   const smallest = feasibility.pseudo_inertia_min_eigenvalue ?? [];
   if (!smallest.length) return null;
   return wide(element("table", {},
-    element("caption", {}, "A body can exist where no eigenvalue of its pseudo-inertia is negative. Its entries are in kg m², kg m and kg, so that an eigenvalue has no unit of its own: its sign is what counts."),
+    element("caption", {}, "A body is physically consistent if its pseudo-inertia matrix has no negative eigenvalue. The entries are in kg m², kg m and kg, so an eigenvalue has no unit of its own; only its sign matters."),
     element("thead", {}, element("tr", {}, ["Link", "Mass, kg", "Half axes, mm", "Smallest eigenvalue, SI"].map((name) => element("th", { scope: "col" }, name)))),
     element("tbody", {}, smallest.map((value, index) => {
       const body = bodies[index];

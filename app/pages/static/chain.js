@@ -40,7 +40,7 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
       class: "stage3d",
       tabindex: "0",
       role: "group",
-      "aria-label": "Figure of the robot. The arrow keys turn it, plus and minus zoom.",
+      "aria-label": "Figure of the robot. The arrow keys rotate it, plus and minus zoom.",
     },
     drawing,
   );
@@ -51,7 +51,7 @@ export function drawChain(container, description, { sliders = true, bodies = [] 
       "div",
       { class: "chain" },
       stage,
-      element("p", { class: "hint" }, "Drag to turn it, or focus it and use the arrow keys."),
+      element("p", { class: "hint" }, "Drag to rotate, or focus the figure and use the arrow keys."),
       panel,
     ),
   );
@@ -249,6 +249,6 @@ function ends(robot, places) {
 
 function described(robot, places) {
   const tip = places.at(-1).origin.map(length);
-  const sliding = robot.joints.filter((joint) => joint.type === "prismatic").length;
-  return `${robot.name || "Robot"} with ${plural("joint", robot.joints.length)}${sliding ? `, ${sliding} of them sliding` : ""}; in this pose the last frame lies at ${tip.join(", ")} m from the base.`;
+  const prismatic = robot.joints.filter((joint) => joint.type === "prismatic").length;
+  return `${robot.name || "Robot"} with ${plural("joint", robot.joints.length)}${prismatic ? `, ${prismatic} of them prismatic` : ""}; in this pose the last frame is at ${tip.join(", ")} m from the base.`;
 }

@@ -1,4 +1,4 @@
-// Look at a log: a small plot of every channel and joint, with its defects marked, under one cursor.
+// Plot every channel and joint of a log, with defects marked and one shared cursor.
 import { get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
@@ -15,14 +15,14 @@ const WHOLE = 0.95;
  * Show the channels of a log.
  * @param {HTMLElement} container
  * @param {Object} log its summary
- * @returns {{use: function(Object): void, destroy: function(): void}} to be told the robot, which knows the kind of each joint
+ * @returns {{use: function(Object): void, destroy: function(): void}} to be told the robot, which gives the types of the joints
  */
 export function showChannels(container, log) {
   let traces = null;
   let robot = null;
   let plots = [];
   let finer = () => {};
-  fill(container, element("p", { class: "waiting", role: "status" }, "Drawing every channel …"));
+  fill(container, element("p", { class: "waiting", role: "status" }, "Drawing the channels …"));
   load();
   return {
     use(known) {
@@ -64,14 +64,14 @@ export function showChannels(container, log) {
         for (const { plot, place } of plots) plot.replace(time, [{ values: found.traces[place].values }]);
       },
     );
-    const thinned =
-      traces.rows_per_stretch > 1 ? `Each point pair holds the extremes of ${traces.rows_per_stretch} samples.` : "";
+    const decimation =
+      traces.rows_per_stretch > 1 ? `Min/max decimation over ${traces.rows_per_stretch} samples.` : "";
     fill(
       container,
       element(
         "p",
         { class: "hint" },
-        `Does every plot look like the motion you know? Drag over a plot to zoom, press Escape on it to see all. ${thinned}`,
+        `Check that every plot shows the expected motion. Drag over a plot to zoom; Escape shows the whole range. ${decimation}`,
       ),
       log.channels.map((channel) => group(channel, { x, extent, start })),
     );

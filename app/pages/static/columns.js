@@ -1,4 +1,4 @@
-// The columns of a log: which a file has, what their names make them likely to be, and the units they may have.
+// The columns of a log file: their names, likely channels, and possible units.
 
 const TABLE = JSON.parse(document.querySelector("meta[name=channels]").content);
 export const CHANNELS = Object.keys(TABLE.channels);

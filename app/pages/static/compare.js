@@ -1,4 +1,4 @@
-// Two studies side by side: what was asked, what came out, and by how many standard deviations they differ.
+// Compare two studies side by side: settings, results, and differences in standard deviations.
 import { get } from "./api.js";
 import { showDifferences } from "./differences.js";
 import { element, fill } from "./dom.js";
@@ -18,7 +18,7 @@ try {
 async function start() {
   const [jobs, names] = await Promise.all([successful(), namesOf()]);
   if (jobs.length < 2) {
-    fill(container, element("p", { class: "notice" }, jobs.length ? "There is one finished study; a second one is needed to compare it with." : "There are no finished studies yet."),
+    fill(container, element("p", { class: "notice" }, jobs.length ? "There is only one finished study; a comparison needs two." : "There are no finished studies yet."),
       element("div", { class: "actions" }, element("a", { class: "button primary", href: "/new" }, "New study")));
     return;
   }
@@ -41,10 +41,10 @@ async function start() {
     SIDES.forEach((side, index) => { selects[index].value = chosen[side]; });
     history.replaceState(null, "", `/compare?${new URLSearchParams(chosen)}`);
     if (chosen.left === chosen.right) {
-      fill(result, element("p", { class: "notice" }, "Both sides are the same study: choose another one on either side."));
+      fill(result, element("p", { class: "notice" }, "Left and right are the same study: choose another one."));
       return;
     }
-    fill(result, element("p", { class: "waiting", role: "status" }, "Reading both results …"));
+    fill(result, element("p", { class: "waiting", role: "status" }, "Loading both results …"));
     const mine = { ...chosen };
     try {
       const studies = await Promise.all(SIDES.map((side) => study(jobs.find((job) => job.id === mine[side]))));
@@ -62,7 +62,7 @@ async function start() {
     return jobs.some((job) => job.id === id) ? id : null;
   }
 
-  // What is most worth comparing with a study: the newest other one of its robot.
+  // Choose the default second study: the newest other one of the same robot.
   function alike(job) {
     const others = jobs.filter((one) => one.id !== job.id);
     return others.find((one) => one.robot === job.robot && one.kind === job.kind) ?? others.find((one) => one.robot === job.robot) ?? others[0];

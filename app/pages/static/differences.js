@@ -14,7 +14,7 @@ export function showDifferences(container, studies) {
   const rows = parameters(studies);
   fill(container,
     summary(studies, rows),
-    part("What was asked", setting(studies)),
+    part("Settings", setting(studies)),
     part("Error of the predicted torque", errors(studies)),
     studies.some((one) => one.document.diagnosis) ? part("Findings", findings(studies)) : null,
     part("Parameters", table(studies, rows)),
@@ -30,17 +30,17 @@ function summary(studies, rows) {
   const real = rows.filter((row) => Math.abs(row.z) > REAL);
   const totals = studies.map((one) => one.document.validation_total_percent ?? one.document.fit_total_percent);
   const worst = real[0];
-  return element("section", { class: "card headline compared", "aria-label": "What differs" },
+  return element("section", { class: "card headline compared", "aria-label": "Differences" },
     element("p", { class: "verdict" }, rows.length
       ? `${real.length ? plural("parameter", real.length) : "No parameter"} of ${rows.length} ${real.length < 2 ? "differs" : "differ"} by more than ${REAL} standard deviations${worst ? `, ${worst.name} the most` : ""}.`
       : "The two models have no parameter in common."),
     element("p", {}, `The torque error on ${held(studies)} is ${relative(totals[0])} on the left and ${relative(totals[1])} on the right.`),
-    studies.some((one) => one.document.diagnosis) ? element("p", { class: "hint" }, "Of a diagnosis, errors and parameters are those of the model as it was before the cure.") : null,
-    sharedLogs(studies).length ? element("p", { class: "hint" }, "Both studies used the same log: their errors are not independent, so that standard deviations overstate how much the two may differ by chance.") : null);
+    studies.some((one) => one.document.diagnosis) ? element("p", { class: "hint" }, "For a diagnosis, errors and parameters are those of the model before the correction.") : null,
+    sharedLogs(studies).length ? element("p", { class: "hint" }, "Both studies used the same log. Their errors are not independent, so the standard deviation of the difference is overestimated.") : null);
 }
 
 function held(studies) {
-  return studies.every((one) => one.document.validation.length) ? "held-out motion" : "the motion";
+  return studies.every((one) => one.document.validation.length) ? "held-out data" : "the fitted data";
 }
 
 // The parameters that both have, by how sure it is that they differ. z: the difference over the root of both variances.
@@ -62,22 +62,22 @@ function setting(studies) {
     ["Logs", ...studies.map(logs)],
     ["Kind", ...studies.map((one) => one.document.kind)],
     ["Options", ...studies.map((one) => options(one.document.provenance.options))],
-    ["Fitted up to", ...studies.map(bands)],
+    ["Filter cut-off", ...studies.map(bands)],
     ["Base parameters", ...studies.map((one) => `${one.document.counts.base}, ${one.document.counts.essential ?? "–"} essential`)],
-    ["Can exist", ...studies.map((one) => (one.document.feasibility.feasible ? "yes" : "no"))],
+    ["Physically consistent", ...studies.map((one) => (one.document.feasibility.feasible ? "yes" : "no"))],
     ["Condition number", ...studies.map((one) => number(one.document.condition_number, 3))],
     ["Version", ...studies.map((one) => one.document.provenance.version)],
   ];
   return wide(element("table", { class: "sides" }, heads("", []),
     element("tbody", {}, rows.map(([name, left, right]) => element("tr", { class: left === right ? null : "differs" },
       element("th", { scope: "row" }, name), element("td", {}, left), element("td", {}, right),
-      element("td", { class: "soft" }, left === right ? "same" : "differs"))))), "What was asked");
+      element("td", { class: "soft" }, left === right ? "same" : "differs"))))), "Settings");
 }
 
 function heads(first, others) {
   return element("thead", {}, element("tr", {},
     [first, side("Left", 1), side("Right", 2), ...others].map((name) => element("th", { scope: "col" }, name)),
-    others.length ? null : element("th", { scope: "col" }, element("span", { class: "unseen" }, "Same or not"))));
+    others.length ? null : element("th", { scope: "col" }, element("span", { class: "unseen" }, "Comparison"))));
 }
 
 function side(name, colour) {
@@ -93,7 +93,7 @@ function errors(studies) {
   const scores = studies.map((one) => (one.document.validation.length ? one.document.validation : one.document.fit));
   const most = Math.max(...scores.flat().map((row) => row.nrmse_of_rms_percent ?? 0), 1e-9);
   const joints = Math.max(...scores.map((rows) => rows.length));
-  return [element("p", { class: "hint" }, `RMS of the residual over RMS of the torque, per joint, on ${held(studies)}. Each study has its own band and its own held-out stretches.`),
+  return [element("p", { class: "hint" }, `RMS of the residual over RMS of the torque, per joint, on ${held(studies)}. Each study has its own filter cut-off and its own held-out blocks.`),
     wide(element("table", {}, heads("Joint", ["Difference"]),
       element("tbody", {}, Array.from({ length: joints }, (_, index) => {
         const [left, right] = scores.map((rows) => rows[index]?.nrmse_of_rms_percent ?? null);
@@ -112,22 +112,22 @@ function amount(value, most, colour) {
 function findings(studies) {
   const keyed = studies.map((one) => new Map((one.document.diagnosis?.findings ?? []).map((found) => [`${found.cause} ${found.joints}`, found])));
   const keys = [...new Set(keyed.flatMap((found) => [...found.keys()]))];
-  if (!keys.length) return element("p", {}, "Neither study found anything.");
-  return wide(element("table", { class: "sides" }, heads("Finding", ["Which"]),
+  if (!keys.length) return element("p", {}, "Neither study has findings.");
+  return wide(element("table", { class: "sides" }, heads("Finding", ["Found in"]),
     element("tbody", {}, keys.map((key) => {
       const [left, right] = keyed.map((found) => found.get(key));
       const one = left ?? right;
       return element("tr", {}, element("th", { scope: "row" }, `${one.title}, joint ${one.joints.join(", ")}`),
-        [left, right].map((found, place) => element("td", {}, found ? `${found.statement}.` : studies[place].document.diagnosis ? "not found" : "not looked for")),
+        [left, right].map((found, place) => element("td", {}, found ? `${found.statement}.` : studies[place].document.diagnosis ? "not found" : "not diagnosed")),
         element("td", {}, left && right ? "both" : left ? "left only" : "right only"));
     }))), "Findings");
 }
 
 function table(studies, rows) {
   const only = studies.map((one, place) => one.document.base_parameters.filter((row) => !studies[1 - place].document.base_parameters.some((other) => other.name === row.name && other.unit === row.unit)).map((row) => row.name));
-  if (!rows.length) return element("p", { class: "soft" }, `There is nothing to compare: ${apart(studies)}.`);
-  return [element("p", { class: "hint" }, `z is the difference, right minus left, in standard deviations of the difference. More than ${REAL} is hardly chance.`),
-    wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z drawn")]),
+  if (!rows.length) return element("p", { class: "soft" }, `No common parameters: ${reasonApart(studies)}.`);
+  return [element("p", { class: "hint" }, `z is the difference, right minus left, divided by its standard deviation. |z| > ${REAL} is significant.`),
+    wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z, drawn")]),
       element("tbody", {}, rows.map((row) => element("tr", {},
         element("th", { scope: "row" }, row.name, " ", element("span", { class: "unit" }, row.unit === "1" ? "" : row.unit)),
         [row.left, row.right].map((one) => element("td", {}, `${number(one.value)} ± ${number(one.standard_deviation, 2)}`)),
@@ -138,12 +138,12 @@ function table(studies, rows) {
 }
 
 // Why two models have no parameter of one name and unit in common.
-function apart(studies) {
+function reasonApart(studies) {
   const [left, right] = studies.map((one) => one.document.robot);
   const same = JSON.stringify(left.joints ?? left.links) === JSON.stringify(right.joints ?? right.links);
   return same
-    ? "both studies are of the same robot, but model it with other terms, so that no parameter of one has the name and unit of one of the other"
-    : `the studies are of different robots, ${left.name} and ${right.name}, whose parameters are grouped otherwise or have other units`;
+    ? "both studies are of the same robot, but their models have different terms, so no parameter has the same name and unit in both"
+    : `the studies are of different robots, ${left.name} and ${right.name}, with different parameter groupings or units`;
 }
 
 function lollipop(z) {
@@ -163,8 +163,8 @@ function sharedLogs(studies) {
 
 function overlay(studies) {
   const [shared] = sharedLogs(studies);
-  if (!shared) return element("p", { class: "soft" }, "The studies used different logs, so that there is no torque to lay over each other.");
-  if (!studies.every((one) => one.job.links.traces)) return element("p", { class: "soft" }, "Of one of the studies only the result was kept, so that there is no torque to lay over each other.");
+  if (!shared) return element("p", { class: "soft" }, "The studies used different logs, so their torques cannot be overlaid.");
+  if (!studies.every((one) => one.job.links.traces)) return element("p", { class: "soft" }, "One of the studies has no stored traces, so the torques cannot be overlaid.");
   const grid = element("div", { class: "tiles" });
   const near = new IntersectionObserver((entries) => {
     if (!entries.some((entry) => entry.isIntersecting)) return;
@@ -172,7 +172,7 @@ function overlay(studies) {
     overlaid(grid, studies, shared).catch((error) => showError(grid, error));
   }, { rootMargin: "400px" });
   near.observe(grid);
-  return [element("p", { class: "hint" }, `Both from ${studies[0].document.logs[shared[0] - 1].name}. Filtered torque is the left study's.`), grid];
+  return [element("p", { class: "hint" }, `Log: ${studies[0].document.logs[shared[0] - 1].name}. The filtered torque is that of the left study.`), grid];
 }
 
 async function overlaid(grid, studies, logs) {

@@ -1,19 +1,19 @@
-// What a diagnosis found, as the report tells it: the same sentences, figures and tables, taken over from there.
+// Show the findings of a diagnosis: sentences, figures and tables copied from the report.
 import { element, fill } from "./dom.js";
 import { copied } from "./headline.js";
 import { scrolling } from "./wide.js";
 
-/** Show the findings, each with its size, its figure before and after, its gain and its rivals; then joint by joint. */
+/** Show the findings, each with its size, figure, improvement and alternatives; then the errors per joint. */
 export function showFindings(container, { report }) {
   const cards = [...report.querySelectorAll("article.finding")].map(copied);
-  const none = element("p", {}, "Nothing was found that this log can show.");
-  fill(container, element("div", { class: "told" }, cards.length ? cards : none, taken(report, "Joint by joint", "h3")));
+  const none = element("p", {}, "No cause was found in this log.");
+  fill(container, element("div", { class: "told" }, cards.length ? cards : none, taken(report, "Errors per joint", "h3")));
   reachable(container);
 }
 
-/** Show what stays unexplained, and what this motion could not have shown. */
+/** Show the unexplained residual and the causes that are not identifiable from this motion. */
 export function showRemainder(container, { report }) {
-  fill(container, element("div", { class: "told" }, taken(report, "What stays unexplained", null), taken(report, "could not", "h3")));
+  fill(container, element("div", { class: "told" }, taken(report, "Unexplained residual", null), taken(report, "Not identifiable", "h3")));
   reachable(container);
 }
 

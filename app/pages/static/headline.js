@@ -1,4 +1,4 @@
-// Say in words what came out, with the few numbers that everybody asks for.
+// Show the headline of a result and its key figures.
 import { follow } from "./api.js";
 import { element, fill } from "./dom.js";
 import { plural, relative } from "./words.js";
@@ -7,12 +7,12 @@ import { plural, relative } from "./words.js";
 export function showHeadline(container, { job, document, report }) {
   const verdict = report.querySelector(".verdict")?.textContent.replaceAll(" %", "\u00a0%") ?? "";
   const glance = [...report.querySelectorAll("main > header > ol, main > header > p:not(.verdict):not(.kind)")].map(copied);
-  fill(container, element("section", { class: "card headline", "aria-label": "What came out" },
+  fill(container, element("section", { class: "card headline", "aria-label": "Summary" },
     element("p", { class: "verdict" }, verdict),
     glance,
     element("div", { class: "figures" }, figures(document)),
     element("p", {}, follow(element("a", { class: "button", href: job.links.report, download: null }, "Open the report"))),
-    doubts(document)));
+    warnings(document)));
 }
 
 function figures(document) {
@@ -23,20 +23,20 @@ function figures(document) {
   const [best, worst] = [ranked[0], ranked.at(-1)];
   const errors = document.validation.length ? document.validation : document.fit;
   const byError = [...errors].sort((a, b) => a.nrmse_of_rms_percent - b.nrmse_of_rms_percent);
-  const cured = document.diagnosis?.after?.validation_total_percent ?? null;
+  const corrected = document.diagnosis?.after?.validation_total_percent ?? null;
   return [
-    figure(cured === null ? relative(held ?? document.fit_total_percent) : `${relative(held)} → ${relative(cured)}`,
-      `torque error on ${held === null || held === undefined ? "the fitted motion" : "held-out motion"}, RMS of residual over RMS of torque${cured === null ? "" : ", before and after the cure"}${reach(byError, cured === null ? "" : "before: ")}`),
+    figure(corrected === null ? relative(held ?? document.fit_total_percent) : `${relative(held)} → ${relative(corrected)}`,
+      `torque error on ${held === null || held === undefined ? "the fitted data" : "held-out data"}, RMS of residual over RMS of torque${corrected === null ? "" : ", before and after the correction"}${range(byError, corrected === null ? "" : "before: ")}`),
     figure(counts.essential === null ? counts.base : `${counts.essential} of ${counts.base}`,
-      `base parameters are essential, grouped from ${plural("standard parameter", counts.standard)}`),
-    best ? figure(relative(best.relative_deviation_percent), `%P of the best known essential parameter, ${best.name}; the least known, ${worst.name}, has ${relative(worst.relative_deviation_percent)}`) : null,
-    figure(feasibility.feasible ? "Can exist" : "Cannot exist",
-      `the identified robot; plain least squares gives one that ${feasibility.ols_feasible ? "can" : "cannot"}`, feasibility.feasible ? "good" : "bad"),
+      `base parameters are essential; they group ${plural("standard parameter", counts.standard)}`),
+    best ? figure(relative(best.relative_deviation_percent), `%P of ${best.name}, the best determined essential parameter; the worst, ${worst.name}, has ${relative(worst.relative_deviation_percent)}`) : null,
+    figure(feasibility.feasible ? "Physically consistent" : "Physically inconsistent",
+      `the identified parameters; those of ordinary least squares are ${feasibility.ols_feasible ? "consistent as well" : "inconsistent"}`, feasibility.feasible ? "good" : "bad"),
   ];
 }
 
-// From the joint that is predicted best to the worst; of one joint the total tells it all.
-function reach(byError, when) {
+// Give the range from the best to the worst predicted joint; empty for one joint.
+function range(byError, when) {
   if (byError.length < 2) return "";
   const [best, worst] = [byError[0], byError.at(-1)].map((row) => `${relative(row.nrmse_of_rms_percent)} (joint ${row.joint})`);
   return `; ${when}from ${best} to ${worst}`;
@@ -46,9 +46,9 @@ function figure(big, small, kind = null) {
   return element("div", {}, element("strong", { class: kind }, big), element("span", {}, small));
 }
 
-function doubts(document) {
+function warnings(document) {
   if (!document.doubts?.length) return null;
-  return element("div", { class: "notice" }, element("strong", {}, "What deserves a second look"),
+  return element("div", { class: "notice" }, element("strong", {}, "Warnings"),
     element("ul", {}, document.doubts.map((one) => element("li", {}, `${one}.`))));
 }
 

@@ -43,11 +43,11 @@ function dialog(problem) {
     element(
       "form",
       { method: "dialog" },
-      element("h2", { id: "key-title" }, "This service asks for a key"),
+      element("h2", { id: "key-title" }, "This service requires an API key"),
       element(
         "p",
         {},
-        `${capital(problem.cause)}. The operator makes one with `,
+        `${capital(problem.cause)}. The operator creates one with `,
         element("code", {}, "veritorque keys create"),
         ". It is kept until this tab is closed.",
       ),

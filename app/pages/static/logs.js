@@ -1,4 +1,4 @@
-// Choose logs: upload files or take what was uploaded before, and look at each: rate, columns, defects, every channel.
+// Choose logs: upload files or take uploaded ones, and show rate, columns, defects and channels of each.
 import { get, upload } from "./api.js";
 import { showChannels } from "./channels.js";
 import { columnsOf } from "./columns.js";
@@ -29,7 +29,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     element(
       "div",
       { class: "split even" },
-      dropZone("Drop a log here", "or choose the file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) =>
+      dropZone("Drop a log here", "or choose a file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) =>
         take(file, null),
       ),
       earlier,
@@ -58,7 +58,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
         if (id) read(id);
         list.value = "";
       });
-      fill(earlier, field("Or one that is here already", list));
+      fill(earlier, field("Or choose an uploaded log", list));
     } catch (error) {
       showError(said, error);
     }
@@ -101,7 +101,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
   function mappingPlace({ evidence }) {
     const ofColumns = evidence?.columns && Object.values(evidence.columns).every((one) => typeof one !== "object");
     if (ofColumns) return said;
-    const aside = element("details", {}, element("summary", {}, "Are these the wrong columns? Map them otherwise."));
+    const aside = element("details", {}, element("summary", {}, "Change the column mapping."));
     said.append(aside);
     return aside;
   }
@@ -145,12 +145,12 @@ export function chooseLogs(container, { wanted = [], chosen }) {
             : element(
                 "button",
                 { type: "button", class: "tiny", on: { click: () => offerMapping(file, again, null, log.id) } },
-                "Map the columns otherwise",
+                "Change column mapping",
               ),
           element(
             "button",
-            { type: "button", class: "tiny", "aria-label": `Take out ${log.name}`, on: { click: remove } },
-            "Take out",
+            { type: "button", class: "tiny", "aria-label": `Remove ${log.name}`, on: { click: remove } },
+            "Remove",
           ),
         ),
       ),
@@ -174,11 +174,11 @@ export function chooseLogs(container, { wanted = [], chosen }) {
 
 function facts(log) {
   const rows = [
-    ["Length", `${duration(log.duration_s)}, ${count(log.samples)} samples`],
+    ["Duration", `${duration(log.duration_s)}, ${count(log.samples)} samples`],
     ["Rate", `${number(log.rate_hz)} Hz`],
     ["Joints", log.joints],
-    ["Read as", log.channels.join(", ")],
-    log.ignored_columns.length ? ["Not used", log.ignored_columns.join(", ")] : null,
+    ["Channels", log.channels.join(", ")],
+    log.ignored_columns.length ? ["Ignored columns", log.ignored_columns.join(", ")] : null,
   ].filter(Boolean);
   return element(
     "dl",
@@ -188,11 +188,11 @@ function facts(log) {
 }
 
 function defects(log) {
-  if (!log.defects.length) return element("p", { class: "sound" }, "No defects were found.");
+  if (!log.defects.length) return element("p", { class: "sound" }, "No defects found.");
   return element(
     "details",
     { class: "defects", open: log.defects.length <= 4 },
-    element("summary", {}, `${plural("defect", log.defects.length)} found, marked where they have a place`),
+    element("summary", {}, `${plural("defect", log.defects.length)} found, marked in the plots`),
     element(
       "ul",
       {},

@@ -1,4 +1,4 @@
-// The form that says which column is what, and in which unit. It guesses by names what a column is, never its unit.
+// The form that maps columns to channels, joints and units. Channels are guessed from names, units never.
 import { CHANNELS, likelyRoles, knownUnits, oneCount, unitChoices } from "./columns.js";
 import { field, figure, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
@@ -12,7 +12,7 @@ const PROFILES = {
   "abb-test-signal-viewer": "ABB, Test Signal Viewer",
 };
 const DRIVE_GAIN =
-  "A motor's current becomes torque at its joint by the drive gain: torque constant (N m/A) times gear ratio. Both belong to each joint of the robot: in its table, under “more columns”. Where torque is logged as well, torque is used.";
+  "Joint torque is motor current times the drive gain: torque constant (N m/A) times gear ratio. Enter both for each joint in the robot's table, under “more columns”. If torque is logged as well, torque is used.";
 /**
  * Show the form.
  * @param {HTMLElement} container
@@ -35,13 +35,13 @@ export function mappingForm(container, { columns, readings, finished }) {
     element(
       "section",
       { class: "mapping", "aria-label": "Mapping of columns" },
-      element("h3", {}, "Say which column is what"),
+      element("h3", {}, "Map columns"),
       field(
-        "A recorder's names",
-        menu([["", "no, I say it below"], ...Object.entries(PROFILES)], "", (profile) => {
+        "Recorder profile",
+        menu([["", "none: map the columns below"], ...Object.entries(PROFILES)], "", (profile) => {
           if (profile) finished({ profile });
         }),
-        "its columns are known, and so are most of its units",
+        "defines the columns and most of the units",
       ),
       element(
         "div",
@@ -57,7 +57,7 @@ export function mappingForm(container, { columns, readings, finished }) {
       element(
         "div",
         { class: "actions" },
-        element("button", { type: "button", class: "primary", on: { click: finish } }, "Read the log so"),
+        element("button", { type: "button", class: "primary", on: { click: finish } }, "Apply mapping"),
         wrong,
       ),
     ),
@@ -70,7 +70,7 @@ export function mappingForm(container, { columns, readings, finished }) {
     const anyOfItsOwn = columns.some((_, index) => ofItsOwn(index));
     fill(
       head,
-      ["column", "is", "of joint", ...(anyOfItsOwn ? ["in"] : [])].map((name) =>
+      ["column", "channel", "joint", ...(anyOfItsOwn ? ["unit"] : [])].map((name) =>
         element("th", { scope: "col" }, name),
       ),
     );
@@ -94,7 +94,7 @@ export function mappingForm(container, { columns, readings, finished }) {
                 scalesOf[index] = "";
                 show();
               },
-              { "aria-label": `What ${name} is`, name: `role-${index}` },
+              { "aria-label": `Channel of ${name}`, name: `role-${index}` },
             ),
           ),
           element(
@@ -130,7 +130,7 @@ export function mappingForm(container, { columns, readings, finished }) {
             figure(rate, (text) => {
               rate = text;
             }),
-            "of uniform samples, where no column holds the time",
+            "uniform sampling, if no column is time",
           ),
     );
     if (focused) container.querySelector(`[name="${focused}"]`)?.focus();
@@ -225,7 +225,7 @@ export function mappingForm(container, { columns, readings, finished }) {
       const unsaid = own.find((one) => !one.unit);
       if (unsaid) {
         const which = units[channel] === EACH ? unsaid.name : channel;
-        wrong.textContent = `Choose the unit of ${which}: a wrong guess would be a wrong robot.`;
+        wrong.textContent = `Choose the unit of ${which}: units are never guessed.`;
         return;
       }
       if (channel === "time" && own.length > 1) {
@@ -250,7 +250,7 @@ export function mappingForm(container, { columns, readings, finished }) {
         const counts = own.map((one) => (one.unit === "counts" ? readNumber(one.count ?? "") : 1));
         const unclear = own.find((_, index) => !Number.isFinite(counts[index]));
         if (unclear) {
-          wrong.textContent = `Say what one count of ${each ? unclear.name : channel} is.`;
+          wrong.textContent = `Enter the value of one count of ${each ? unclear.name : channel}.`;
           return;
         }
         mapping[channel].scale = each ? counts : counts[0];
@@ -260,7 +260,7 @@ export function mappingForm(container, { columns, readings, finished }) {
       mapping.time = null;
       mapping.rate_hz = readNumber(rate);
       if (!Number.isFinite(mapping.rate_hz)) {
-        wrong.textContent = "Choose the column that is time, or give the rate.";
+        wrong.textContent = "Choose a time column, or enter the rate.";
         return;
       }
     }

@@ -1,4 +1,4 @@
-// The base parameters as a table: each with its error bar, %P and grouping; sorted, filtered, copied and saved.
+// The table of base parameters with error bars, %P and grouping; it can be sorted, filtered, copied and saved.
 import { follow } from "./api.js";
 import { element, fill, svg } from "./dom.js";
 import { wide } from "./wide.js";
@@ -12,7 +12,7 @@ const COLUMNS = [
   { id: "percent", title: "%P", of: (row) => row.relative_deviation_percent ?? Infinity, right: true },
   { id: "ols", title: "Least squares", of: (row) => row.value_ols, right: true },
   { id: "essential", title: "Essential", of: (row) => (row.essential ? 0 : 1) },
-  { id: "grouping", title: "What is grouped in it", of: (row) => row.grouping },
+  { id: "grouping", title: "Grouping", of: (row) => row.grouping },
 ];
 
 /** Show the table of base parameters, those of the extended model where there is one. */
@@ -28,7 +28,7 @@ export function showParameters(container, { job, document }) {
     element("option", { value: "all" }, "all joints"),
     [...new Set(rows.map((row) => row.joint))].map((joint) => element("option", { value: joint }, `joint ${joint}`)));
   fill(container,
-    after.length ? element("p", { class: "hint" }, "Of the extended model: what the findings added is marked as new.") : null,
+    after.length ? element("p", { class: "hint" }, "Extended model; parameters added by findings are marked as new.") : null,
     element("div", { class: "row spread toolbar" },
       element("span", { class: "row" }, element("label", { for: "joint-filter" }, "Show"), filter, said),
       element("span", { class: "row" },
@@ -36,7 +36,7 @@ export function showParameters(container, { job, document }) {
         element("button", { type: "button", class: "tiny", on: { click: saveLatex } }, "Save as LaTeX"),
         follow(element("a", { class: "button tiny", href: job.links.parameters_csv, download: "parameters.csv" }, "CSV file")))),
     wide(element("table", { class: "parameters" },
-        element("caption", {}, "Value of the robot that can exist, beside ordinary least squares, which knows nothing of bodies. %P is the standard deviation in percent of the value; bars are drawn over the value, relative to it."),
+        element("caption", {}, "Physically consistent estimate and ordinary least squares (without the consistency constraint). %P: standard deviation in percent of the value. Error bars are relative to the value."),
         element("thead", {}, element("tr", {}, heads)), body), "Base parameters"));
   write();
 
@@ -63,9 +63,9 @@ export function showParameters(container, { job, document }) {
   async function copy() {
     try {
       await navigator.clipboard.writeText(asCsv(shown()));
-      said.textContent = "Copied: paste it into a spreadsheet.";
+      said.textContent = "Copied to the clipboard.";
     } catch {
-      said.textContent = "The browser did not let the page copy; take the CSV file instead.";
+      said.textContent = "The browser refused access to the clipboard; use the CSV file.";
     }
   }
 
@@ -95,7 +95,7 @@ function bar(row) {
   const share = size > 0 ? Math.min(reach / size, 1.5) : 1.5;
   const half = (share / 1.5) * 58;
   const [low, high] = row.interval_95 ?? [row.value - reach, row.value + reach];
-  const said = `95 % from ${number(low)} to ${number(high)}${row.unit === "1" ? "" : ` ${row.unit}`}`;
+  const said = `95 % interval ${number(low)} to ${number(high)}${row.unit === "1" ? "" : ` ${row.unit}`}`;
   const zero = 60 - Math.sign(row.value || 1) * (1 / 1.5) * 58;
   return svg("svg", { class: "errorbar", viewBox: "0 0 120 16", role: "img", "aria-label": said }, svg("title", {}, said),
     svg("path", { class: "zero", d: `M${zero.toFixed(1)} 2V14` }),

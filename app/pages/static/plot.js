@@ -1,4 +1,4 @@
-// Draw traces over one axis: uPlot's canvas, within a figure that can also be read, heard, steered by keys and saved.
+// Draw traces over one axis with uPlot, in a figure with keyboard control, a text alternative and CSV export.
 import { element, fill } from "./dom.js";
 import uPlot from "./uPlot.esm.js";
 import { number } from "./words.js";
@@ -234,13 +234,13 @@ function summary(title, unit, traces, note) {
     const [low, high] = extent(trace.values);
     return `${trace.label} from ${number(low)} to ${number(high)}${unit ? ` ${unit}` : ""}`;
   });
-  return `Plot of ${title}: ${parts.join("; ")}.${note ? ` ${note}` : ""} Plus and minus zoom, the arrows move, Escape shows all.`;
+  return `Plot of ${title}: ${parts.join("; ")}.${note ? ` ${note}` : ""} Plus and minus zoom, arrow keys pan, Escape shows the whole range.`;
 }
 
 function numbers(title, unit, traces) {
   return element("table", { class: "unseen" },
-    element("caption", {}, `Extremes of ${title}${unit ? ` in ${unit}` : ""}`),
-    element("thead", {}, element("tr", {}, ["trace", "smallest", "largest"].map((name) => element("th", { scope: "col" }, name)))),
+    element("caption", {}, `Minimum and maximum of ${title}${unit ? ` in ${unit}` : ""}`),
+    element("thead", {}, element("tr", {}, ["trace", "minimum", "maximum"].map((name) => element("th", { scope: "col" }, name)))),
     element("tbody", {}, traces.map((trace) => element("tr", {}, element("th", { scope: "row" }, trace.label),
       extent(trace.values).map((value) => element("td", {}, number(value)))))));
 }

@@ -18,9 +18,9 @@ export function problemBox(problem) {
     element("h3", {}, problem.title),
     element("p", { class: "cause" }, sentence(problem.cause)),
     problem.remedy
-      ? element("p", { class: "remedy" }, element("strong", {}, "What to do: "), sentence(problem.remedy))
+      ? element("p", { class: "remedy" }, element("strong", {}, "Remedy: "), sentence(problem.remedy))
       : null,
-    evidence.length ? element("details", {}, element("summary", {}, "What was seen"), list(problem.evidence)) : null,
+    evidence.length ? element("details", {}, element("summary", {}, "Evidence"), list(problem.evidence)) : null,
   );
 }
 

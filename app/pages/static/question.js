@@ -1,4 +1,4 @@
-// What is to be found out, with the few choices that matter, and the button that starts it.
+// Choose the analysis and its main options, and start it.
 import { get, post } from "./api.js";
 import { field, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
@@ -8,20 +8,20 @@ import { ago, plural } from "./words.js";
 const QUESTIONS = [
   [
     "identify",
-    "What are its parameters?",
-    "Masses, inertias and friction as far as this motion can tell them apart, with how well each is known. Takes seconds.",
+    "Identification",
+    "Identifiable combinations of masses, inertias and friction, with standard deviations. Takes seconds.",
   ],
   [
     "diagnose",
-    "What does its simulation get wrong?",
-    "The same, and then the causes of what is left: friction that depends on load, ripple, a spring, a delay, a payload. Takes a little longer.",
+    "Diagnosis",
+    "Identification, then the causes of the remaining error: load-dependent friction, torque ripple, a spring, a delay, a payload. Takes longer.",
   ],
 ];
 const ESTIMATORS = [
-  ["", "feasible, weighted (sdp)"],
-  ["irls", "robust, may be infeasible (irls)"],
-  ["wls", "weighted, may be infeasible (wls)"],
-  ["ols", "plain least squares (ols)"],
+  ["", "weighted, physically consistent (sdp)"],
+  ["irls", "robust, may be inconsistent (irls)"],
+  ["wls", "weighted, may be inconsistent (wls)"],
+  ["ols", "ordinary least squares (ols)"],
 ];
 
 /**
@@ -42,7 +42,7 @@ export function askQuestion(container) {
     element(
       "fieldset",
       { class: "questions" },
-      element("legend", { class: "unseen" }, "Question"),
+      element("legend", { class: "unseen" }, "Analysis"),
       QUESTIONS.map(([value, title, text]) =>
         element(
           "label",
@@ -72,8 +72,8 @@ export function askQuestion(container) {
         { class: "fields" },
         field(
           "Filter cut-off, Hz",
-          text("cutoff", "from the motion"),
-          "lower is smoother; chosen from the motion if empty",
+          text("cutoff", "automatic"),
+          "chosen from the bandwidth of the motion if empty",
         ),
         field("Held out for validation, %", text("fraction", "20"), "0 to 50 % of each log, in blocks"),
         field(
@@ -111,18 +111,18 @@ export function askQuestion(container) {
   }
 
   function show() {
-    const wants = [known.robot ? null : "choose a robot", known.logs.length ? null : "add a log"].filter(Boolean);
+    const wants = [known.robot ? null : "robot", known.logs.length ? null : "log"].filter(Boolean);
     const joints = known.robot?.description.joints.filter((one) => !one.mimics).length;
     const odd = known.logs.find((log) => known.robot && log.joints !== joints);
     const amperes = known.logs.find((log) => known.robot && !log.channels.includes("torque"));
     const gainless = amperes && known.robot.description.joints.some((one) => !one.mimics && !(one.torque_constant && one.gear_ratio));
     start.disabled = wants.length > 0 || odd !== undefined || Boolean(gainless);
     missing.textContent = wants.length
-      ? `Still to do: ${wants.join(", ")}.`
+      ? `Missing: ${wants.join(", ")}.`
       : odd
         ? `${odd.name} has ${plural("joint", odd.joints)}, ${known.robot.name} has ${joints}.`
         : gainless
-          ? `${amperes.name} holds currents, and ${known.robot.name} does not say what torque they give: declare torque constant and gear ratio of every joint in its table.`
+          ? `${amperes.name} has currents, but ${known.robot.name} has no drive gains: enter the torque constant and gear ratio of every joint in its table.`
           : "";
     missing.classList.toggle("wrong", odd !== undefined || Boolean(gainless));
     reference.hidden = kind !== "diagnose";
@@ -137,8 +137,8 @@ export function askQuestion(container) {
     if (known.robot !== robot) return; // another one was chosen meanwhile
     const earlier = jobs.filter((job) => job.robot === robot.id && job.state === "successful");
     const list = [
-      ["", "itself, identified anew"],
-      robot.description.prior ? ["prior", "the bodies of its description"] : null,
+      ["", "a new identification from these logs"],
+      robot.description.prior ? ["prior", "prior (bodies of its description)"] : null,
       ...earlier.map((job) => [
         job.id,
         `its ${job.kind === "diagnose" ? "diagnosis" : "identification"} of ${ago(job.created_at)}`,
@@ -147,11 +147,11 @@ export function askQuestion(container) {
     fill(
       reference,
       field(
-        "Compare with",
+        "Reference",
         menu(list.filter(Boolean), "", (value) => {
           choices.reference = value;
         }),
-        "an earlier study tells what has changed since",
+        "with an earlier study, the diagnosis finds what has changed since",
       ),
     );
   }

@@ -1,4 +1,4 @@
-// What the model leaves of the torque: over time, and over what it might depend on.
+// Plot the residual over time, over coordinates and over frequency.
 import { get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { draw } from "./plot.js";
@@ -8,7 +8,7 @@ import { forEveryLog, joints } from "./torque.js";
 
 /** Show the residual of one joint at a time, four ways. */
 export async function showResiduals(container, study) {
-  await forEveryLog(container, study, "Residual: filtered minus estimated torque. Shaded: held out.", async (grid, log) => {
+  await forEveryLog(container, study, "Residual: filtered minus estimated torque. Shaded: held-out data.", async (grid, log) => {
     let plots = [];
     const views = element("div", { class: "tiles wide-tiles" });
     const buttons = joints(study).map((joint) => element("button", { type: "button", class: "tiny", "aria-pressed": "false", on: { click: () => show(joint) } }, `Joint ${joint}`));
@@ -55,12 +55,12 @@ function overCoordinate(views, joint, found, over) {
       const { label, colour } = SIDES[signal];
       const name = both && signal === "residual" ? "before" : label;
       const ends = both && signal === "residual" ? [] : [
-        { label: "5 and 95 of 100", values: high, colour: 7, width: 1, dashed: true },
-        { label: "5 of 100", values: low, colour: 7, width: 1, dashed: true, unnamed: true },
+        { label: "5 % and 95 % quantiles", values: high, colour: 7, width: 1, dashed: true },
+        { label: "5 % quantile", values: low, colour: 7, width: 1, dashed: true, unnamed: true },
       ];
       return [...ends, { label: `mean ${name}`, values: mean, colour, width: 2 }];
     }),
-    note: `Means over bins of equally many of ${found.samples} instants, and what 5 and 95 of 100 stay below.`,
+    note: `Mean, 5 % and 95 % quantiles in bins with equal counts, ${found.samples} samples.`,
   });
 }
 

@@ -1,4 +1,4 @@
-// Show what came out of a successful job: in words first, then what those words rest on, section by section.
+// Show the result of a successful job: headline first, then one section for each topic.
 import { get, request } from "./api.js";
 import { showBodies } from "./bodies.js";
 import { element, fill } from "./dom.js";
@@ -8,7 +8,7 @@ import { showHeadline } from "./headline.js";
 import { showParameters } from "./parameters.js";
 import { showError } from "./problem.js";
 import { showResiduals } from "./residuals.js";
-import { showTakeaway } from "./takeaway.js";
+import { showExport } from "./export.js";
 import { showMotion, showTorque } from "./torque.js";
 import { tracesOf } from "./traces.js";
 
@@ -18,7 +18,7 @@ import { tracesOf } from "./traces.js";
  * @param {Object} job as the API answers it
  */
 export async function show(container, job) {
-  fill(container, element("p", { class: "waiting", role: "status" }, "Reading the result …"));
+  fill(container, element("p", { class: "waiting", role: "status" }, "Loading the result …"));
   const [document, report] = await Promise.all([get(job.links.results, { headers: { Accept: "application/json" } }), reportOf(job)]);
   const study = { job, document, report, traces: tracesOf(job, document) };
   const all = document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
@@ -33,7 +33,7 @@ export async function show(container, job) {
 
 const DIAGNOSED = [
   ["findings", "Findings", showFindings],
-  ["remainder", "What stays unexplained", showRemainder],
+  ["remainder", "Unexplained residual", showRemainder],
 ];
 const COMMON = [
   ["torque", "Torque", showTorque],
@@ -42,7 +42,7 @@ const COMMON = [
   ["bodies", "Bodies", showBodies],
   ["excitation", "Excitation", showExcitation],
   ["motion", "Motion", showMotion],
-  ["take-home", "Take it home", showTakeaway],
+  ["export", "Export", showExport],
 ];
 
 // Of these there is nothing to draw where a job kept its result alone.

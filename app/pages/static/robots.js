@@ -7,7 +7,7 @@ import { showError } from "./problem.js";
 import { robotTable } from "./table.js";
 import { ago, number, plural, short } from "./words.js";
 
-const WAYS = { list: "From the list", table: "Describe it", urdf: "URDF" };
+const WAYS = { list: "From the list", table: "DH table", urdf: "URDF" };
 
 /**
  * Offer the ways to a robot.
@@ -19,7 +19,7 @@ export function chooseRobot(container, { wanted, chosen }) {
   const said = element("div", { class: "said", "aria-live": "polite" });
   const figure = element("div", { class: "figure" });
   const layout = element("div", { class: "split" }, element("div", { class: "stack" }, form, said), figure);
-  fill(container, segments("How to choose the robot", WAYS, "list", turn), layout);
+  fill(container, segments("Source of the robot", WAYS, "list", turn), layout);
   let drawn = null;
   let now = "list";
   turn("list");
@@ -45,10 +45,10 @@ export function chooseRobot(container, { wanted, chosen }) {
     const entries = robots.map((one) => [one.id, `${one.name} (${plural("joint", one.joints)}), ${origin(one)}`]);
     const first = robots.some((one) => one.id === wanted) ? wanted : "";
     const list = menu([["", "Choose a robot"], ...entries], first, read);
-    fill(form, field("Robot", list, "Built-in robots first, then those that were described here."));
+    fill(form, field("Robot", list, "Built-in robots first, then uploaded ones."));
     read(first);
     if (wanted && !first)
-      fill(said, element("p", { class: "notice" }, `There is no robot ${wanted} here: choose another one.`));
+      fill(said, element("p", { class: "notice" }, `There is no robot ${wanted}: choose another one.`));
   }
 
   async function read(id) {
@@ -97,14 +97,14 @@ export function chooseRobot(container, { wanted, chosen }) {
       form,
       dropZone(
         "Drop a URDF here",
-        "or choose the file. Masses and inertias in it become what is believed.",
+        "or choose a file. Its masses and inertias become the prior.",
         ".urdf,.xml",
         take,
       ),
       element(
         "details",
         {},
-        element("summary", {}, "Only a part of it, or mounted otherwise"),
+        element("summary", {}, "Part of the robot, or another mounting"),
         element(
           "div",
           { class: "fields" },
@@ -164,7 +164,7 @@ export function chooseRobot(container, { wanted, chosen }) {
 
 /** Where a robot comes from, which tells it from another of its name. */
 function origin(robot) {
-  return robot.built_in ? "built in" : `described ${ago(robot.created_at)}, ${short(robot.id)}`;
+  return robot.built_in ? "built in" : `created ${ago(robot.created_at)}, ${short(robot.id)}`;
 }
 
 /** The rows of a robot as they are read, in degrees and metres; what is given by frames has no row. */
@@ -216,12 +216,12 @@ function rowsOf(description) {
 
 function summary(robot) {
   const { description } = robot;
-  const sliding = description.joints.filter((joint) => joint.type === "prismatic").length;
+  const prismatic = description.joints.filter((joint) => joint.type === "prismatic").length;
   const facts = [
-    plural("joint", robot.joints) + (sliding ? `, ${sliding} sliding` : ""),
+    plural("joint", robot.joints) + (prismatic ? `, ${prismatic} prismatic` : ""),
     description.convention === "modified-dh" ? "modified Denavit-Hartenberg table" : "frames",
     `gravity ${description.gravity.map((value) => number(value, 3)).join(", ")} m/s²`,
-    description.prior ? "bodies are believed" : null,
+    description.prior ? "with prior" : null,
   ];
   return element(
     "div",
@@ -232,7 +232,7 @@ function summary(robot) {
       ? element(
           "div",
           { class: "notice" },
-          element("strong", {}, "Is this meant?"),
+          element("strong", {}, "Check"),
           element(
             "ul",
             {},

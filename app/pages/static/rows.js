@@ -3,14 +3,14 @@ const ANGLES = { deg: Math.PI / 180, rad: 1 };
 const LENGTHS = { mm: 1e-3, m: 1 };
 /** The columns of the form; `more` ones are shown on demand. */
 export const COLUMNS = [
-  { name: "alpha", kind: "angle", hint: "about x, from the z axis before" },
+  { name: "alpha", kind: "angle", hint: "about x, from the previous z axis" },
   { name: "d", kind: "length", hint: "along x (Craig's a)" },
-  { name: "theta_offset", label: "theta", kind: "angle", hint: "about z, at zero" },
+  { name: "theta_offset", label: "theta", kind: "angle", hint: "about z, at q = 0" },
   { name: "r", kind: "length", hint: "along z (Craig's d)" },
-  { name: "low", label: "lowest q", kind: "own", optional: true },
-  { name: "high", label: "highest q", kind: "own", optional: true },
-  { name: "gamma", kind: "angle", optional: true, more: true, hint: "branches: about the z before" },
-  { name: "b", kind: "length", optional: true, more: true, hint: "branches: along the z before" },
+  { name: "low", label: "minimum q", kind: "own", optional: true },
+  { name: "high", label: "maximum q", kind: "own", optional: true },
+  { name: "gamma", kind: "angle", optional: true, more: true, hint: "branches: about the previous z axis" },
+  { name: "b", kind: "length", optional: true, more: true, hint: "branches: along the previous z axis" },
   { name: "velocity", label: "speed limit", kind: "ownspeed", optional: true, more: true },
   { name: "torque", label: "torque limit", kind: "effort", optional: true, more: true },
   { name: "torque_constant", label: "torque constant", kind: "constant", optional: true, more: true },
@@ -22,15 +22,15 @@ export const EMPTY = { type: "revolute", alpha: 0, d: 0, theta_offset: 0, r: 0 }
 
 /** The unit of a column: of one row, or of all where they may differ. */
 export function unitOf(column, rows, units) {
-  const turning = rows.some((row) => row.type === "revolute");
-  const sliding = rows.some((row) => row.type === "prismatic");
-  const own = [turning ? units.angle : null, sliding ? units.length : null].filter(Boolean);
+  const revolute = rows.some((row) => row.type === "revolute");
+  const prismatic = rows.some((row) => row.type === "prismatic");
+  const own = [revolute ? units.angle : null, prismatic ? units.length : null].filter(Boolean);
   return {
     angle: units.angle,
     length: units.length,
     own: own.join(" or "),
     ownspeed: own.map((unit) => `${unit}/s`).join(" or "),
-    effort: [turning ? "N m" : null, sliding ? "N" : null].filter(Boolean).join(" or "),
+    effort: [revolute ? "N m" : null, prismatic ? "N" : null].filter(Boolean).join(" or "),
     constant: "N m/A",
     plain: "",
   }[column.kind];
@@ -67,8 +67,8 @@ export function without(rows, index) {
 export function faultOf(rows) {
   for (const [index, row] of rows.entries()) {
     const typed = COLUMNS.map((column) => row[column.name]).find((value) => typeof value === "string");
-    if (typed !== undefined) return `“${typed}” is no number.`;
-    if ((row.low === undefined) !== (row.high === undefined)) return `Joint ${index + 1} needs both limits, or none.`;
+    if (typed !== undefined) return `“${typed}” is not a number.`;
+    if ((row.low === undefined) !== (row.high === undefined)) return `Joint ${index + 1} needs both position limits or none.`;
   }
   return null;
 }

@@ -1,4 +1,4 @@
-// The list of studies, the newest first: what was asked, of which robot and log, how it went, and where to read on.
+// The list of studies, newest first: kind, robot, logs, state, duration and links.
 import { follow, get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
@@ -13,7 +13,7 @@ export async function showStudies(container) {
   try {
     const [names, page] = await Promise.all([namesOf(), jobsFrom(null)]);
     if (!page.jobs.length) {
-      fill(container, element("p", { class: "soft" }, "None yet. The first one takes a click: try the example above."));
+      fill(container, element("p", { class: "soft" }, "No studies yet. Try the example above."));
       return;
     }
     const body = element(
@@ -41,7 +41,7 @@ export async function showStudies(container) {
             element(
               "tr",
               {},
-              ["Study", "State", "Asked for", "Took", "Read on"].map((name) => element("th", { scope: "col" }, name)),
+              ["Study", "State", "Created", "Duration", "Links"].map((name) => element("th", { scope: "col" }, name)),
             ),
           ),
           body,
@@ -112,15 +112,15 @@ function row(job, names) {
     element("td", { "data-label": "State" }, state(job)),
     element(
       "td",
-      { "data-label": "Asked for" },
+      { "data-label": "Created" },
       element(
         "time",
         { datetime: job.created_at, title: new Date(job.created_at).toLocaleString() },
         ago(job.created_at),
       ),
     ),
-    element("td", { "data-label": "Took" }, took(job)),
-    element("td", { "data-label": "Read on" }, element("span", { class: "row" }, onward(job))),
+    element("td", { "data-label": "Duration" }, took(job)),
+    element("td", { "data-label": "Links" }, element("span", { class: "row" }, onward(job))),
   );
 }
 

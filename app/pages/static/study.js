@@ -71,13 +71,13 @@ async function watch(job, content, badge) {
     const since = Date.parse(last.started_at ?? last.created_at);
     clock.textContent = last.started_at
       ? `running for ${duration(Math.max(0, (Date.now() - since) / 1000))}`
-      : `asked for ${ago(last.created_at)}`;
+      : `created ${ago(last.created_at)}`;
   };
   const told = (now) => {
     last = now;
     const words =
       now.state === "accepted"
-        ? "Waiting for its turn"
+        ? "Waiting in the queue"
         : `${capital(plain(now.progress.stage || "starting"))}, ${percent(now.progress.fraction)}`;
     if (stage.textContent !== words) stage.textContent = words;
     bar.value = now.progress.fraction;
@@ -85,7 +85,7 @@ async function watch(job, content, badge) {
     tick();
   };
   const silent = () => {
-    stage.textContent = "The service does not answer; it is asked again";
+    stage.textContent = "The service does not answer; retrying";
   };
   told(job);
   const timer = setInterval(tick, 1000);
@@ -111,7 +111,7 @@ function again(job) {
   return element(
     "div",
     { class: "actions" },
-    element("a", { class: "button primary", href: `/new?${same}` }, "Change it and start anew"),
+    element("a", { class: "button primary", href: `/new?${same}` }, "Change and start again"),
     element("a", { class: "button", href: "/" }, "All studies"),
   );
 }

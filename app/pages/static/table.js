@@ -25,7 +25,7 @@ export function robotTable(container, { known, changed, finished }) {
   const head = element("thead", {});
   const wrong = element("p", { class: "hint wrong", role: "status" });
   const note = element("div", { class: "hint", role: "status" });
-  const starts = [["", "three joints of no robot"], ...known.map((robot) => [robot.id, robot.name])];
+  const starts = [["", "an example with three joints"], ...known.map((robot) => [robot.id, robot.name])];
 
   fill(
     container,
@@ -68,11 +68,11 @@ export function robotTable(container, { known, changed, finished }) {
     element(
       "p",
       { class: "hint" },
-      "Khalil's letters: ",
+      "Khalil-Kleinfinger notation: ",
       element("strong", {}, "d"),
-      " is the distance along x, which Craig calls a; ",
+      " is the distance along x (Craig: a); ",
       element("strong", {}, "r"),
-      " is the distance along z, which Craig calls d. A turning joint adds its angle to theta, a sliding one its stroke to r.",
+      " is the distance along z (Craig: d). A revolute joint adds its coordinate to theta, a prismatic joint to r.",
     ),
     element(
       "div",
@@ -96,7 +96,7 @@ export function robotTable(container, { known, changed, finished }) {
       element(
         "tr",
         {},
-        ["joint", "type", "on joint"].map((label) => element("th", { scope: "col" }, label)),
+        ["joint", "type", "antecedent"].map((label) => element("th", { scope: "col" }, label)),
         columns.map((column) =>
           element(
             "th",
@@ -131,8 +131,8 @@ export function robotTable(container, { known, changed, finished }) {
         {},
         menu(
           [
-            ["revolute", "turns"],
-            ["prismatic", "slides"],
+            ["revolute", "revolute"],
+            ["prismatic", "prismatic"],
           ],
           row.type,
           (type) => {
@@ -152,7 +152,7 @@ export function robotTable(container, { known, changed, finished }) {
             row.antecedent = Number(carrier);
             tell();
           },
-          { "aria-label": `Joint ${index + 1} sits on` },
+          { "aria-label": `Joint ${index + 1}: antecedent` },
         ),
       ),
       columns.map((column) => element("td", {}, cell(row, index, column))),
@@ -208,7 +208,7 @@ export function robotTable(container, { known, changed, finished }) {
       .split(/[,;\s]+/)
       .filter(Boolean)
       .map(readNumber);
-    const fault = down.length === 3 && down.every(Number.isFinite) ? faultOf(rows) : "Gravity is three numbers.";
+    const fault = down.length === 3 && down.every(Number.isFinite) ? faultOf(rows) : "Gravity needs three numbers.";
     wrong.textContent = fault ?? "";
     if (fault !== null) return null;
     return { name: name.value, convention: "modified-dh", joints: rows.map(jointOf), gravity: down };
@@ -243,7 +243,7 @@ export function robotTable(container, { known, changed, finished }) {
     try {
       const { description } = await get(`/v1/robots/${encodeURIComponent(id)}`);
       if (description.convention !== "modified-dh") {
-        fill(note, `${description.name} is described by frames, not by a table.`);
+        fill(note, `${description.name} is described by frames, not by a DH table.`);
         return;
       }
       take(description);
@@ -254,7 +254,7 @@ export function robotTable(container, { known, changed, finished }) {
 
   function take(description) {
     if (description.couplings?.length || description.prior) {
-      fill(note, "Its couplings and believed bodies are not taken over: describe them to the API.");
+      fill(note, "Couplings and priors are not copied: set them with the API.");
     }
     rows = rowsOf(description);
     gravity.value = description.gravity.map((value) => Number(value.toPrecision(7))).join(", ");

@@ -20,7 +20,7 @@
     const name = () => {
       const other = root.dataset.theme === "dark" ? "light" : "dark";
       button.textContent = other === "dark" ? "Dark" : "Light";
-      button.setAttribute("aria-label", `Show the page ${other}`);
+      button.setAttribute("aria-label", `Switch to the ${other} theme`);
     };
     name();
     addEventListener("themechange", name);

@@ -6,7 +6,7 @@ import { relative } from "./words.js";
 
 /** Show torque, joint by joint. */
 export async function showTorque(container, study) {
-  const hint = `Shaded: held out, no fit has seen it. Drag to zoom, all plots follow; Escape or “Whole range” shows everything.`;
+  const hint = `Shaded: held-out data. Drag to zoom all plots; Escape or “Whole range” shows the whole range.`;
   await forEveryLog(container, study, hint, async (grid, log) => {
     const plots = await Promise.all(joints(study).map(async (joint) => {
       const place = element("div", { class: "tile" });
@@ -80,7 +80,7 @@ async function torquePlot(place, study, joint, log) {
     title: `Joint ${joint}`, unit: seen.units.torque_filtered, height: 190, together: `torque ${log}`, extent: seen.extent,
     x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks, zoomed: (from, to) => { finer(from, to); finerRaw(from, to); },
     traces: tracesOf(seen),
-    note: `The error ${study.document.validation.length ? "on the shaded, held-out stretches" : "on the fitted motion"} is ${relative(score.nrmse_of_rms_percent)} of the torque's RMS.`,
+    note: `The error ${study.document.validation.length ? "on the held-out data (shaded)" : "on the fitted data"} is ${relative(score.nrmse_of_rms_percent)} of the torque RMS.`,
   });
   study.traces.raw(joint, log).then((found) => {
     if (found === null || !place.isConnected) return;

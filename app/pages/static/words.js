@@ -85,9 +85,9 @@ export function plain(name) {
   return name.replaceAll("_", " ");
 }
 
-/** The unit of a channel where the robot tells whether a joint turns or slides; else as the log says. */
+/** The unit of a channel by the type of the joint, where the robot is known; else as in the log. */
 export function unitOf(trace, type) {
-  const [turning, sliding] = trace.unit.split(" or ");
-  if (sliding === undefined) return turning;
-  return type === "prismatic" ? sliding : turning;
+  const [revolute, prismatic] = trace.unit.split(" or ");
+  if (prismatic === undefined) return revolute;
+  return type === "prismatic" ? prismatic : revolute;
 }

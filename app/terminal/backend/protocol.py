@@ -29,7 +29,7 @@ WHOLE = FromUrdf()
 
 @dataclass(frozen=True)
 class Study:
-    """Ask for a computation.
+    """Create a job.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Diagnose what the simulation of a robot gets wrong."""
+"""Diagnose the causes of a robot's simulation error."""
 
 from typing import Annotated
 
@@ -33,11 +33,9 @@ Examples:
 """
 ReferenceOption = Annotated[
     str,
-    typer.Option(
-        help="What the logs are compared with: an earlier result (a file; with --url a job), or prior."
-    ),
+    typer.Option(help="Reference: an earlier result (a file; with --url a job), or prior."),
 ]
-FailOption = Annotated[bool, typer.Option("--fail-on-findings", help="End with 1 where something is wrong.")]
+FailOption = Annotated[bool, typer.Option("--fail-on-findings", help="Exit with 1 if there are findings.")]
 
 
 @COMMANDS.command(epilog=EPILOG)
@@ -60,7 +58,7 @@ def diagnose(  # noqa: PLR0913  # the options of a command line
     out: OutOption = None,
     report: ReportOption = None,
 ) -> None:
-    """Identify a robot, then name what its simulation gets wrong, why, and what mending it gains."""
+    """Identify a robot, then find the causes of its simulation error and what correcting them improves."""
     chosen = options_of(options, settings) | ({"reference": reference} if reference else {})
     part = part_of(base_link, tip_link, gravity)
     study = Study("diagnose", robot, tuple(logs), mapping_of(mapping, profile), chosen, part)

@@ -1,4 +1,4 @@
-"""Take the identified robot home as files that other tools read."""
+"""Export the identified robot as files for other tools."""
 
 from pathlib import Path
 from typing import Annotated
@@ -14,7 +14,7 @@ from ..output.streams import say, write
 from ..results import RESULT_HELP, read_result
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
-TRACES_TITLE = "torques and residuals of every instant, of a job (--url)"
+TRACES_TITLE = "torques and residuals of every sample, of a job (--url)"
 EPILOG = "\b\nExamples:\n  veritorque export result.json robot.urdf\n" + (
     "  veritorque export result.json robot.xml --out yumi.xml\n"
     "  veritorque export 5f0c1d9e residuals.parquet --url http://127.0.0.1:8000\n"
@@ -39,7 +39,7 @@ def export(
     *,
     out: Annotated[
         Path | None,
-        typer.Option(help="Where to write it, - for the terminal; by default a file of this name."),
+        typer.Option(help="Output file, - for the terminal; default: a file of this name."),
     ] = None,
     url: UrlOption = "",
     key: KeyOption = "",
@@ -52,7 +52,7 @@ def export(
         raise OptionError(
             f"there is no format {name}",
             evidence={"known": [*FORMATS, TRACES_FILE]},
-            remedy="name one of the known formats; --out says where to write it",
+            remedy="name one of the known formats; --out sets the output file",
         )
     target = out or Path(name)
     if str(target) != "-":
@@ -73,8 +73,8 @@ def _content(result: str, name: str, url: str, key: str) -> bytes:
     document = read_result(result)
     if name == TRACES_FILE:
         raise OptionError(
-            f"{result} holds the result, and not the torques of every instant",
+            f"{result} holds no torque traces",
             evidence={"asked_for": name, "kind": document["kind"]},
-            remedy="give --url and the id of a job: the service keeps them; `identify --report` draws them",
+            remedy="give --url and the id of a job, whose traces are stored, or use `identify --report`",
         )
     return FORMATS[name].write(document)

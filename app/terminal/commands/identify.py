@@ -49,7 +49,7 @@ def identify(  # noqa: PLR0913  # the options of a command line
     out: OutOption = None,
     report: ReportOption = None,
 ) -> None:
-    """Identify a robot from its logs: parameters of a robot that can exist, and how well each is known."""
+    """Identify physically consistent parameters of a robot from its logs, with standard deviations."""
     study = Study(
         "identify",
         robot,

@@ -14,22 +14,22 @@ if TYPE_CHECKING:
     from ...store.keys import KeyStore
 
 COMMANDS = typer.Typer(
-    help="Make, list and revoke the keys of a service.",
+    help="Create, list and revoke keys of a service.",
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
     epilog="\b\nExample:\n  veritorque keys list",
 )
-ScopesOption = Annotated[str, typer.Option(help="What it permits: read, write and admin, with commas.")]
+ScopesOption = Annotated[str, typer.Option(help="Scopes, separated by commas: read, write, admin.")]
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque keys create my-notebook --scopes read,write")
 def create(
-    name: Annotated[str, typer.Argument(help="Whose key it is, for your own records.")],
-    tenant: Annotated[str, typer.Option(help="Whose robots, logs and jobs it opens.")] = LOCAL,
+    name: Annotated[str, typer.Argument(help="Name of the key, for your records.")],
+    tenant: Annotated[str, typer.Option(help="Tenant whose robots, logs and jobs it can access.")] = LOCAL,
     scopes: ScopesOption = "read,write",
 ) -> None:
-    """Make a key and print its secret, which is not kept and cannot be shown again."""
+    """Create a key and print its secret, which is not stored and cannot be shown again."""
     wanted = tuple(one.strip() for one in scopes.split(",") if one.strip())
     unknown = sorted(set(wanted) - set(SCOPES))
     if unknown or not wanted:

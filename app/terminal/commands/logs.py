@@ -1,4 +1,4 @@
-"""Look at logs before anything is identified from them; no solver is loaded for that."""
+"""Check logs before identification; no solver is loaded."""
 
 import json as encoder
 from pathlib import Path
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ....core.log.check import LogCheck
 
 COMMANDS = typer.Typer(
-    help="Look at logs before anything is identified from them.",
+    help="Check logs before identification.",
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
@@ -40,44 +40,44 @@ def check(
     mapping: MappingOption = "",
     profile: ProfileOption = "",
     fail_on_defects: Annotated[
-        bool, typer.Option("--fail-on-defects", help="End with 1 where a log has defects.")
+        bool, typer.Option("--fail-on-defects", help="Exit with code 1 if a log has defects.")
     ] = False,
     json: JsonOption = False,
 ) -> None:
-    """Say what is in a log and what is wrong with it: columns, units, rate, gaps, outliers, saturation ..."""
+    """Show columns, units, rate and defects of a log: gaps, outliers, saturation ..."""
     from ..output.logcheck import document_of, lines_of
     from ..threads import limit_threads
 
     limit_threads(1)
     chosen = mapping_of(mapping, profile)
-    checks = [(path, _look(path, chosen)) for path in logs]
+    checks = [(path, _check(path, chosen)) for path in logs]
     documents = [document_of(path, seen) for path, seen in checks]
     if json:
         say(encoder.dumps(documents if len(documents) > 1 else documents[0]))
     for path, seen in checks:
         for line in () if json else lines_of(path, seen):
             say(line)
-        _tell_of(path, seen)
+        _print_suggestion(path, seen)
     if any(seen.refusal is not None for _, seen in checks):
         raise typer.Exit(Exit.INPUT)
     if fail_on_defects and any(document["defects"] for document in documents):
         raise typer.Exit(Exit.FOUND)
 
 
-def _tell_of(path: Path, seen: "LogCheck") -> None:
-    """Say beside the result why a log cannot be used, and which mapping might mend it."""
-    why = "the sizes suggest these units; believe the recorder rather than this"
+def _print_suggestion(path: Path, seen: "LogCheck") -> None:
+    """Print why a log is invalid, and a mapping that may correct it."""
+    why = "suggested by the ranges; check the units against the recorder"
     if seen.refusal is not None:
         complain(seen.refusal.cause, _of(path, seen.refusal), seen.refusal.remedy)
-        why = "the names suggest this; look at the units before you believe it"
+        why = "suggested by the column names; check the units"
     if seen.suggestion is not None:
         written = encoder.dumps(seen.suggestion)
-        unknown = ', and write for "?" what the recorder knows' if '"?"' in written else ""
+        unknown = ', and replace "?"' if '"?"' in written else ""
         note(f"  {why}{unknown}:")
         note(f"  --mapping '{written}'")
 
 
-def _look(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
+def _check(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
     from ....core.log.check import check_log
 
     try:
@@ -87,5 +87,5 @@ def _look(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":
 
 
 def _of(path: Path, error: LogError) -> dict[str, Any]:
-    """Give what was seen, with the log in which it was: there may be several."""
+    """Give the evidence with the name of the log."""
     return {"log": path.name, **error.evidence}

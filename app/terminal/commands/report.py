@@ -22,7 +22,7 @@ Examples:
 def report(
     result: Annotated[str, typer.Argument(metavar="RESULT", help=RESULT_HELP)],
     *,
-    out: Annotated[Path, typer.Option(help="Where to write it.")] = Path("report.html"),
+    out: Annotated[Path, typer.Option(help="Output file.")] = Path("report.html"),
     url: UrlOption = "",
     key: KeyOption = "",
 ) -> None:
@@ -37,4 +37,4 @@ def report(
     from ....core.report.page.page import compose_page
 
     save(out, compose_page(read_result(result)).encode())
-    note("without torques over time, which no result holds: identify --report and jobs (--url) draw them")
+    note("without torque traces, which a result file does not hold: use identify --report or a job (--url)")

@@ -1,4 +1,4 @@
-"""List, show and check robots before a motion is run on one."""
+"""List, show and check robots."""
 
 from typing import Annotated, Any
 
@@ -31,7 +31,7 @@ GEOMETRY = ("alpha", "d", "theta_offset", "r", "gamma", "b")
 
 @COMMANDS.command(name="list", epilog="\b\nExample:\n  veritorque robots list")
 def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False) -> None:
-    """List the robots that need no description."""
+    """List the built-in and, with --url, the stored robots."""
     with bench(url, key) as one:
         robots = one.robots()
     if json:
@@ -55,7 +55,7 @@ def show(  # noqa: PLR0913  # the options of a command line
     key: KeyOption = "",
     json: JsonOption = False,
 ) -> None:
-    """Show a robot as it is understood; with --json its description, which a URDF becomes as well."""
+    """Show a robot; with --json its description, also for a URDF."""
     with bench(url, key) as one:
         seen = one.robot(robot, part_of(base_link, tip_link, gravity))
     if json:
@@ -63,7 +63,7 @@ def show(  # noqa: PLR0913  # the options of a command line
         return
     say(f"{seen['name']}: {seen['joints']} joints, gravity {_listed(seen['description']['gravity'])} m/s2")
     _print_joints(seen["description"]["joints"])
-    _tell_suspicions(seen)
+    _print_warnings(seen)
 
 
 @COMMANDS.command(
@@ -77,16 +77,16 @@ def check(  # noqa: PLR0913  # the options of a command line
     tip_link: TipLinkOption = "",
     gravity: GravityOption = "",
     fail_on_findings: Annotated[
-        bool, typer.Option("--fail-on-findings", help="End with 1 where something looks like a mistake.")
+        bool, typer.Option("--fail-on-findings", help="Exit with code 1 if there are warnings.")
     ] = False,
     url: UrlOption = "",
     key: KeyOption = "",
 ) -> None:
-    """Check a description: what cannot be used is an error, what is rarely meant is told with its numbers."""
+    """Check a description: invalid values are errors, implausible values are warnings."""
     with bench(url, key) as one:
         seen = one.robot(robot, part_of(base_link, tip_link, gravity))
-    say(f"{seen['name']}: {seen['joints']} joints; it can be used")
-    _tell_suspicions(seen)
+    say(f"{seen['name']}: {seen['joints']} joints; valid")
+    _print_warnings(seen)
     if fail_on_findings and seen["suspicions"]:
         raise typer.Exit(Exit.FOUND)
 
@@ -105,7 +105,7 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
     key: KeyOption = "",
     json: JsonOption = False,
 ) -> None:
-    """List the combinations of parameters that a motion of the robot can tell apart, with their groupings."""
+    """List the base parameters of a robot with their groupings."""
     with bench(url, key) as one:
         document = one.base_parameters(robot, part_of(base_link, tip_link, gravity))
     if json:
@@ -140,9 +140,9 @@ def _print_joints(rows: list[dict[str, Any]]) -> None:
     print_table(out(), columns)
 
 
-def _tell_suspicions(seen: dict[str, Any]) -> None:
-    for one in seen["suspicions"]:
-        say(f"rarely meant: {one}")
+def _print_warnings(seen: dict[str, Any]) -> None:
+    for suspicion in seen["suspicions"]:
+        say(f"warning: {suspicion}")
 
 
 def _listed(values: list[float]) -> str:

@@ -46,16 +46,16 @@ def serve(
     port: Annotated[int, typer.Option(envvar=PREFIX + "PORT", help="Port to listen on.")] = DEFAULTS.port,
     data_dir: Annotated[
         Path,
-        typer.Option(envvar=PREFIX + "DATA_DIR", help="Where logs, results and compiled kernels are kept."),
+        typer.Option(envvar=PREFIX + "DATA_DIR", help="Directory of logs, results and compiled kernels."),
     ] = DEFAULTS.data_dir,
     workers: Annotated[
-        int, typer.Option(envvar=PREFIX + "WORKERS", help="Computations at the same time.")
+        int, typer.Option(envvar=PREFIX + "WORKERS", help="Number of parallel computations.")
     ] = DEFAULTS.workers,
     max_upload_bytes: Annotated[
-        int, typer.Option(envvar=PREFIX + "MAX_UPLOAD_BYTES", help="Largest log taken.")
+        int, typer.Option(envvar=PREFIX + "MAX_UPLOAD_BYTES", help="Maximum size of an uploaded log, bytes.")
     ] = DEFAULTS.max_upload_bytes,
     job_timeout_s: Annotated[
-        float, typer.Option(envvar=PREFIX + "JOB_TIMEOUT_S", help="Longest computation, s.")
+        float, typer.Option(envvar=PREFIX + "JOB_TIMEOUT_S", help="Time limit of a computation, s.")
     ] = DEFAULTS.job_timeout_s,
 ) -> None:
     """Start the service.

@@ -29,10 +29,10 @@ COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque gc --pause-s 1")
 def gc(
     pause_s: Annotated[
-        float, typer.Option(help="Between the two looks that find bytes needless, s.")
+        float, typer.Option(help="Interval between the two passes that find unreferenced files, s.")
     ] = PAUSE_S,
 ) -> None:
-    """Remove what has been kept long enough (VERITORQUE_RETENTION_DAYS), and bytes that nothing needs.
+    """Remove what has expired (VERITORQUE_RETENTION_DAYS) and unreferenced files.
 
     The service may run meanwhile; it does the same by itself every minute.
     """
@@ -43,7 +43,7 @@ def gc(
         sweep = Sweep(store)
         sweep.look()
         time.sleep(pause_s)
-        say(f"{sweep.look()} files removed that nothing needed")
+        say(f"{sweep.look()} unreferenced files removed")
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")
@@ -62,11 +62,11 @@ def restore(directory: Annotated[Path, typer.Argument(help="The directory of a b
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque doctor")
 def doctor() -> None:
-    """Examine database, files, permissions and disk, and say what to do; ends with 1 where harm is done."""
+    """Check database, files, permissions and disk, and print remedies; exits with code 1 on damage."""
     harm = False
     for finding in examine(chosen_settings()):
         harm |= finding.harm
-        word = "WRONG" if finding.harm else "note" if finding.remedy else "ok"
+        word = "ERROR" if finding.harm else "note" if finding.remedy else "ok"
         say(f"{word:6}{finding.subject}: {finding.seen}")
         if finding.remedy:
             say(f"      -> {finding.remedy}")

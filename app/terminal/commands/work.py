@@ -1,4 +1,4 @@
-"""Compute jobs beside the service, on this machine or on another one."""
+"""Run a worker that computes jobs, on this machine or another one."""
 
 from typing import Annotated
 
@@ -19,10 +19,10 @@ COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 def work(
     *,
     beside: Annotated[
-        bool, typer.Option(hidden=True, help="Say that it lives, and end with the service.")
+        bool, typer.Option(hidden=True, help="Report liveness, and end with the service.")
     ] = False,
 ) -> None:
-    """Compute jobs in this process, beside the service or on another machine.
+    """Compute jobs in this process, next to the service or on another machine.
 
     It needs the same VERITORQUE_DATABASE_URL and the same VERITORQUE_DATA_DIR as the service.
     """

@@ -63,7 +63,7 @@ def print_table(
         table.width = needed
     console.print(table, crop=False)
     left_out = [column.heading for column in columns if column not in shown]
-    notes = [caption, f"too narrow for: {', '.join(left_out)}" if left_out else ""]
+    notes = [caption, f"columns omitted: {', '.join(left_out)}" if left_out else ""]
     for note in filter(None, notes):
         console.print(Text(note, style="dim italic"))
 

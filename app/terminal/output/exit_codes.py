@@ -10,19 +10,19 @@ class Exit(IntEnum):
     """Say how a command ended."""
 
     DONE = 0
-    """It did what it was asked."""
+    """Success."""
     FOUND = 1
-    """It found what it was asked to fail on: findings, defects, or harm seen by doctor."""
+    """Findings, defects, or damage found by doctor."""
     INPUT = 2
-    """The command line, the robot, the log or an option cannot be used, or a file cannot be written."""
+    """Invalid command line, robot, log or option, or an output file that cannot be written."""
     NO_RESULT = 3
-    """The computation gave no result: the motion cannot tell, no optimum, too little time or memory."""
+    """No result: insufficient excitation, no optimum, time or memory limit."""
     NO_SERVICE = 4
-    """The service does not answer, does not let in, or is in trouble."""
+    """The service does not answer, refuses access, or fails."""
     MISTAKE = 5
-    """A mistake of ours."""
+    """Internal error."""
     INTERRUPTED = 130
-    """Ctrl-C; a job on a service is dismissed."""
+    """Interrupted by Ctrl-C; a job on a service is dismissed."""
 
 
 NO_RESULT = frozenset(

@@ -38,7 +38,7 @@ def require_folder(path: Path) -> None:
     if path.is_dir():
         raise _unwritable(path, "it is a folder")
     if not path.parent.is_dir():
-        raise _unwritable(path, "its folder is not there")
+        raise _unwritable(path, "its folder does not exist")
     if not os.access(path if path.exists() else path.parent, os.W_OK):
         raise _unwritable(path, "permission denied")
 
@@ -47,5 +47,5 @@ def _unwritable(path: Path, reason: str) -> OptionError:
     return OptionError(
         f"{path} cannot be written",
         evidence={"reason": reason},
-        remedy="name a file in a folder that is there, may be written, and has room",
+        remedy="name a file in an existing, writable folder with free space",
     )

@@ -1,4 +1,4 @@
-"""Write what a look at a log found: as lines for people and as a document for programs."""
+"""Write the check of a log as lines of text and as a document."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
@@ -14,13 +14,13 @@ SHOWN = 6
 
 
 def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
-    """Say it in lines: the file, its channels, what moved, and the defects."""
+    """Give lines of text: file, channels, ranges and defects."""
     log = seen.log
     yield f"{path.name}: {seen.format}, {len(seen.columns)} columns"
     if log is not None:
         yield (
             f"{log.samples} samples, {log.duration:.4g} s at {log.rate_hz:.4g} Hz, {log.joints} joints, "
-            f"{len(log.segments)} {'stretch' if len(log.segments) == 1 else 'stretches'} without a gap"
+            f"{len(log.segments)} {'segment' if len(log.segments) == 1 else 'segments'}"
         )
     for channel in seen.recognised:
         yield f"  {channel.name:<14}{_units(channel):<8}{_shortened(channel.columns)}"
@@ -28,7 +28,7 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
         yield f"  columns       {_shortened(seen.columns)}"
         return
     if log.ignored_columns:
-        yield f"  {'not used':<22}{_shortened(log.ignored_columns)}"
+        yield f"  {'ignored':<22}{_shortened(log.ignored_columns)}"
     yield from _reach_lines(seen.reach)
     yield f"{len(log.defects)} {'defect' if len(log.defects) == 1 else 'defects'}{':' if log.defects else ''}"
     for defect in log.defects:
@@ -37,7 +37,7 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
 
 
 def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
-    """Say it as a document."""
+    """Give the check as a document."""
     log = seen.log
     told: dict[str, Any] = {
         "name": path.name,

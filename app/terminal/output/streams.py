@@ -56,7 +56,7 @@ def complain(cause: str, evidence: Mapping[str, object], remedy: str) -> None:
     for name, value in evidence.items():
         note(f"  {name.replace('_', ' ')}: {_shown(value)}")
     if remedy:
-        note(f"  what to do: {remedy}")
+        note(f"  remedy: {remedy}")
 
 
 def _console(*, error: bool) -> "Console":

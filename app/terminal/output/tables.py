@@ -1,4 +1,4 @@
-"""Print an identification: parameters, how well each is known, errors per joint, and a verdict in words."""
+"""Print an identification: parameters with standard deviations, errors per joint, and a summary."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
@@ -15,19 +15,19 @@ FRICTION: Final = ("OFF", "FC", "FV")
 
 
 def print_result(console: Console, result: Document) -> None:
-    """Print everything that a first reader asks."""
-    friction, inertial = parted(result["base_parameters"])
+    """Print parameters, errors and the summary."""
+    friction, inertial = by_kind(result["base_parameters"])
     for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
         if part:
             print_table(console, parameter_columns(part), title=title, caption="* essential")
-    title = "Error of the predicted torque, % of its range and of its rms"
+    title = "Torque prediction error, % of range and of RMS"
     print_table(console, score_columns(result), title=title)
-    for line in verdict(result):
+    for line in summary(result):
         console.print(line)
 
 
-def parted(rows: Iterable[Document]) -> tuple[list[Document], list[Document]]:
-    """Part the parameters of friction and offsets from those of the bodies."""
+def by_kind(rows: Iterable[Document]) -> tuple[list[Document], list[Document]]:
+    """Separate parameters of friction and offsets from inertial ones."""
     rows = list(rows)
     friction = [row for row in rows if str(row["name"]).startswith(FRICTION)]
     return friction, [row for row in rows if row not in friction]
@@ -38,7 +38,7 @@ def parameter_columns(rows: Sequence[Document]) -> list[Column]:
     return [
         Column("", [f"{row['name']}{'*' if row.get('essential') else ''}" for row in rows], is_text=True),
         Column("value", [number(row["value"]) for row in rows]),
-        Column("deviation", [number(row.get("standard_deviation"), digits=2) for row in rows], spare=2),
+        Column("std. dev.", [number(row.get("standard_deviation"), digits=2) for row in rows], spare=2),
         Column("%P", [percent(row.get("relative_deviation_percent")) for row in rows]),
         Column("OLS", [number(row.get("value_ols")) for row in rows], spare=3),
         Column("unit", [str(row.get("unit", "")) for row in rows], is_text=True, spare=1),
@@ -51,19 +51,19 @@ def score_columns(result: Document) -> list[Column]:
     unseen = {row["joint"]: row for row in result.get("validation") or []}
     held_out = [unseen.get(row["joint"], {}) for row in fitted]
     errors = [
-        Column(f"{name}: {of}", [percent(row.get(f"nrmse_of_{of}_percent")) for row in rows], spare=spare)
+        Column(f"{name}: {label}", [percent(row.get(f"nrmse_of_{key}_percent")) for row in rows], spare=spare)
         for name, rows, spare in (("fitted", fitted, 2), ("held out", held_out, 0))
-        for of in ("range", "rms")
+        for key, label in (("range", "range"), ("rms", "RMS"))
     ]
     return [
         Column("joint", [str(row["joint"]) for row in fitted]),
-        effort_column(result, "rms", fitted, "rms_torque", spare=1),
+        effort_column(result, "RMS", fitted, "rms_torque", spare=1),
         *errors,
     ]
 
 
 def effort_column(result: Document, heading: str, rows: Sequence[Document], key: str, spare: int) -> Column:
-    """Give torques of joints; where others slide, whose forces stand beside them, every row has its unit."""
+    """Give the column of joint torques; with prismatic joints among them, every row states its unit."""
     numbers = [number(row.get(key)) for row in rows]
     units = [unit_of_effort(result, row["joint"]) for row in rows]
     if len(set(units)) == 1:
@@ -72,19 +72,19 @@ def effort_column(result: Document, heading: str, rows: Sequence[Document], key:
     return Column(heading, told, spare=spare)
 
 
-def verdict(result: Document) -> list[str]:
-    """Sum up in a few sentences: how many parameters, whether the robot can exist, what to look at twice."""
+def summary(result: Document) -> list[str]:
+    """Summarise parameter counts, physical consistency and solver status, and list the warnings."""
     counts, feasibility, solver = result["counts"], result["feasibility"], result["solver"]
     smallest = min(feasibility["pseudo_inertia_min_eigenvalue"])
     objective, least = number(solver["objective"]), number(solver["objective_ols"])
     steps = " -> ".join(f"{counts[kind]} {kind}" for kind in ("standard", "base", "essential"))
     lines = [
         f"Parameters: {steps}.",
-        f"Least squares: {existence(feasibility.get('ols_feasible'))}.",
-        f"Semidefinite programme: {existence(smallest > 0.0)}.",
+        f"Least squares: {consistency(feasibility.get('ols_feasible'))}.",
+        f"Semidefinite programme: {consistency(smallest > 0.0)}.",
         f"Smallest eigenvalue of a link's pseudo-inertia: {smallest:.2g}.",
         f"Solver: {solver['status']}, {solver['iterations']} iterations.",
-        f"Price of existence: objective {objective} beside {least} of least squares.",
+        f"Cost of the consistency constraint: objective {objective}, least squares {least}.",
     ]
     workspace = feasibility.get("mass_matrix_min_eigenvalue") or {}
     if "workspace" in workspace:
@@ -92,14 +92,14 @@ def verdict(result: Document) -> list[str]:
             f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
             f"configurations: {number(workspace['workspace'])}."
         )
-    return lines + [f"Look at this twice: {escape(doubt)}" for doubt in result.get("doubts", [])]
+    return lines + [f"Warning: {escape(doubt)}" for doubt in result.get("doubts", [])]
 
 
-def existence(feasible: bool | None) -> str:  # noqa: FBT001  (three-valued answer, printed)
-    """Say whether a robot can exist, as far as the document tells."""
+def consistency(feasible: bool | None) -> str:  # noqa: FBT001  (three-valued answer, printed)
+    """Describe the physical consistency of a robot; None means unknown."""
     if feasible is None:
-        return "not told whether such a robot can exist"
-    return "[green]a robot that can exist[/]" if feasible else "[red]a robot that cannot exist[/]"
+        return "physical consistency unknown"
+    return "[green]physically consistent[/]" if feasible else "[red]physically inconsistent[/]"
 
 
 def number(value: float | None, *, digits: int = 4) -> str:
@@ -114,7 +114,7 @@ def number(value: float | None, *, digits: int = 4) -> str:
 
 
 def percent(value: float | None) -> str:
-    """Write a percentage as far as it says anything."""
+    """Write a percentage with two decimals; large values without or as a bound."""
     if value is None:
         return ""
     return "> 999" if value > 999.0 else f"{value:.2f}" if value < 100.0 else f"{value:.0f}"

@@ -49,7 +49,7 @@ def test_defects_are_told_and_fail_only_where_that_is_asked_for(tmp_path):
     assert ended.exit_code == Exit.DONE
     kinds = {line.split()[0] for line in ended.stdout.partition("defects:")[2].splitlines() if line}
     assert {"gap", "outliers", "repeated_rows"} <= kinds
-    assert "3 stretches" in ended.stdout  # the recorder copied a row while the robot moved on
+    assert "3 segments" in ended.stdout  # the recorder copied a row while the robot moved on
     assert run("logs", "check", path, "--fail-on-defects").exit_code == Exit.FOUND
     assert {
         one["kind"] for one in json.loads(run("logs", "check", path, "--json").stdout)["defects"]
@@ -98,7 +98,7 @@ def test_what_is_no_log_says_so(tmp_path):
     (tmp_path / "page.csv").write_text("<html>")
     for name in ("page.csv", "absent.csv"):
         refused = run("logs", "check", str(tmp_path / name))
-        assert (refused.exit_code, "what to do:" in refused.stderr) == (Exit.INPUT, True)
+        assert (refused.exit_code, "remedy:" in refused.stderr) == (Exit.INPUT, True)
 
 
 def test_a_look_loads_no_solver_and_no_service(tmp_path):
@@ -159,7 +159,7 @@ def test_what_is_wrong_is_told_by_cause_evidence_and_remedy(tmp_path, fault):
     (names, change), evidence, remedy = FAULTS[fault]
     refused = run("logs", "check", written(tmp_path / "faulty.csv", names, change=change))
     assert refused.exit_code == Exit.INPUT
-    said, told = refused.stderr.split("  what to do: ")
+    said, told = refused.stderr.split("  remedy: ")
     assert said.startswith("error: ")
     assert "log: faulty.csv" in said
     assert evidence in said
@@ -230,8 +230,8 @@ def test_a_table_that_is_written_otherwise_says_how(tmp_path, fault):
     change, cause, remedy = TEXTS[fault]
     refused = run("logs", "check", text_of(tmp_path / "odd.csv", change))
     assert refused.exit_code == Exit.INPUT
-    assert cause in refused.stderr.partition("  what to do: ")[0]
-    assert remedy in refused.stderr.partition("  what to do: ")[2]
+    assert cause in refused.stderr.partition("  remedy: ")[0]
+    assert remedy in refused.stderr.partition("  remedy: ")[2]
 
 
 @pytest.mark.parametrize("sign", [";", "\t"])

@@ -71,9 +71,9 @@ def test_headings_are_folded_before_a_column_is_left_out_and_the_column_that_is_
     widths = {width: drawn(width, *FOUR) for width in range(60, 5, -1)}
     assert "held out range" in widths[60]
     folded = next(text for text in widths.values() if "held out range" not in text)
-    assert "too narrow" not in folded
-    first = next(text for text in widths.values() if "too narrow" in text)
-    assert first.endswith("too narrow for: seen\n")
+    assert "columns omitted" not in folded
+    first = next(text for text in widths.values() if "columns omitted" in text)
+    assert first.endswith("columns omitted: seen\n")
     for width, text in widths.items():
         assert {"1", "2", "shoulder", "é[red]"} <= set(text.split())
         rows = [line for line in text.splitlines() if "shoulder" in line]

@@ -1,13 +1,13 @@
-// Every file of a result with what it is, and how to do it all again from a shell.
+// List the files of a result and the shell commands that reproduce it.
 import { follow } from "./api.js";
 import { element, fill } from "./dom.js";
 
 const FILES = [
-  ["report", "The report: one page that opens offline, prints, and can be passed on"],
-  ["results", "The whole result as JSON: every number of this page"],
+  ["report", "Report: one HTML file that opens offline and prints"],
+  ["results", "Result document (JSON) with every number of this page"],
   ["results/parameters.csv", "Base parameters with standard deviations and %P"],
   ["results/standard_parameters.csv", "Standard parameters: one feasible representative"],
-  ["results/residuals.parquet", "Motion, torque and residual of every joint at every kept instant"],
+  ["results/residuals.parquet", "Motion, torque and residual of every joint at every sample used"],
   ["results/robot.urdf", "URDF with the identified bodies"],
   ["results/robot.xml", "MJCF, for MuJoCo"],
   ["results/robot.sdf", "SDFormat, for Gazebo"],
@@ -18,7 +18,7 @@ const FILES = [
 ];
 
 /** Show the files and the commands. */
-export function showTakeaway(container, { job }) {
+export function showExport(container, { job }) {
   const here = location.origin;
   const body = { kind: job.kind, robot: job.robot, logs: job.logs, options: job.options };
   const commands = [
@@ -26,13 +26,13 @@ export function showTakeaway(container, { job }) {
     `curl ${here}${job.links.results}`,
   ].join("\n");
   fill(container,
-    element("p", { class: "hint" }, "Standard parameters that are identifiable only in combination stand for one robot of many with the same dynamics; every file says which."),
+    element("p", { class: "hint" }, "Standard parameters that are identifiable only in combination are one feasible representative of many with the same dynamics. Every file lists them."),
     element("ul", { class: "files" }, FILES.map(([path, title]) => {
       const name = path === "results" ? "results.json" : path === "report" ? "report.html" : path.split("/").pop();
       const link = element("a", { href: `${job.links.self}/${path}`, download: path === "report" ? null : name }, name);
       return element("li", {}, follow(link), element("span", {}, title));
     })),
-    element("h3", {}, "The same again from a shell"),
+    element("h3", {}, "Reproduce from a shell"),
     element("pre", { tabindex: "0" }, element("code", {}, commands)),
-    element("p", { class: "hint" }, "With a key: add -H 'Authorization: Bearer …'. Equal requests are answered with the job that is there already."));
+    element("p", { class: "hint" }, "With a key: add -H 'Authorization: Bearer …'. A repeated request returns the existing job."));
 }
