@@ -26,7 +26,7 @@ def run(*, quick: bool) -> list[Figure]:
     spent = processor_seconds(
         lambda: bootstrap(
             found.estimate.system,
-            found.observation.blocks,
+            tuple(block.factors for block in found.observation.blocks),
             found.observation.columns_of,
             lambda system: estimate(found.base, system, found.estimate.prior, options).base,
             block_draws(len(found.observation.blocks), draws, seed=0),

@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmarks.demo_log import demo_robot, noisy_log, truth
 from benchmarks.figures import Figure
-from veritorque.core.precision.covariance import INTERVAL_95
+from veritorque.core.precision.inference import INTERVAL_95
 from veritorque.core.study import IdentifyRequest, identify_in_full
 
 DRAWS = 200

@@ -12,7 +12,7 @@ import numpy as np
 from benchmarks.figures import Figure
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
 from veritorque.core.diagnosis.result import Finding
-from veritorque.core.extension.result import Diagnosed
+from veritorque.core.extension.result import Extension
 from veritorque.core.log.model import JointLog
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
@@ -104,7 +104,7 @@ def _gained(finding: Finding) -> str:
     return "; ".join([error, *(f"likelihood ratio {one:.0f} there" for one in compare_alternatives)])
 
 
-def _errors(found: Diagnosed) -> tuple[np.ndarray, np.ndarray]:
+def _errors(found: Extension) -> tuple[np.ndarray, np.ndarray]:
     after = found.after or found.before
     return _percents(found.before.validation), _percents(after.validation)
 

@@ -19,7 +19,8 @@ from .document.numbers import plain
 from .document.reference import reference_from_document
 from .dynamics.model import DynamicModel, standard_model
 from .errors import OptionError, SolverError, VeritorqueError
-from .estimate.measured import Measured, smoothed
+from .estimate.problem import Problem
+from .estimate.smoothing import smoothed
 from .extension.cure import (
     all_proven,
     cures,
@@ -30,17 +31,17 @@ from .extension.cure import (
 )
 from .extension.fold import folded
 from .extension.gain import JointGain, gains
-from .extension.result import Diagnosed
+from .extension.result import Extension
 from .extension.verification import proven
 from .identification.admission import admit, known_log
-from .identification.against_reference import compared
-from .identification.identify import Fitted, Fitting, Progress, fitted, identified
+from .identification.identify import Fit, Progress, fit, judge
 from .identification.options import IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
+from .identification.reference_score import score_reference
 from .identification.result import Identification
 from .log.model import JointLog
-from .reduction.base import BaseModel, base_model
-from .regressor.columns import ColumnPlan
+from .numerics.mapping import SERIAL, Mapper
+from .reduction.base import base_model
 from .regressor.observe import Observation
 from .report.traces.writing import write_traces
 from .robot.model import RobotModel
@@ -58,7 +59,8 @@ class IdentifyRequest:
     The options are those of `core.identification.options`.
 
     `reference` is the result document of the job that the option of that name means, where it means one;
-    `traces` the file to write motion, torque and residual to, where somebody wants to look at them.
+    `traces` the file to write motion, torque and residual to, where somebody wants to look at them; `mapper`
+    runs fits that do not depend on each other.
     """
 
     robot: RobotModel
@@ -66,6 +68,7 @@ class IdentifyRequest:
     options: Mapping[str, object] = field(default_factory=dict)
     reference: Mapping[str, object] | None = None
     traces: Path | None = None
+    mapper: Mapper = SERIAL
 
 
 def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
@@ -90,8 +93,8 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
     """Identify a robot and give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_options(request.options)
-    data, base = _prepared(request, options, tell)
-    return identified(request.logs, options, Fitting(data, base), tell)
+    problem = _prepared(request, options, tell)
+    return judge(request.logs, options, fit(problem, options, tell), tell, request.mapper)
 
 
 def check_reference(request: IdentifyRequest) -> None:
@@ -141,61 +144,62 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     return diagnosis_document(found, version=_version(), options=options)
 
 
-def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Diagnosed:
+def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Extension:
     """Identify, diagnose, extend and identify again; give every chapter's result."""
     tell = progress or _say_nothing
     options = parse_diagnose_options(request.options)
     reference = _earlier(request, options)
-    data, base = _prepared(request, options, tell, reference)
+    problem = _prepared(request, options, tell, reference)
     if options.reference == PRIOR:
-        reference = reference_from_prior(base)
-    before = identified(request.logs, options, Fitting(data, base), _within(tell, 0.0, 0.3))
-    question = DiagnosisProblem(data.plan, request.logs, data.held_out, options.validation.blocks, reference)
+        reference = reference_from_prior(problem.base)
+    first, last = _within(tell, 0.0, 0.3), _within(tell, 0.8, 0.15)
+    before = judge(request.logs, options, fit(problem, options, first), first, request.mapper)
+    question = DiagnosisProblem(
+        problem.plan, request.logs, problem.held_out, options.validation.blocks, reference
+    )
     found = find_causes(question, _within(tell, 0.3, 0.5))
-    plain = Fitting(data, base, prior=None if reference is None else reference.prior)
+    plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = _proven(found, options, plain, tell)
-    as_it_is = None if reference is None else compared(reference, before, data.parts(before.observation))
+    parts = before.observation.parts(problem.held_out)
+    as_it_is = None if reference is None else score_reference(reference, before, parts)
     if not cures(found):
-        return Diagnosed(before, found, None, (), None, "nothing joined the model", as_it_is)
+        return Extension(before, found, None, (), None, "nothing joined the model", as_it_is)
     try:
-        joined, fit = proof or (_extended(found, plain), None)
-        after = identified(request.logs, options, joined, _within(tell, 0.8, 0.15), fit)
+        extended = proof or fit(_extended(found, plain), options, last)
+        after = judge(request.logs, options, extended, last, request.mapper)
     except SolverError as error:  # what was found stands, whether or not the cure can be computed
         note = f"the extended model could not be identified: {error.cause}"
-        return Diagnosed(before, found, None, (), None, note, as_it_is)
+        return Extension(before, found, None, (), None, note, as_it_is)
     tell("simulate", 0.95)
-    held = data.parts(before.observation)[1]
     old = before.estimate if as_it_is is None else as_it_is
-    gained = gains((before.observation, old.base), (after.observation, after.estimate.base), held)
-    motion, note = _motion((base.model, old.standard), after, found, data)
-    return Diagnosed(before, found, after, gained, motion, note, as_it_is)
+    gained = gains((before.observation, old.base), (after.observation, after.estimate.base), parts[1])
+    motion, note = _motion((problem.base.model, old.standard), after, found, problem)
+    return Extension(before, found, after, gained, motion, note, as_it_is)
 
 
-def _extended(found: Diagnosis, fitting: Fitting) -> Fitting:
+def _extended(found: Diagnosis, problem: Problem) -> Problem:
     """Let the causes whose gain is beyond doubt join the model."""
-    whole = extended_base(fitting.base, cures(found))
-    plan = ColumnPlan(whole.model, whole.kept)
-    return replace(fitting, data=replace(fitting.data, plan=plan), base=whole, sizes=sizes(found))
+    return replace(problem, base=extended_base(problem.base, cures(found)), sizes=sizes(found))
 
 
 def _proven(
-    found: Diagnosis, options: IdentifyOptions, fitting: Fitting, tell: Progress
-) -> tuple[Diagnosis, tuple[Fitting, Fitted] | None]:
+    found: Diagnosis, options: IdentifyOptions, problem: Problem, tell: Progress
+) -> tuple[Diagnosis, Fit | None]:
     """Identify again with causes whose gain the search leaves in doubt; give the last such fit if any."""
 
     @cache
     def observed() -> Observation:
-        whole = _extended(all_proven(found), fitting)
-        return whole.data.observed(lambda _done: tell("verify", 0.78))
+        whole = _extended(all_proven(found), problem)
+        return whole.observed(lambda _done: tell("verify", 0.78))
 
-    def tried(trial: Diagnosis) -> tuple[Fitting, Fitted]:
-        joined = _extended(trial, fitting)
-        seen = observed().over(joined.data.plan, places_among_all(trial, fitting.base))
-        return joined, fitted(options, joined, lambda _stage, _done: tell("verify", 0.78), seen)
+    def tried(trial: Diagnosis) -> Fit:
+        joined = _extended(trial, problem)
+        seen = observed().over(joined.plan, places_among_all(trial, problem.base))
+        return fit(joined, options, lambda _stage, _done: tell("verify", 0.78), seen)
 
-    def gained(*fits: tuple[Fitting, Fitted]) -> tuple[JointGain, ...]:
-        now, then = ((one.observation, one.estimate.base) for _, one in fits)
-        return gains(now, then, fitting.data.parts(now[0])[1])
+    def gained(*fits: Fit) -> tuple[JointGain, ...]:
+        now, then = ((one.observation, one.estimate.base) for one in fits)
+        return gains(now, then, now[0].parts(problem.held_out)[1])
 
     return proven(found, tried, gained)
 
@@ -205,19 +209,19 @@ def _within(tell: Progress, begin: float, share: float) -> Progress:
 
 
 def _motion(
-    before: tuple[DynamicModel, Parameters], after: Identification, found: Diagnosis, data: Measured
+    before: tuple[DynamicModel, Parameters], after: Identification, found: Diagnosis, problem: Problem
 ) -> tuple[Comparison | None, str]:
     """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
     try:
         old, new = (mechanism_of(*one) for one in (before, folded(after.base.model, after.estimate.standard)))
-        return compare(old, new, data.motions, chosen=data.held_out or None), taken_along(found)
+        return compare(old, new, problem.motions, chosen=problem.held_out or None), taken_along(found)
     except VeritorqueError as error:
         return None, str(error)
 
 
 def _prepared(
     request: IdentifyRequest, options: IdentifyOptions, tell: Progress, reference: Reference | None = None
-) -> tuple[Measured, BaseModel]:
+) -> Problem:
     """Condition the logs, set blocks aside, and group the model's parameters; a reference has its own."""
     tell("condition", 0.02)
     model = standard_model(request.robot, options.terms) if reference is None else reference.base.model
@@ -227,7 +231,7 @@ def _prepared(
     if reference is None and options.smooth_coulomb:
         model = smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
     base = base_model(model) if reference is None else reference.base
-    return Measured(ColumnPlan(model, base.kept), motions, held_out), base
+    return Problem(base, motions, held_out)
 
 
 def base_parameters(robot: RobotModel) -> dict[str, object]:

@@ -9,8 +9,8 @@ from typing import cast
 from ..diagnosis.diagnose import UNEXPLAINED_SHARE
 from ..extension.gain import JointGain, motion_intervals
 from ..extension.repair import repairs
-from ..extension.result import Diagnosed
-from ..identification.against_reference import Compared
+from ..extension.result import Extension
+from ..identification.reference_score import ReferenceScore
 from ..identification.result import Identification
 from ..simulation.multistep import Comparison, MultiStep
 from .finding import finding_row, not_identifiable_row
@@ -22,14 +22,14 @@ from .remainder import dependence_rows, spectrum_rows, unexplained
 from .repairs import repaired_description
 
 
-def diagnosis_document(found: Diagnosed, *, version: str, options: object) -> dict[str, object]:
+def diagnosis_document(found: Extension, *, version: str, options: object) -> dict[str, object]:
     """Compose the document; what is said of the robot in it is of the model as it was before the cure."""
     document = identification_document(found.before, version=version, options=options)
     doubted = {"doubts": [*cast("list[str]", document["doubts"]), *_doubts(found.compared)]}
     return document | doubted | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}
 
 
-def _diagnosis(found: Diagnosed) -> dict[str, object]:
+def _diagnosis(found: Extension) -> dict[str, object]:
     diagnosis = found.diagnosis
     listed = repairs(diagnosis)
     return {
@@ -73,7 +73,7 @@ def _gain(gain: JointGain) -> dict[str, object]:
     }
 
 
-def _reference(compared: Compared, found: Identification) -> dict[str, object]:
+def _reference(compared: ReferenceScore, found: Identification) -> dict[str, object]:
     """Say what the logs were compared with, and where it and what was identified anew disagree."""
     return {
         "name": compared.reference.name,
@@ -86,7 +86,7 @@ def _reference(compared: Compared, found: Identification) -> dict[str, object]:
     }
 
 
-def _doubts(compared: Compared | None) -> list[str]:
+def _doubts(compared: ReferenceScore | None) -> list[str]:
     if compared is None or not compared.worse_than_nothing:
         return []
     joints = ", ".join(map(str, compared.worse_than_nothing))
@@ -97,7 +97,7 @@ def _doubts(compared: Compared | None) -> list[str]:
     return [sentence]
 
 
-def _side(found: Identification | Compared) -> dict[str, object]:
+def _side(found: Identification | ReferenceScore) -> dict[str, object]:
     return {
         "fit": found.fit,
         "fit_total_percent": found.fit_total_percent,

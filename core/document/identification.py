@@ -12,7 +12,7 @@ from ..identification.doubts import doubts
 from ..identification.result import Identification
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import interval_95
-from ..precision.covariance import INTERVAL_95, relative_deviation_percent
+from ..precision.inference import INTERVAL_95, relative_deviation_percent
 from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..robot.writing import to_description

@@ -79,7 +79,7 @@ def estimate(
     if essential is not None:
         system = _restricted(system, essential)
     unconstrained = system.solved()
-    if options.estimator != "sdp":
+    if not options.method.feasible:
         return Estimate(
             unconstrained, nearest(base, unconstrained, prior), unconstrained, system, prior, None
         )

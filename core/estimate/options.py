@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 from ..errors import OptionError
 from .constraints import Bounds
+from .methods.method import Estimator
+from .methods.registry import ESTIMATORS
 
-ESTIMATORS = ("sdp", "ols", "wls", "irls")
 SOLVERS = ("clarabel", "cvxpy")
 PULL = 0.02
 """Weight of the pull towards the prior, in units of chi^2 per squared scale.
@@ -25,8 +26,7 @@ class EstimateOptions:
     Attributes
     ----------
     estimator
-        ``sdp`` feasible and weighted; ``ols`` plain; ``wls`` weighted per joint; ``irls`` weighted per joint
-        and row (Huber).
+        One of the registry's names.
     solver
         ``clarabel`` called directly, or ``cvxpy``.
     robust
@@ -41,6 +41,11 @@ class EstimateOptions:
     pull: float = PULL
     entropy: float = 0.0
     bounds: Bounds = field(default_factory=Bounds)
+
+    @property
+    def method(self) -> Estimator:
+        """Give the estimator of that name."""
+        return ESTIMATORS[self.estimator]
 
     def __post_init__(self) -> None:
         """Refuse unknown names and impossible weights."""
@@ -58,8 +63,8 @@ class EstimateOptions:
         without_effect = [
             name
             for name, asked in (("bounds", self.bounds != Bounds()), ("entropy", self.entropy > 0.0))
-            if asked and self.estimator != "sdp"
-        ] + (["robust"] if self.robust and self.estimator == "ols" else [])
+            if asked and not self.method.feasible
+        ] + (["robust"] if self.robust and not self.method.weighted else [])
         if without_effect:
             raise OptionError(
                 f"{' and '.join(without_effect)} would have no effect on this estimator",

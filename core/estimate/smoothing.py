@@ -5,21 +5,24 @@ taken. All candidates ride along as extra columns in one pass over the data, so 
 visit.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
-from ..arrays import Indices, JointVector, Series
+from ..arrays import BlockKey, Indices, JointVector, Series
 from ..dynamics.model import DynamicModel
 from ..dynamics.term import Entry, Term
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
+from ..reduction.base import base_model
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor
-from ..regressor.observe import Observation
+from ..regressor.observe import Observation, observe
 from ..robot.model import RobotModel
 from ..robot.parameters import Parameter
+from ..signals.condition import Motion
 from ..signals.state import MotionState
 
 SHARES = (0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4)
@@ -59,6 +62,20 @@ class _Candidate:
             for place, (_, column) in enumerate(self.term.entries(robot))
             if symbols[column] in DIRECTIONAL
         ]
+
+
+def smoothed(
+    model: DynamicModel,
+    motions: tuple[Motion, ...],
+    held_out: frozenset[BlockKey],
+    progress: Callable[[float], None],
+) -> DynamicModel:
+    """Give the model with the widths of its smoothed Coulomb friction chosen from the motion."""
+    fitted = {(log, block) for log, motion in enumerate(motions) for block in range(motion.blocks)} - held_out
+    speed = np.max([motions[log].recipe.rms_speed for log in sorted({log for log, _ in fitted})], axis=0)
+    plan = scan_plan(with_candidates(model, speed), base_model(model).kept)
+    observation = observe(plan, motions, held_out=held_out, progress=progress)
+    return chosen_widths(observation, model, speed, observation.parts(held_out)[0])
 
 
 def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 
 from ..diagnosis.result import Diagnosis
-from ..identification.against_reference import Compared
+from ..identification.reference_score import ReferenceScore
 from ..identification.result import Identification
 from ..simulation.multistep import Comparison
 from .gain import JointGain
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosed:
+class Extension:
     """Hold everything that a diagnosis job found out.
 
     Attributes
@@ -36,4 +36,4 @@ class Diagnosed:
     gains: tuple[JointGain, ...]
     motion: Comparison | None
     motion_note: str
-    compared: Compared | None = None
+    compared: ReferenceScore | None = None

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from ..dynamics.model import DynamicModel
 from ..errors import OptionError, VeritorqueError
 from ..estimate.constraints import check_links
+from ..estimate.methods.method import Estimator
+from ..estimate.methods.registry import ESTIMATORS
 from ..log.model import JointLog
 from ..signals.condition import check_currents
 from ..signals.several import check_different
@@ -50,7 +52,7 @@ def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog
     Raises
     ------
     OptionError
-        If a cut-off, a held-out log or a bound does not fit them.
+        If a cut-off, a held-out log, a bound or the estimator does not fit them.
     LogError
         If a log is given twice, or holds currents and the robot does not say what torque a current gives.
     """
@@ -62,10 +64,23 @@ def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog
         try:
             options.filter.check_log(log.rate_hz, log.duration)
             _check_instants(options, log)
+            _check_channels(options.estimate.method, log)
             check_currents(model.robot, log.channels, log.name)
         except VeritorqueError as error:
             error.evidence.setdefault("log", log.name)
             raise
+
+
+def _check_channels(estimator: Estimator, log: KnownLog) -> None:
+    """Refuse an estimator that needs channels which the log does not have."""
+    missing = [channel for channel in estimator.needs if channel not in log.channels]
+    if missing:
+        others = [name for name, other in ESTIMATORS.items() if set(other.needs) <= set(log.channels)]
+        raise OptionError(
+            f"the estimator {estimator.name} needs channels that the log does not have",
+            evidence={"missing": missing, "channels": list(log.channels)},
+            remedy=f"log {', '.join(missing)}, or ask for one that does without: {', '.join(others)}",
+        )
 
 
 def _check_instants(options: IdentifyOptions, log: KnownLog) -> None:

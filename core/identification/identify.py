@@ -1,20 +1,22 @@
 """Fit one model to measured motion, and judge the fit by every measure there is."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
-from ..estimate.constraints import Prior, default_prior
+from ..arrays import BaseParameters
+from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
 from ..estimate.gaussian_prior import GaussianPrior
-from ..estimate.measured import Measured, weighted_system
+from ..estimate.methods.method import Step
+from ..estimate.problem import ObservedProblem, Problem
 from ..estimate.system import System
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
+from ..numerics.mapping import SERIAL, Mapper
 from ..precision.bootstrap import bootstrap
-from ..precision.covariance import assess
 from ..precision.essential import essential_parameters
-from ..reduction.base import BaseModel
+from ..precision.inference import infer
 from ..regressor.observe import Observation, torque_scales
 from ..validation.excitation import excitation
 from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
@@ -26,97 +28,77 @@ Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True, eq=False)
-class Fitting:
-    """Hold a model to be fitted: the data, its base parameters, and what is known otherwise.
+class Fit:
+    """Hold the solution of a problem.
 
     Attributes
     ----------
-    sizes
-        By name, what counts as one unit of deviation of parameters that the standard model has not.
-    prior
-        Normal prior of the base parameters; None for none.
+    observation
+        The equations of all blocks, rows as they were measured.
+    step
+        The equations that were solved.
     """
 
-    data: Measured
-    base: BaseModel
-    sizes: Mapping[str, float] = field(default_factory=dict)
-    prior: GaussianPrior | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Fitted:
-    """Hold an estimate and the equations it was made from, rows weighed as the fit weighed them (`used`)."""
-
+    problem: Problem
     observation: Observation
-    used: Observation
-    system: System
-    prior: Prior
+    step: Step
     estimate: Estimate
 
 
-def fitted(
-    options: IdentifyOptions, fitting: Fitting, tell: Progress, observation: Observation | None = None
-) -> Fitted:
-    """Fit one model to the data, or to what was observed of them already."""
-    data, base = fitting.data, fitting.base
+def fit(
+    problem: Problem, options: IdentifyOptions, tell: Progress, observation: Observation | None = None
+) -> Fit:
+    """Fit one model to the motions, or to what was observed of them already."""
     if observation is None:
-        observation = data.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
+        observation = problem.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
-    used, system = weighted_system(data, observation, options.estimate)
-    system = _informed(system, fitting.prior)
-    parts = data.parts(observation)[0]
-    prior = default_prior(base.model, torque_scales(observation, parts), fitting.sizes)
-    return Fitted(observation, used, system, prior, estimate(base, system, prior, options.estimate))
+    data = ObservedProblem(problem, observation, options.estimate.robust)
+    data.check_excitation()
+    step = options.estimate.method.equations(None, data)
+    step = replace(step, system=_informed(step.system, problem.prior))
+    prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
+    return Fit(problem, observation, step, estimate(problem.base, step.system, prior, options.estimate))
 
 
-def identified(
+def judge(
     logs: tuple[JointLog, ...],
     options: IdentifyOptions,
-    fitting: Fitting,
+    found: Fit,
     tell: Progress,
-    found: Fitted | None = None,
+    mapper: Mapper = SERIAL,
 ) -> Identification:
-    """Fit one model, unless that was done already, and judge it."""
-    data, base, model = fitting.data, fitting.base, fitting.base.model
-    found = fitted(options, fitting, tell) if found is None else found
-    observation, used, system, prior = found.observation, found.used, found.system, found.prior
-    answer, parts = found.estimate, data.parts(observation)
+    """Judge a fit: how well every parameter is known, and how well held-out blocks are predicted."""
+    problem, observation, answer = found.problem, found.observation, found.estimate
+    system, data, prior = found.step.system, found.step.data, answer.prior
+    base, model = problem.base, problem.base.model
+    fitted, held = observation.parts(problem.held_out)
     tell("assess", 0.7)
-    known = None if fitting.prior is None else fitting.prior.rows
-    precision = assess(system, used.memory, used.columns_of, answer.base, known=known)
+    precision = infer(system, data.memory, data.columns_of, answer.base, prior=problem.prior)
     essential = essential_parameters(system, precision)
-    if options.essential:
-        answer = estimate(base, system, prior, options.estimate, essential=essential.kept)
-    blocks = tuple(used.blocks[place] for place in parts[0])
-    draws = bootstrap(
-        system,
-        blocks,
-        used.columns_of,
-        lambda drawn: (
-            estimate(
-                base,
-                _informed(drawn, fitting.prior),
-                prior,
-                options.estimate,
-                essential=essential.kept if options.essential else None,
-            ).base
-        ),
-        block_draws(len(blocks), options.bootstrap.draws, options.bootstrap.seed),
-    )
+    kept = essential.kept if options.essential else None
+    if kept is not None:
+        answer = estimate(base, system, prior, options.estimate, essential=kept)
+
+    def solve(drawn: System) -> BaseParameters:
+        informed = _informed(drawn, problem.prior)
+        return estimate(base, informed, prior, options.estimate, essential=kept).base
+
+    drawn = block_draws(len(fitted), options.bootstrap.draws, options.bootstrap.seed)
+    draws = bootstrap(system, data.block_factors, data.columns_of, solve, drawn, mapper)
     tell("validate", 0.9)
     return Identification(
         logs=logs,
-        motions=data.motions,
+        motions=problem.motions,
         base=base,
         observation=observation,
         estimate=answer,
         precision=precision,
         essential=essential,
         draws=draws,
-        fit=scores(observation, parts[0], answer.base),
-        fit_total_percent=total_percent(observation, parts[0], answer.base),
-        validation=scores(observation, parts[1], answer.base) if parts[1] else (),
-        validation_total_percent=total_percent(observation, parts[1], answer.base) if parts[1] else 0.0,
+        fit=scores(observation, fitted, answer.base),
+        fit_total_percent=total_percent(observation, fitted, answer.base),
+        validation=scores(observation, held, answer.base) if held else (),
+        validation_total_percent=total_percent(observation, held, answer.base) if held else 0.0,
         excitation=excitation(system.triangle),
         unconstrained_feasibility=feasibility(base, answer.unconstrained, prior),
         estimate_feasibility=feasibility(base, base.base_of(answer.standard), prior),
@@ -126,7 +108,7 @@ def identified(
         workspace=check_mass_matrix(model, answer.standard, workspace(model.robot)),
         widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]  # Coulomb friction alone has them
         seed=options.bootstrap.seed,
-        held_out=data.held_out,
+        held_out=problem.held_out,
     )
 
 

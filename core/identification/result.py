@@ -6,8 +6,8 @@ from ..arrays import BlockKey, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
 from ..log.model import JointLog
-from ..precision.covariance import Precision
 from ..precision.essential import Essential
+from ..precision.inference import Inference
 from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..signals.condition import Motion
@@ -25,7 +25,7 @@ class Identification:
     base: BaseModel
     observation: Observation
     estimate: Estimate
-    precision: Precision
+    precision: Inference
     essential: Essential
     draws: Matrix
     fit: tuple[JointScore, ...]

@@ -1,1 +1,1 @@
-"""Tell how well each number is known: in come an `Observation` and an estimate, out goes a `Precision`."""
+"""Tell how well each number is known: in come an `Observation` and an estimate, out goes an `Inference`."""

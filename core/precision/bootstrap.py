@@ -13,12 +13,11 @@ from ..errors import SolverError
 from ..estimate.system import System
 from ..numerics.mapping import SERIAL, Mapper
 from ..regressor.factor import Factor
-from ..regressor.observe import Block
 
 
 def bootstrap(
     system: System,
-    blocks: tuple[Block, ...],
+    blocks: tuple[tuple[Factor, ...], ...],
     columns_of: tuple[Indices, ...],
     solve: Callable[[System], BaseParameters],
     drawn: BlockDraws,
@@ -31,7 +30,7 @@ def bootstrap(
     system
         The weighted equations; its noise weighs the draws too.
     blocks
-        The fitted blocks.
+        Per fitted block, one factor per joint.
     solve
         Fits a system.
     drawn
@@ -57,11 +56,13 @@ def bootstrap(
     return np.array(solved).reshape(len(solved), system.triangle.shape[1])
 
 
-def _products(blocks: tuple[Block, ...], columns_of: tuple[Indices, ...], system: System) -> np.ndarray:
+def _products(
+    blocks: tuple[tuple[Factor, ...], ...], columns_of: tuple[Indices, ...], system: System
+) -> np.ndarray:
     size = system.triangle.shape[1] + 1
     products = np.zeros((len(blocks), size, size))
     for total, block in zip(products, blocks, strict=True):
-        for factor, columns, noise in zip(block.factors, columns_of, system.noise, strict=True):
+        for factor, columns, noise in zip(block, columns_of, system.noise, strict=True):
             place = np.append(columns, size - 1)
             total[np.ix_(place, place)] += factor.triangle.T @ factor.triangle / noise**2
     return products

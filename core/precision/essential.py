@@ -13,7 +13,7 @@ from scipy.linalg import solve_triangular
 
 from ..arrays import Indices, SquareMatrix, Vector
 from ..estimate.system import System, column_scale
-from .covariance import INTERVAL_95, Precision, subset
+from .inference import INTERVAL_95, Inference, subset
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Essential:
     path: tuple[Elimination, ...]
 
 
-def essential_parameters(system: System, precision: Precision) -> Essential:
+def essential_parameters(system: System, precision: Inference) -> Essential:
     """Eliminate base parameters from the weakest on."""
     kept, path = _without_open(system, precision)
     fit = _Fit.of(system, subset(precision, kept, system.triangle), kept)
@@ -51,7 +51,7 @@ def essential_parameters(system: System, precision: Precision) -> Essential:
     return Essential(fit.kept, tuple(path))
 
 
-def _without_open(system: System, precision: Precision) -> tuple[Indices, list[Elimination]]:
+def _without_open(system: System, precision: Inference) -> tuple[Indices, list[Elimination]]:
     """Let parameters that the motion leaves open go first, one by one: what is open changes as they leave."""
     kept, path = np.arange(system.triangle.shape[1]), list[Elimination]()
     while len(kept) > 1:
@@ -85,13 +85,13 @@ class _Fit:
     cost: float
 
     @classmethod
-    def of(cls, system: System, precision: Precision, kept: Indices) -> "_Fit":
+    def of(cls, system: System, precision: Inference, kept: Indices) -> "_Fit":
         columns = system.triangle[:, kept]
         scale = column_scale(columns)
         orthonormal, triangle = np.linalg.qr(columns / scale)
         root = solve_triangular(triangle, np.eye(len(kept)))
         inverse = root @ root.T
-        covariance = inverse @ (precision.spread / np.outer(scale, scale)) @ inverse
+        covariance = inverse @ (precision.meat / np.outer(scale, scale)) @ inverse
         return cls(kept, root @ (orthonormal.T @ system.target), inverse, covariance, _cost(system, kept))
 
     @property

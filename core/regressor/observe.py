@@ -14,27 +14,21 @@ import numpy as np
 from ..arrays import (
     BaseParameters,
     BlockKey,
-    EquationRows,
     Indices,
     JointSeries,
     JointVector,
     Samples,
-    UsableRows,
-    Weights,
 )
+from ..errors import OptionError
 from ..signals.condition import Motion
 from ..signals.tile import Tile
 from .columns import ColumnPlan
-from .factor import Factor
+from .factor import Factor, FilteredRows, Weigh
 from .memory import LaggedProducts
 
 _POSITIONS_PER_TILE = 32
 
 Progress = Callable[[float], None]
-Rows = tuple[EquationRows, UsableRows]
-"""One joint's filtered rows [w y] of a tile, and which of them may be used."""
-Weigh = Callable[[list[Rows]], list[Weights]]
-"""Gives, per joint, the weights of a tile's rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +83,26 @@ class Observation:
             reduce(Factor.merged, (block.factors[joint] for block in picked), Factor.empty(len(columns) + 1))
             for joint, columns in enumerate(self.columns_of)
         )
+
+    def parts(self, held_out: frozenset[BlockKey]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Give the places of the fitted and of the held-out blocks.
+
+        Raises
+        ------
+        OptionError
+            If blocks are held out, but none of them has an instant to judge by.
+        """
+        fitted: list[int] = []
+        held: list[int] = []
+        for place, block in enumerate(self.blocks):
+            (held if (block.log, block.number) in held_out else fitted).append(place)
+        if held_out and not any(factor.rows for place in held for factor in self.blocks[place].factors):
+            raise OptionError(
+                "no kept instant lies in the held-out blocks",
+                evidence={"instants kept": self.kept, "blocks held out": len(held_out)},
+                remedy="keep more instants (smaller decimation, longer log), or hold out longer blocks",
+            )
+        return tuple(fitted), tuple(held)
 
     def over(self, plan: ColumnPlan, places: Indices) -> "Observation":
         """Give the equations of a plan all of whose columns are among this one's, without another pass.
@@ -158,7 +172,7 @@ def observe(
     return Observation(plan, blocks, plan.columns_of, memory, positions, total)
 
 
-def equations(plan: ColumnPlan, tile: Tile) -> Iterator[Rows]:
+def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
     """Give, joint by joint, the filtered rows [W y] of a tile with the mask of usable ones."""
     filtered = tile.filtered(plan.series(tile.state))
     torque = tile.filtered(np.ascontiguousarray(tile.torque.T))

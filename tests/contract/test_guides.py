@@ -10,7 +10,7 @@ import pytest
 from veritorque.app.problems import KINDS, URN
 from veritorque.app.settings import PREFIX, Settings
 from veritorque.core.dynamics.model import STANDARD_TERMS
-from veritorque.core.estimate.options import ESTIMATORS
+from veritorque.core.estimate.methods.registry import ESTIMATORS
 from veritorque.core.identification.options import parse_options
 from veritorque.core.log.channels import CHANNELS, UNITS
 from veritorque.core.log.formats.content import FORMS

@@ -9,7 +9,7 @@ from tests.core.diagnosis.scenes import measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import diagnosed, hidden
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.errors import SolverError
-from veritorque.core.extension.result import Diagnosed
+from veritorque.core.extension.result import Extension
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
 
 HARMLESS, HIDDEN = measured_arm(), measured_arm(hidden)
@@ -21,7 +21,7 @@ def in_doubt(found: Diagnosis) -> Diagnosis:
     return replace(found, findings=(replace(one, gain=replace(one.gain, interval_95=(-1.0, 9.0))),))
 
 
-def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Diagnosed:
+def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Extension:
     """Diagnose a scene where the search doubts that friction of joint 2 differs between the directions."""
     monkeypatch.setattr(core.study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
     logs = (scene.dataset.motions[0].log,)

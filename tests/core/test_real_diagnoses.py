@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
-from veritorque.core.extension.result import Diagnosed
+from veritorque.core.extension.result import Extension
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
 
 UR10E_FIT = ("fourier_30s_12h", 635, 3510)
@@ -16,7 +16,7 @@ UR10E_FIT = ("fourier_30s_12h", 635, 3510)
 pytestmark = pytest.mark.slow
 
 
-def _diagnosed(robot, *logs, **validation) -> Diagnosed:
+def _diagnosed(robot, *logs, **validation) -> Extension:
     return diagnose_in_full(
         IdentifyRequest(robot, logs, {"bootstrap": {"draws": 0}, "validation": validation})
     )
@@ -26,7 +26,7 @@ def _percents(scores) -> np.ndarray:
     return np.array([one.nrmse_of_rms_percent for one in scores])
 
 
-def _found(diagnosed: Diagnosed) -> set[tuple[str, tuple[int, ...]]]:
+def _found(diagnosed: Extension) -> set[tuple[str, tuple[int, ...]]]:
     return {(one.cause, one.joints) for one in diagnosed.diagnosis.findings}
 
 
@@ -77,7 +77,7 @@ def test_what_is_found_on_a_rokae_is_real_on_blocks_that_no_fit_has_seen():
     assert after[2] < 0.9 * before[2]
 
 
-def _judge_by_what_no_fit_has_seen(diagnosed: Diagnosed) -> None:
+def _judge_by_what_no_fit_has_seen(diagnosed: Extension) -> None:
     """Hold causes to a gain on unseen rows, there or in an identification, and their cure to one in all."""
     searched = [one for one in diagnosed.diagnosis.findings if one.gain is not None]
     assert all(one.proven or one.gain.total_percent > 0.0 for one in searched)

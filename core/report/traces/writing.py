@@ -15,7 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from ...arrays import BaseParameters
-from ...extension.result import Diagnosed
+from ...extension.result import Extension
 from ...identification.result import Identification
 from ...regressor.columns import ColumnPlan
 from ...regressor.observe import compare
@@ -49,7 +49,7 @@ Rows = Mapping[str, np.ndarray]
 """Values by column."""
 
 
-def write_traces(path: Path | None, found: Identification, diagnosed: Diagnosed | None = None) -> None:
+def write_traces(path: Path | None, found: Identification, diagnosed: Extension | None = None) -> None:
     """Write the file; nothing where no path is given.
 
     Parameters
@@ -75,7 +75,7 @@ def write_traces(path: Path | None, found: Identification, diagnosed: Diagnosed 
                 writer.write_table(_table(group, schema))
 
 
-def _models(found: Identification, diagnosed: Diagnosed | None) -> tuple[_Model, ...]:
+def _models(found: Identification, diagnosed: Extension | None) -> tuple[_Model, ...]:
     if diagnosed is None or diagnosed.compared is None:
         before = _Model(found.observation.plan, found.estimate.base)
     else:

@@ -8,6 +8,8 @@ import pytest
 from tests.core.estimate.worlds import planar_robot
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import LogError, OptionError
+from veritorque.core.estimate.methods import registry
+from veritorque.core.estimate.methods.registry import ESTIMATORS
 from veritorque.core.identification.admission import KnownLog, admit
 from veritorque.core.identification.options import parse_diagnose_options, parse_options
 
@@ -53,6 +55,18 @@ def test_what_cannot_succeed_is_refused_with_the_numbers_that_show_it(options):
         judged(parse_options(options), [LOG])
     assert refusal.value.evidence
     assert refusal.value.remedy
+
+
+def test_an_estimator_that_needs_another_channel_is_refused_with_those_that_do_without(monkeypatch):
+    needy = replace(ESTIMATORS["wls"], name="needy", needs=("position_ref", "torque"))
+    monkeypatch.setattr(registry, "ESTIMATORS", ESTIMATORS | {"needy": needy})
+    monkeypatch.setattr("veritorque.core.estimate.options.ESTIMATORS", registry.ESTIMATORS)
+    asked = parse_options({"estimator": "needy"})
+    with pytest.raises(OptionError) as refusal:
+        judged(asked, [LOG])
+    assert refusal.value.evidence["missing"] == ["position_ref"]
+    assert "sdp" in refusal.value.remedy
+    judged(asked, [replace(LOG, channels=(*LOG.channels, "position_ref"))])
 
 
 def test_every_log_is_held_against_the_options():

@@ -9,7 +9,7 @@ from veritorque.core.errors import SolverError
 from veritorque.core.estimate.system import weighted
 from veritorque.core.numerics.block_bootstrap import block_draws
 from veritorque.core.precision.bootstrap import bootstrap
-from veritorque.core.precision.covariance import assess
+from veritorque.core.precision.inference import infer
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan
 from veritorque.core.regressor.observe import Observation, observe
@@ -29,8 +29,9 @@ def seen() -> Observation:
 
 def _draw(seen: Observation, seed: int, solve=lambda system: system.solved(), draws: int = 200) -> np.ndarray:
     system = weighted(seen.joint_factors(), seen.columns_of, len(seen.plan.columns))
-    drawn = block_draws(len(seen.blocks), draws, seed)
-    return bootstrap(system, seen.blocks, seen.columns_of, solve, drawn)
+    blocks = tuple(block.factors for block in seen.blocks)
+    drawn = block_draws(len(blocks), draws, seed)
+    return bootstrap(system, blocks, seen.columns_of, solve, drawn)
 
 
 def test_the_same_seed_draws_the_same_and_another_seed_does_not(seen):
@@ -40,7 +41,7 @@ def test_the_same_seed_draws_the_same_and_another_seed_does_not(seen):
 
 def test_the_spread_of_the_draws_is_that_of_the_covariance(seen):
     system = weighted(seen.joint_factors(), seen.columns_of, len(seen.plan.columns))
-    reported = assess(system, seen.memory, seen.columns_of, system.solved()).standard_deviation
+    reported = infer(system, seen.memory, seen.columns_of, system.solved()).standard_deviation
     ratio = _draw(seen, 0).std(axis=0) / reported
     # Twenty blocks tell a deviation to about a sixth, and the mean over parameters to about a twentieth.
     assert 0.7 <= np.mean(ratio) <= 1.3

@@ -6,13 +6,13 @@ import numpy as np
 
 from tests.core.estimate.worlds import planar_robot, world_of
 from veritorque.core.estimate.system import System
-from veritorque.core.precision.covariance import INTERVAL_95, Precision
 from veritorque.core.precision.essential import Essential, essential_parameters
+from veritorque.core.precision.inference import INTERVAL_95, Inference
 
 
-def _white(system: System) -> Precision:
+def _white(system: System) -> Inference:
     information = system.triangle.T @ system.triangle
-    return Precision(information, information, np.zeros(len(information)), np.ones(2))
+    return Inference(information, information, np.zeros(len(information)), np.ones(2))
 
 
 def _problem(values: np.ndarray, seed: int = 0, rows: int = 400) -> tuple[System, Essential]:
@@ -75,7 +75,7 @@ def test_of_two_that_only_act_together_the_later_leaves_and_the_other_carries_bo
     system = System(R, Q.T @ y, float(y @ y - (Q.T @ y) @ (Q.T @ y)), 400, np.ones(1))
     together = np.array([0.9, 0.4, 0.0])
     information = R.T @ R
-    essential = essential_parameters(system, Precision(information, 0.01 * information, together, np.ones(1)))
+    essential = essential_parameters(system, Inference(information, 0.01 * information, together, np.ones(1)))
     assert essential.kept.tolist() == [0, 2]
     # Nothing was lost: the noise alone is left.
     assert essential.path[-1].cost < 1.2 * 0.01 * 400

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from veritorque.core.document.reference import read_factor, written_factor
-from veritorque.core.precision.covariance import Precision
+from veritorque.core.precision.inference import Inference
 
 
-def precision(columns: int, *, excited: int) -> Precision:
+def precision(columns: int, *, excited: int) -> Inference:
     """Make W'W and W'V W of rows that leave some combinations of the columns at zero."""
     rng = np.random.default_rng(columns)
     rows = rng.normal(size=(200, excited)) @ rng.normal(size=(excited, columns))
     weights = rng.uniform(0.2, 5.0, 200)
-    return Precision(rows.T @ rows, (rows.T * weights) @ rows, np.zeros(columns), np.ones(1))
+    return Inference(rows.T @ rows, (rows.T * weights) @ rows, np.zeros(columns), np.ones(1))
 
 
 def test_rows_turn_the_covariance_into_that_of_independent_errors():

@@ -66,6 +66,31 @@ def test_weighting_all_rows_weights_the_factor(rows, weight):
     assert _same(Factor.of(rows).scaled(weight), Factor.of(rows * weight))
 
 
+GROUPS = (("instrument", 2), ("regressor", 2), ("target", 1))
+
+
+@given(_rows(), _rows())
+def test_a_further_group_of_columns_merges_alike_and_changes_no_residual(a, b):
+    rows = np.vstack([a, b])
+    factor = Factor.of(a, GROUPS).merged(Factor.of(b, GROUPS))
+    assert _same(factor, Factor.of(rows, GROUPS))
+    size = max(1.0, float(np.abs(_gram(factor)).max()))
+    instruments, regressor = (factor.columns(name) for name in ("instrument", "regressor"))
+    assert np.abs(instruments.T @ regressor - rows[:, :2].T @ rows[:, 2:4]).max() < 1e-12 * size
+    parameters = np.array([0.5, -2.0])
+    plain = Factor.of(rows[:, 2:]).residual_square(parameters)
+    assert abs(factor.residual_square(parameters) - plain) < 1e-11 * size
+
+
+@given(_rows())
+def test_the_groups_of_kept_columns_are_as_wide_as_what_is_kept_of_them(rows):
+    kept = Factor.of(rows, GROUPS).over(np.array([0, 2, 3, 4]))
+    assert kept.groups == (("instrument", 1), ("regressor", 2), ("target", 1))
+    parameters = np.array([0.5, -2.0])
+    whole = Factor.of(rows, GROUPS).residual_square(parameters)
+    assert abs(kept.residual_square(parameters) - whole) < 1e-11 * max(1.0, float((rows**2).sum()))
+
+
 def test_rows_are_not_kept_by_reference():
     rows = np.ones((2, COLUMNS))
     factor = Factor.of(rows)

@@ -2,8 +2,8 @@
 
 For independent residuals of variance sigma^2 = ||rho||^2 / (n - d) the covariance is sigma^2 (W'W)^-1 and %P
 = 100 sqrt(diag) / |chi|; the seed's equation (10) omits (W'W)^-1. Filtered samples are not independent, so
-the covariance is (W'W)^-1 W'V W (W'W)^-1 with V the residual's own autocovariance. Sources: Khalil & Dombre
-(2002), ch. 12; Newey & West 1987.
+the covariance is the sandwich (W'W)^-1 W'V W (W'W)^-1 with V the residual's own autocovariance: bread, meat,
+bread. Sources: Khalil & Dombre (2002), ch. 12; Newey & West 1987.
 """
 
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
+from ..estimate.gaussian_prior import GaussianPrior
 from ..estimate.system import System, column_scale
 from ..regressor.memory import LaggedProducts
 
@@ -20,14 +21,14 @@ INTERVAL_95 = 1.959964
 
 
 @dataclass(frozen=True, eq=False)
-class Precision:
-    """Hold how well base parameters are known.
+class Inference:
+    """Hold how well the base parameters of any estimator are known.
 
     Attributes
     ----------
     information
         W'W of the weighted equations.
-    spread
+    meat
         W'V W of the weighted equations.
     open_share
         Per parameter, the share of its unit vector that lies in directions the motion does not excite.
@@ -37,14 +38,19 @@ class Precision:
     """
 
     information: SquareMatrix
-    spread: SquareMatrix
+    meat: SquareMatrix
     open_share: Vector
     memory_factor: JointVector
 
     @property
+    def bread(self) -> SquareMatrix:
+        """Give the inverse of W'W within the excited directions."""
+        return _bread(self.information)
+
+    @property
     def covariance(self) -> SquareMatrix:
         """Give the covariance of the base parameters within the excited directions."""
-        return _sandwich(self.information, self.spread)
+        return _sandwich(self.bread, self.meat)
 
     @property
     def standard_deviation(self) -> Vector:
@@ -62,20 +68,20 @@ class Precision:
         Directions that the motion does not excite have none.
         """
         scale, values, vectors = _excited(self.information)
-        own, turned = np.linalg.eigh(vectors.T @ (self.spread / np.outer(scale, scale)) @ vectors)
+        own, turned = np.linalg.eigh(vectors.T @ (self.meat / np.outer(scale, scale)) @ vectors)
         sure = np.maximum(own, _RANK_TOLERANCE**2 * max(float(own.max(initial=0.0)), 1e-300))
         rows = (turned / np.sqrt(sure)).T * values @ vectors.T * scale
         return np.asarray(np.linalg.qr(rows, mode="r"))
 
 
-def assess(
+def infer(
     system: System,
     memory: tuple[LaggedProducts, ...],
     columns_of: tuple[Indices, ...],
     base: BaseParameters,
     *,
-    known: Matrix | None = None,
-) -> Precision:
+    prior: GaussianPrior | None = None,
+) -> Inference:
     """Judge the base parameters of a fit.
 
     Parameters
@@ -86,25 +92,27 @@ def assess(
         Per joint, the lagged products of the fitted rows.
     base
         The parameters whose residual tells the noise.
-    known
-        Equations of unit variance over the first base parameters that the system holds beside the log's.
+    prior
+        Normal prior that the system holds beside the log's equations.
     """
     information = system.triangle.T @ system.triangle
     size = len(information)
-    covariance, spread, factors = np.zeros((size, size)), np.zeros((size, size)), np.ones(len(memory))
+    bread, factors = _bread(information), np.ones(len(memory))
+    covariance, meat = np.zeros((size, size)), np.zeros((size, size))
     for _ in range(_ROUNDS):
-        spread = np.zeros((size, size))
-        if known is not None:
-            spread[: known.shape[1], : known.shape[1]] = known.T @ known
+        meat = np.zeros((size, size))
+        if prior is not None:
+            known = prior.rows.shape[1]
+            meat[:known, :known] = prior.rows.T @ prior.rows
         for joint, (products, columns, noise) in enumerate(
             zip(memory, columns_of, system.noise, strict=True)
         ):
             place = np.ix_(columns, columns)
             autocovariance = _true_autocovariance(products, base[columns], covariance[place])
-            spread[place] += products.spread(autocovariance) / noise**4
+            meat[place] += products.spread(autocovariance) / noise**4
             factors[joint] = _memory_factor(autocovariance)
-        covariance = _sandwich(information, spread)
-    return Precision(information, spread, _open_share(system.triangle), factors)
+        covariance = _sandwich(bread, meat)
+    return Inference(information, meat, _open_share(system.triangle), factors)
 
 
 def _true_autocovariance(
@@ -138,26 +146,29 @@ def relative_deviation_percent(base: BaseParameters, deviation: Vector) -> Vecto
         return np.where(base == 0.0, np.inf, 100.0 * deviation / np.abs(base))
 
 
-def subset(precision: Precision, chosen: Indices, triangle: Matrix) -> Precision:
-    """Give the precision of a model reduced to the chosen base parameters.
+def subset(precision: Inference, chosen: Indices, triangle: Matrix) -> Inference:
+    """Give the inference of a model reduced to the chosen base parameters.
 
     What the motion could not tell apart it may, once others are gone; so their `open_share` is found anew.
     """
     square = np.ix_(chosen, chosen)
     was_open = precision.open_share[chosen]
-    return Precision(
+    return Inference(
         precision.information[square],
-        precision.spread[square],
+        precision.meat[square],
         _open_share(triangle[:, chosen]) if was_open.any() else was_open,
         precision.memory_factor,
     )
 
 
-def _sandwich(information: SquareMatrix, spread: SquareMatrix) -> SquareMatrix:
-    """Give A^-1 B A^-1 within the directions in which A is not zero."""
+def _bread(information: SquareMatrix) -> SquareMatrix:
+    """Give the inverse within the directions in which the matrix is not zero."""
     scale, values, vectors = _excited(information)
-    root = vectors / values @ vectors.T / np.outer(scale, scale)
-    return np.asarray(root @ spread @ root)
+    return np.asarray(vectors / values @ vectors.T / np.outer(scale, scale))
+
+
+def _sandwich(bread: SquareMatrix, meat: SquareMatrix) -> SquareMatrix:
+    return np.asarray(bread @ meat @ bread)
 
 
 def _excited(information: SquareMatrix) -> tuple[Weights, Weights, Matrix]:

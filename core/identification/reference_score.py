@@ -1,4 +1,4 @@
-"""Let a reference predict logs as it is, so that a reader sees what the given simulation gets wrong."""
+"""Score a reference on logs as it is, so that a reader sees what the given simulation gets wrong."""
 
 from dataclasses import dataclass, replace
 
@@ -10,7 +10,7 @@ from .result import Identification
 
 
 @dataclass(frozen=True, eq=False)
-class Compared:
+class ReferenceScore:
     """Hold how well a reference predicts the logs as it is.
 
     Attributes
@@ -33,7 +33,9 @@ class Compared:
         return tuple(one.joint for one in self.validation if one.rms_residual > one.rms_torque)
 
 
-def compared(reference: Reference, found: Identification, parts: tuple[tuple[int, ...], ...]) -> Compared:
+def score_reference(
+    reference: Reference, found: Identification, parts: tuple[tuple[int, ...], ...]
+) -> ReferenceScore:
     """Score a reference on the fitted and the held-out blocks of logs that were identified anew.
 
     Parameters
@@ -45,4 +47,4 @@ def compared(reference: Reference, found: Identification, parts: tuple[tuple[int
     base = reference.completed(found.estimate.system)
     standard = nearest(found.base, base, replace(found.estimate.prior, centre=reference.standard))
     fit, held = ((scores(observation, part, base), total_percent(observation, part, base)) for part in parts)
-    return Compared(reference, base, standard, *fit, *held)
+    return ReferenceScore(reference, base, standard, *fit, *held)

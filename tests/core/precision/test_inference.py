@@ -10,7 +10,7 @@ from tests.core.estimate.worlds import log_of, planar_robot, swing, true_paramet
 from veritorque.core.document.numbers import plain
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.estimate.system import weighted
-from veritorque.core.precision.covariance import Precision, assess, relative_deviation_percent
+from veritorque.core.precision.inference import Inference, infer, relative_deviation_percent
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan
 from veritorque.core.regressor.observe import observe
@@ -37,13 +37,13 @@ class _Chain:
         self.state = swing(2, seconds=15.0)
         self.plan = ColumnPlan(self.model, self.base.kept)
 
-    def fit(self, noise: np.ndarray) -> tuple[np.ndarray, Precision, float]:
+    def fit(self, noise: np.ndarray) -> tuple[np.ndarray, Inference, float]:
         log = log_of(self.model, self.truth, self.state, noise)
         motion = condition(log, self.model.robot, FilterOptions(cutoff_hz=10.0))
         seen = observe(self.plan, (motion,))
         system = weighted(seen.joint_factors(), seen.columns_of, len(self.base.kept))
         values = system.solved()
-        precision = assess(system, seen.memory, seen.columns_of, values)
+        precision = infer(system, seen.memory, seen.columns_of, values)
         return values, precision, system.rows
 
 

@@ -1,0 +1,1 @@
+"""Turn data into the equations that are solved, by one file per estimator."""

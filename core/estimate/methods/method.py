@@ -1,0 +1,83 @@
+"""State what an estimator is: equations over the base parameters, at a robot where they depend on one.
+
+Least squares writes its equations once. A criterion on simulated motion writes them per Gauss-Newton step, a
+filter at its end. Whatever the method, its equations are solved as they are or by the semidefinite programme.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+from ...arrays import BaseParameters, Indices
+from ...regressor.factor import Factor, Weigh
+from ...regressor.memory import LaggedProducts
+from ..system import System
+
+
+@runtime_checkable
+class FitData(Protocol):
+    """Hold the equations of the fitted blocks, condensed."""
+
+    @property
+    def robust(self) -> bool:
+        """Tell whether rows that no model of this kind explains are weighted down."""
+
+    @property
+    def size(self) -> int:
+        """Count the base parameters."""
+
+    @property
+    def columns_of(self) -> tuple[Indices, ...]:
+        """Give, per joint, the base parameters that its factors run over."""
+
+    @property
+    def block_factors(self) -> tuple[tuple[Factor, ...], ...]:
+        """Give, per fitted block, one factor per joint."""
+
+    @property
+    def factors(self) -> tuple[Factor, ...]:
+        """Give, per joint, the factors of all fitted blocks merged."""
+
+    @property
+    def memory(self) -> tuple[LaggedProducts, ...]:
+        """Give, per joint, the lagged products of the fitted rows."""
+
+    def weighted(self, weigh: Weigh) -> "FitData":
+        """Pass over the motions again with every row weighted."""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Hold equations whose optimum is the next estimate.
+
+    Attributes
+    ----------
+    data
+        The data with rows weighted as in the equations: precision and bootstrap are taken from them.
+    """
+
+    system: System
+    data: FitData
+
+
+@runtime_checkable
+class Estimator(Protocol):
+    """Choose by which criterion a robot is fitted."""
+
+    @property
+    def name(self) -> str:
+        """Give the name that the option `estimator` has."""
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """List channels of the log besides position and effort, which every log has."""
+
+    @property
+    def feasible(self) -> bool:
+        """Tell whether the equations are solved under the constraints of physical consistency."""
+
+    @property
+    def weighted(self) -> bool:
+        """Tell whether rows are weighted, so that robust weights have an effect."""
+
+    def equations(self, at: BaseParameters | None, data: FitData) -> Step:
+        """Write the equations at a robot; at None before there is any."""

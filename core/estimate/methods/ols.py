@@ -1,0 +1,21 @@
+"""Fit by ordinary least squares: every row counts alike, whatever the noise of its joint."""
+
+from dataclasses import dataclass
+
+from ...arrays import BaseParameters
+from ..system import ordinary
+from .method import FitData, Step
+
+
+@dataclass(frozen=True)
+class OrdinaryLeastSquares:
+    """Stack the joints' equations as they are."""
+
+    name: str = "ols"
+    needs: tuple[str, ...] = ()
+    feasible: bool = False
+    weighted: bool = False
+
+    def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
+        """Write the equations, which are the same at any robot."""
+        return Step(ordinary(data.factors, data.columns_of, data.size), data)

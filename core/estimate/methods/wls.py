@@ -1,0 +1,27 @@
+"""Fit by weighted least squares: every joint counts by the noise of its own residual.
+
+Source: Gautier 1997 (IDIM-LS); Khalil & Dombre (2002), ch. 12.
+"""
+
+from dataclasses import dataclass
+
+from ...arrays import BaseParameters
+from ..system import weighted
+from .irls import huber_equations
+from .method import FitData, Step
+
+
+@dataclass(frozen=True)
+class WeightedLeastSquares:
+    """Weight the equations per joint, and per row where a robust fit is asked for."""
+
+    name: str = "wls"
+    needs: tuple[str, ...] = ()
+    feasible: bool = False
+    weighted: bool = True
+
+    def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
+        """Write the equations, which are the same at any robot."""
+        if data.robust:
+            return huber_equations(data)
+        return Step(weighted(data.factors, data.columns_of, data.size), data)

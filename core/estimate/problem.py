@@ -1,0 +1,115 @@
+"""State what is to be fitted to which motions, and hold its equations as estimators take them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..arrays import BlockKey, Indices
+from ..errors import ExcitationError
+from ..reduction.base import BaseModel
+from ..regressor.columns import ColumnPlan
+from ..regressor.factor import Factor, Weigh
+from ..regressor.memory import LaggedProducts
+from ..regressor.observe import Observation, observe
+from ..signals.condition import Motion
+from .gaussian_prior import GaussianPrior
+from .system import ordinary
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Hold a model to be fitted, the conditioned logs, and what is known otherwise.
+
+    Attributes
+    ----------
+    base
+        The model and its base parameters.
+    held_out
+        Blocks of the motions that no fit sees.
+    sizes
+        By name, what counts as one unit of deviation of parameters that the standard model has not.
+    prior
+        Normal prior of the base parameters; None for none.
+    """
+
+    base: BaseModel
+    motions: tuple[Motion, ...]
+    held_out: frozenset[BlockKey]
+    sizes: Mapping[str, float] = field(default_factory=dict)
+    prior: GaussianPrior | None = None
+
+    @cached_property
+    def plan(self) -> ColumnPlan:
+        """Choose the columns of the base parameters."""
+        return ColumnPlan(self.base.model, self.base.kept)
+
+    def observed(
+        self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None
+    ) -> Observation:
+        """Pass over the motions once, with rows weighted as asked."""
+        return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
+
+
+@dataclass(frozen=True, eq=False)
+class ObservedProblem:
+    """Hold a problem's equations of one pass over the motions: the `FitData` of all estimators."""
+
+    problem: Problem
+    observation: Observation
+    robust: bool = False
+
+    @property
+    def size(self) -> int:
+        """Count the base parameters."""
+        return len(self.problem.plan.columns)
+
+    @property
+    def columns_of(self) -> tuple[Indices, ...]:
+        """Give, per joint, the base parameters that its factors run over."""
+        return self.observation.columns_of
+
+    @cached_property
+    def fitted(self) -> tuple[int, ...]:
+        """Give the places of the fitted blocks."""
+        return self.observation.parts(self.problem.held_out)[0]
+
+    @property
+    def block_factors(self) -> tuple[tuple[Factor, ...], ...]:
+        """Give the joints' factors of every fitted block."""
+        return tuple(self.observation.blocks[place].factors for place in self.fitted)
+
+    @cached_property
+    def factors(self) -> tuple[Factor, ...]:
+        """Merge the factors of the fitted blocks, one per joint."""
+        return self.observation.joint_factors(self.fitted)
+
+    @property
+    def memory(self) -> tuple[LaggedProducts, ...]:
+        """Give, per joint, the lagged products of the fitted rows."""
+        return self.observation.memory
+
+    def weighted(self, weigh: Weigh) -> "ObservedProblem":
+        """Pass over the motions again with every row weighted."""
+        return replace(self, observation=self.problem.observed(weigh=weigh))
+
+    def check_excitation(self) -> None:
+        """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.
+
+        Raises
+        ------
+        ExcitationError
+            If no inertia shows, or there are fewer usable equations than parameters.
+        """
+        plan = self.problem.plan
+        parameters = [plan.model.parameters[column] for column in plan.columns]
+        norms = np.linalg.norm(ordinary(self.factors, self.columns_of, self.size).triangle, axis=0)
+        idle = [parameter for parameter, norm in zip(parameters, norms, strict=True) if norm == 0.0]
+        inertias = {parameter.name for parameter in parameters if parameter.unit == "kg m2"}
+        if inertias and inertias <= {parameter.name for parameter in idle}:
+            raise ExcitationError(
+                "no joint changes its speed, so that no inertia shows in the torque",
+                evidence={"parameters_not_excited": [parameter.name for parameter in idle]},
+                remedy="record a motion in which every joint speeds up, slows down and turns round",
+            )
