@@ -17,7 +17,7 @@ from .http.disk_reserve import DiskReserve
 from .http.host_guard import Door
 from .http.middleware import BodyLimit, HeadAsGet, SafeHeaders
 from .http.request_log import Observe
-from .jobs.executor import Executor
+from .jobs.executors.executor import Executor
 from .jobs.supervisor import Supervisor
 from .routes import events, health, identify, jobs, logs, pages, robots, traces
 from .services.metrics import Metrics

@@ -185,12 +185,22 @@ class Client:
         NoResultError
             If it ends without a result.
         """
+        self.finish(job, tell)
+        return self.result(job)
+
+    def finish(self, job: Job | str, tell: Tell | None = None) -> None:
+        """Follow a job of any kind until it is successful; `result_bytes` reads its result.
+
+        Raises
+        ------
+        NoResultError
+            If it ends without a result.
+        """
         for now in Follower(self._transport, _identity(job)).changes():
             if tell is not None:
                 tell(now.stage if now.state == "running" else now.state, now.fraction)
             if now.finished and now.state != "successful":
                 raise from_problem(NoResultError, now.problem or _dismissed(now))
-        return self.result(job)
 
     def cancel(self, job: Job | str) -> None:
         """Dismiss a job, which ends its computation; one that has finished keeps its result."""

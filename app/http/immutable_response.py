@@ -1,18 +1,21 @@
-"""Answer with what never changes, once: whoever has it is told so, and nothing is read or drawn again.
+"""Answer with stored bytes that never change, or with 304 where the client has them.
 
-A result document is known by the hash of its bytes. What is drawn from it depends on the service's version as
-well. Source: RFC 9110, 13.1.2, on If-None-Match.
+A blob is identified by its digest. What is written from it depends on the service's version as well. Source:
+RFC 9110, 13.1.2, on If-None-Match.
 """
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final
 
+import anyio
 from fastapi import Header, Response
 from fastapi.responses import FileResponse
+from starlette.types import Receive, Scope, Send
 
-from ..store.blobs import check_file
+from ..store.blobs.blob_store import BlobStore
 from ..version import VERSION
 from .negotiation import matches
 
@@ -21,32 +24,35 @@ UNCHANGED: Final[dict[int | str, dict[str, Any]]] = {304: {"description": "Not m
 
 
 @dataclass(frozen=True)
-class Result:
-    """Name the bytes of a result document by their hash, and the file they are in."""
+class Blob:
+    """Name a blob by its digest, and the store that keeps it."""
 
     sha256: str
-    path: Path
+    store: BlobStore
 
     def content(self) -> bytes:
-        """Read the document.
+        """Read the bytes.
 
         Raises
         ------
         Damaged
-            If the file is missing or not what it was.
+            If they are missing, or do not have the digest.
         """
-        self.check()
-        return self.path.read_bytes()
+        return self.store.read(self.sha256)
 
     def check(self) -> None:
-        """Return where the bytes are what they were.
+        """Return where the bytes are there and whole.
 
         Raises
         ------
         Damaged
             If they are not.
         """
-        check_file(self.path, self.sha256)
+        self.store.check(self.sha256)
+
+    def local_copy(self) -> AbstractContextManager[Path]:
+        """Give a local file that holds the bytes."""
+        return self.store.local_copy(self.sha256)
 
     def unless_known(self, if_none_match: str | None, form: str, answer: Callable[[], Response]) -> Response:
         """Give the answer, or 304 where the client has it.
@@ -54,7 +60,7 @@ class Result:
         Parameters
         ----------
         form
-            What is drawn from the document; empty for the document itself.
+            What is written from the bytes; empty for the bytes themselves.
         answer
             Makes the answer.
         """
@@ -64,17 +70,31 @@ class Result:
         return response
 
 
-def file_response(kept: Result, name: str, media_type: str, if_none_match: str | None) -> Response:
-    """Send kept bytes as a file to be saved, piece by piece: it may be long.
+class BlobResponse(FileResponse):
+    """Send a blob as a file to be saved, in chunks, since it may be long."""
+
+    def __init__(self, blob: Blob, *, filename: str, media_type: str) -> None:
+        super().__init__("", filename=filename, media_type=media_type)
+        self._blob = blob
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Hold a local copy until it is sent."""
+        with ExitStack() as held:
+            self.path = await anyio.to_thread.run_sync(held.enter_context, self._blob.local_copy())
+            await super().__call__(scope, receive, send)
+
+
+def file_response(blob: Blob, name: str, media_type: str, if_none_match: str | None) -> Response:
+    """Send a blob as a file, or 304.
 
     Raises
     ------
     Damaged
-        If they are missing or not what they were.
+        If its bytes are missing, or do not have its digest.
     """
 
     def whole() -> Response:
-        kept.check()
-        return FileResponse(kept.path, media_type=media_type, filename=name)
+        blob.check()
+        return BlobResponse(blob, filename=name, media_type=media_type)
 
-    return kept.unless_known(if_none_match, "", whole)
+    return blob.unless_known(if_none_match, "", whole)

@@ -11,14 +11,19 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
+from ..kinds.registry import KINDS as JOB_KINDS
 from ..problems import KINDS, MEDIA_TYPE
 from ..schemas.common import ProblemDocument
 from ..schemas.jobs import JobRequest
-from ..schemas.results import ResultDocument
 from ..schemas.robots import RobotDescription
 
 SCHEMAS = "#/components/schemas/"
-DOCUMENTED: tuple[type[BaseModel], ...] = (RobotDescription, JobRequest, ResultDocument, ProblemDocument)
+DOCUMENTED: tuple[type[BaseModel], ...] = (
+    RobotDescription,
+    JobRequest,
+    *dict.fromkeys(kind.result for kind in JOB_KINDS.values()),
+    ProblemDocument,
+)
 KEY = {
     "type": "http",
     "scheme": "bearer",

@@ -24,7 +24,7 @@ from .confinement import confine
 
 Work = Callable[[], Document]
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"
-NEEDED = ("veritorque.app.jobs.computations", *READERS)
+NEEDED = ("veritorque.app.inspection.log_reading", *READERS)
 """What the work and the libraries that read take long to load."""
 
 

@@ -15,13 +15,12 @@ from pathlib import Path
 import anyio
 
 from ...core.errors import LogError
-from ..jobs import computations as science
-from ..jobs.computation import Glance, LogFile
 from ..problems import Problem, problem_of
 from ..processes.fork_server import Child, Standby, fork_server
 from ..store.records import Document
 from . import child
 from .budget import Budget, budget_for
+from .log_reading import ChannelSelection, LogFile, summarise_log, trace_log
 
 LOGGER = logging.getLogger(__name__)
 LONGEST_ANSWER = 16 * 1024**2
@@ -55,11 +54,11 @@ class Inspector:
         Problem
             If the log cannot be used, or reading it costs more than it may.
         """
-        work = partial(science.summarise_log, log, media_type=media_type)
+        work = partial(summarise_log, log, media_type=media_type)
         document: Document = json.loads(self._read(work, log.path, size))
         return document
 
-    def trace(self, log: LogFile, glance: Glance, *, size: int) -> bytes:
+    def trace(self, log: LogFile, selection: ChannelSelection, *, size: int) -> bytes:
         """Draw the channels of a log, as the document that is sent.
 
         Raises
@@ -67,7 +66,7 @@ class Inspector:
         Problem
             If reading the log costs more than it may, or its bytes are not what they were.
         """
-        return self._read(partial(science.trace_log, log, glance), log.path, size)
+        return self._read(partial(trace_log, log, selection), log.path, size)
 
     def _read(self, work: child.Work, path: Path, size: int) -> bytes:
         """Let a process of its own do the work, and give the document that it made."""

@@ -1,77 +1,74 @@
-"""Say what is computed and how it can end, in plain types that travel between processes."""
+"""Describe a computation and its outcome in plain types that travel between processes."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..kinds.kind import Progress
 from ..store.records import Document
-
-Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
-class LogFile:
-    """Name the file of a log and how to read it.
+class LogBlob:
+    """Name the blob of a log, and how to read it.
 
     Attributes
     ----------
-    path
-        The bytes as they were uploaded.
+    sha256
+        Digest of the bytes as they were uploaded.
     name
         The log's name.
     mapping
         Which column is what; None for the default names.
-    sha256
-        Hash of the bytes.
     """
 
-    path: Path
+    sha256: str
     name: str
     mapping: Document | None
-    sha256: str
-
-
-@dataclass(frozen=True)
-class Glance:
-    """Say what of a log is looked at.
-
-    Attributes
-    ----------
-    channels
-        Their names.
-    points
-        The most points per trace.
-    begin, end
-        Stretch of the log's clock, s; None for its own ends.
-    """
-
-    channels: tuple[str, ...]
-    points: int
-    begin: float | None = None
-    end: float | None = None
 
 
 @dataclass(frozen=True)
 class Computation:
-    """Describe a computation completely: equal computations give equal results.
+    """Describe a computation completely, by values and digests: equal computations give equal results.
 
     Attributes
     ----------
+    robot
+        The robot's description.
     reference
-        File of the earlier result that the option of that name means, where it means one.
-    traces
-        File to write what is computed instant by instant to, where it is kept.
+        Digest of the earlier result that the options name; None where they name none.
     """
 
     kind: str
     robot: Document
-    logs: tuple[LogFile, ...]
+    logs: tuple[LogBlob, ...]
     options: Document
-    reference: Path | None = None
+    reference: str | None = None
+
+    @property
+    def digests(self) -> tuple[str, ...]:
+        """List the blobs that it reads."""
+        reference = () if self.reference is None else (self.reference,)
+        return (*(log.sha256 for log in self.logs), *reference)
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """Name the local files of one run of a computation.
+
+    Attributes
+    ----------
+    files
+        The blobs that it reads, by digest.
+    traces
+        File to write the torques and residuals of every sample to; None where they are not kept.
+    """
+
+    files: Mapping[str, Path] = field(default_factory=dict)
     traces: Path | None = None
 
 
-Work = Callable[[Computation, Progress], Document]
+Work = Callable[[Computation, Workspace, Progress], Document]
 Rehearse = Callable[[Progress], None]
 
 
@@ -91,7 +88,7 @@ class Failed:
 
 @dataclass(frozen=True)
 class Died:
-    """Carry the problem document that says how a computation ended without a word; it may be tried again."""
+    """Carry the problem document of a process that ended without a result; the job may be tried again."""
 
     problem: Document
 
@@ -106,7 +103,7 @@ Outcome = Finished | Failed | Died | Stopped
 
 @dataclass(frozen=True)
 class Ended:
-    """Say how a computation went, for whoever counts.
+    """Describe how a computation ended, for metrics and the service's log.
 
     Attributes
     ----------

@@ -1,31 +1,34 @@
-"""Accept jobs and let go of them; what cannot succeed is refused at once, in the words of the science."""
+"""Accept and dismiss jobs; what cannot succeed is refused at once, by the kind of the job."""
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING
 
 from ...core.errors import LogError
+from ..kinds.kind import PlannedJob
+from ..kinds.registry import kind_of
 from ..problems import Problem
 from ..services.catalogue import Catalogue
-from ..store.queueing import Asked, Outcome
+from ..services.robot_descriptions import model_of
+from ..store.queueing import NewJob, Outcome
 from ..store.records import UNFINISHED, Document, JobRecord, JobRequestRecord, LogRecord, RobotRecord
 from ..store.store import TenantStore
-from . import computations as science
-from .references import check_reference
+from .inputs import result_digest
 
 if TYPE_CHECKING:
     from ...core.dynamics.model import DynamicModel
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Submission:
     """Ask for a job of a robot and logs by their ids.
 
     Attributes
     ----------
     key
-        What the client calls its request, so that it can send it twice and mean it once.
+        The client's Idempotency-Key, which makes a repeated request the same job.
     trace
         Id of the trace that the request belongs to.
     """
@@ -44,43 +47,57 @@ class Queue:
     def __init__(self, store: TenantStore, catalogue: Catalogue) -> None:
         self._store, self._catalogue = store, catalogue
 
-    def begin_to_submit(self, wanted: list[Wanted]) -> Callable[[], list[Outcome]]:
+    def begin_to_submit(self, submissions: list[Submission]) -> Callable[[], list[Outcome]]:
         """Queue jobs together, or find those that asked for the same; give what waits until they are kept.
 
-        For each that gives the job, or why it cannot be: an error of the science, a `Problem` where something
+        For each that gives the job, or why it is refused: an error of core, a `Problem` where something
         that is named does not exist, or what the store refuses.
         """
         robot = cache(lambda identity: self._catalogue.robot(identity, named_in_body=True))
         log = cache(lambda identity: self._catalogue.log(identity, named_in_body=True))
-        model = cache(lambda identity, terms: science.model_of(robot(identity).description, terms))
-        checked = [self._checked(one, robot, log, model) for one in wanted]
-        wait = self._store.jobs.begin_to_add([one for one in checked if isinstance(one, Asked)])
+        model = cache(lambda identity, terms: model_of(robot(identity).description, terms))
+        checked = [self._check(submission, robot, log, model) for submission in submissions]
+        wait = self._store.jobs.begin_to_add([new for new in checked if isinstance(new, NewJob)])
 
         def outcomes() -> list[Outcome]:
             queued = iter(wait())
-            return [one if isinstance(one, Exception) else next(queued) for one in checked]
+            return [new if isinstance(new, Exception) else next(queued) for new in checked]
 
         return outcomes
 
-    def _checked(
+    def _check(
         self,
-        wanted: Wanted,
+        submission: Submission,
         robot_of: Callable[[str], RobotRecord],
         log_of: Callable[[str], LogRecord],
-        model_of: Callable[[str, tuple[str, ...] | None], "DynamicModel"],
-    ) -> Asked | Exception:
+        model_by_id: Callable[[str, tuple[str, ...] | None], "DynamicModel"],
+    ) -> NewJob | Exception:
         """Refuse at once what cannot succeed."""
         try:
-            robot, logs = robot_of(wanted.robot), tuple(log_of(identity) for identity in wanted.logs)
-            options = science.read_options(wanted.kind, wanted.options)
+            robot = robot_of(submission.robot)
+            logs = tuple(log_of(identity) for identity in submission.logs)
+            kind = kind_of(submission.kind)
+            kind.require_logs(len(logs))
+            options = kind.read_options(submission.options)
             for log in logs:
                 _check_joints(robot, log)
-            science.admit(options, model_of(wanted.robot, options.terms), [log.summary for log in logs])
-            check_reference(self._store, wanted.kind, robot, wanted.options)
+            planned = PlannedJob(
+                robot=robot.description,
+                logs=tuple(log.summary for log in logs),
+                options=submission.options,
+                model=partial(model_by_id, submission.robot),
+                earlier_result=self._result,
+            )
+            kind.admit(planned, options)
         except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
             return error
         ids = tuple(log.id for log in logs)
-        return Asked(JobRequestRecord(wanted.kind, robot.id, ids, wanted.options), wanted.key, wanted.trace)
+        request = JobRequestRecord(kind.name, robot.id, ids, submission.options)
+        return NewJob(request, submission.key, submission.trace)
+
+    def _result(self, job: str) -> Document:
+        document: Document = json.loads(self._store.blobs.read(result_digest(self._store, job)))
+        return document
 
     def dismiss(self, job: JobRecord) -> JobRecord:
         """Dismiss an unfinished job; whoever computes it notices."""

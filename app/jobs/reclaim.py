@@ -1,4 +1,4 @@
-"""Find the jobs of workers that died, froze or were cut off, and let others compute them.
+"""Reclaim the jobs of workers that died, froze or were cut off, so that others compute them.
 
 How long a worker has been silent is measured by this worker's own steady clock, never by the time of day: a
 clock that is set back an hour takes no job from anybody. Source: Gray & Cheriton, Leases, SOSP 1989.
@@ -13,16 +13,16 @@ from ..store.work import MOST_ATTEMPTS, Held
 from .liveness import Presence
 
 LEASE_S = 10.0
-"""A worker that shows no life for so long no longer holds its jobs."""
+"""A worker without a heartbeat for so long no longer holds its jobs."""
 
 
-class Lives:
-    """Watch the other workers.
+class Reclaimer:
+    """Watch the other workers, and reclaim their jobs.
 
     Parameters
     ----------
     clock
-        Gives seconds that only ever grow.
+        Gives monotonic seconds.
     """
 
     def __init__(
@@ -31,25 +31,25 @@ class Lives:
         self._work, self._presence, self._clock = store.work, presence, clock
         self._seen: dict[Held, tuple[int, float]] = {}
 
-    def look(self) -> int:
-        """Take back the jobs of those who are gone or silent, and count them."""
-        now, freed = self._clock(), 0
+    def run(self) -> int:
+        """Reclaim the jobs of workers that are gone or silent, and count them."""
+        now, reclaimed = self._clock(), 0
         elsewhere = self._work.running_elsewhere(self._presence.name)
         seen = {}
         for held, (owner, beat) in elsewhere.items():
             known_beat, since = self._seen.get(held, (beat, now))
             seen[held] = (beat, since if known_beat == beat else now)
             if self._presence.is_gone(owner):
-                freed += self._work.bury(held, died_too_often().document())
+                reclaimed += self._work.bury(held, died_too_often().document())
             elif now - seen[held][1] > LEASE_S:
-                freed += self._work.bury(held, died_too_often().document(), beat=beat)
+                reclaimed += self._work.bury(held, died_too_often().document(), beat=beat)
         self._seen = seen
         self._presence.tidy()
-        return freed
+        return reclaimed
 
 
 def died_too_often() -> Problem:
-    """Say that a job took down whoever computed it, again and again."""
+    """Report a job whose worker died or froze too often."""
     return Problem(
         "computation-stopped",
         f"whoever computed this job died or froze {MOST_ATTEMPTS} times, so it is not tried again",

@@ -42,8 +42,8 @@ class Supervisor:
     start
         Starts the process; its standard output says that it lives, and the end of its standard input that it
         shall end.
-    told
-        Hears how every computation went.
+    on_ended
+        Called with the outcome of every computation.
     """
 
     def __init__(
@@ -51,9 +51,9 @@ class Supervisor:
         settings: Settings,
         start: Start | None = None,
         *,
-        told: Callable[[Ended], None] | None = None,
+        on_ended: Callable[[Ended], None] | None = None,
     ) -> None:
-        self._settings, self._start, self._told = settings, start or start_worker, told
+        self._settings, self._start, self._on_ended = settings, start or start_worker, on_ended
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="supervisor")
         self._heard = 0.0
@@ -121,8 +121,8 @@ class Supervisor:
             word, _, content = line.strip().partition(b" ")
             if word == READY:
                 self.ready.set()
-            elif word == ENDED and self._told is not None:
-                self._told(Ended(**json.loads(content)))
+            elif word == ENDED and self._on_ended is not None:
+                self._on_ended(Ended(**json.loads(content)))
 
 
 def start_worker(settings: Settings) -> "subprocess.Popen[bytes]":

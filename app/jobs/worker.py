@@ -1,8 +1,8 @@
-"""Take waiting jobs from the store and see each to its end, whatever happens meanwhile.
+"""Take waiting jobs from the store, have them computed, and write down their outcomes.
 
-One thread per computation that may run at the same time, which computes in the executor's processes; one more
-shows that this worker lives, notices what was dismissed, and looks after the jobs of workers that died. A
-worker runs within the service or in a process of its own, as many of them as one likes.
+One thread per computation that may run at the same time waits for the executor; one more sends heartbeats,
+stops computations of dismissed jobs, and reclaims the jobs of workers that died. Workers run within the
+service or in processes of their own, any number of them.
 """
 
 import logging
@@ -13,27 +13,27 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from ...core.errors import VeritorqueError
-from .. import logging as journal
+from .. import logging as service_log
 from ..lifecycle.retention import expire
 from ..problems import URN, Problem, problem_of
 from ..settings import Kept
+from ..store.blobs.sweep import Sweep
 from ..store.errors import Unavailable
 from ..store.records import Document, JobRecord
 from ..store.store import Store
-from ..store.sweep import Sweep
 from ..store.work import Held
-from .computation import Computation, Died, Ended, Failed, Finished, LogFile, Outcome, Stopped
-from .executor import Executor
-from .job_process import mistake
+from .computation import Died, Ended, Failed, Finished, Outcome, Stopped
+from .executors.executor import Executor
+from .executors.job_process import internal_error
+from .inputs import computation_of, open_workspace
 from .liveness import Presence
 from .progress import Reporter
-from .reclaim import Lives
-from .references import reference_file
+from .reclaim import Reclaimer
 
 LOGGER = logging.getLogger(__name__)
-LOOK_EVERY_S = 0.02
+POLL_S = 0.02
 WATCH_EVERY_S = 0.1
-BEAT_EVERY_S = 2.0
+HEARTBEAT_S = 2.0
 SWEEP_EVERY_S = 60.0
 PAUSE_S = 1.0
 """Time to wait where the database does not answer, or the disk is full."""
@@ -42,7 +42,7 @@ OUTCOMES = {Finished: "successful", Failed: "failed", Died: "died", Stopped: "st
 
 @dataclass(frozen=True)
 class Capacity:
-    """Say how much a worker takes on.
+    """Bound what a worker takes on.
 
     Attributes
     ----------
@@ -75,8 +75,8 @@ class Worker:
         Descriptions of the built-in robots by id.
     capacity
         How much it takes on.
-    told
-        Hears how every computation went.
+    on_ended
+        Called with the outcome of every computation.
     """
 
     def __init__(
@@ -86,22 +86,22 @@ class Worker:
         *,
         robots: dict[str, Document],
         capacity: Capacity,
-        told: Callable[[Ended], None] | None = None,
+        on_ended: Callable[[Ended], None] | None = None,
     ) -> None:
         self._store, self._executor, self._robots = store, executor, robots
-        self._capacity, self._told = capacity, told
+        self._capacity, self._on_ended = capacity, on_ended
         self._presence = Presence(store.directory / "workers")
-        self._lives, self._sweep = Lives(store, self._presence), Sweep(store)
+        self._reclaimer, self._sweep = Reclaimer(store, self._presence), Sweep(store)
         self._closing, self._woken = threading.Event(), threading.Condition()
         self._stops: dict[Held, threading.Event] = {}
-        self._forgotten: set[Held] = set()
+        self._unknown: set[Held] = set()
         self._threads = [threading.Thread(target=self._serve, name=f"job-{n}") for n in range(capacity.slots)]
         self._threads.append(threading.Thread(target=self._watch, name="watch"))
         self.ready = threading.Event()
 
     @property
     def alive(self) -> bool:
-        """Tell whether all that belongs to it works."""
+        """Tell whether all of its threads run."""
         return all(thread.is_alive() for thread in self._threads)
 
     def start(self) -> None:
@@ -110,7 +110,7 @@ class Worker:
             thread.start()
 
     def wake(self) -> None:
-        """Look for jobs at once: there is a new one."""
+        """Look for jobs at once."""
         with self._woken:
             self._woken.notify_all()
 
@@ -130,7 +130,7 @@ class Worker:
         except Exception:
             if self._closing.is_set():
                 return
-            LOGGER.exception("the solver could not be loaded ahead; the first job will try again")
+            LOGGER.exception("the solver could not be loaded in advance; the first job will try again")
         self.ready.set()
 
     def _serve(self) -> None:
@@ -138,15 +138,15 @@ class Worker:
             try:
                 job = self._claim()
                 if job is not None:
-                    self._see_through(job)
+                    self._process(job)
                     continue
                 with self._woken:
-                    self._woken.wait(LOOK_EVERY_S)
+                    self._woken.wait(POLL_S)
             except Unavailable as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
                 self._closing.wait(PAUSE_S)
             except Exception:
-                LOGGER.exception("taking a job met a mistake of ours")
+                LOGGER.exception("taking a job failed with an internal error")
                 self._closing.wait(PAUSE_S)
 
     def _claim(self) -> JobRecord | None:
@@ -158,22 +158,22 @@ class Worker:
         while not self._closing.wait(WATCH_EVERY_S):
             now = time.monotonic()
             try:
-                self._stop_what_is_lost()
+                self._stop_lost_jobs()
                 if now >= beat:
                     self._store.work.beat(self._presence.name)
-                    self._lives.look()
-                    self._hand_back_what_is_forgotten()
-                    beat = now + BEAT_EVERY_S
+                    self._reclaimer.run()
+                    self._hand_back_unknown_jobs()
+                    beat = now + HEARTBEAT_S
                 if now >= sweep:
                     expire(self._store.database, self._capacity.retention_days)
-                    self._sweep.look()
+                    self._sweep.run()
                     sweep = now + SWEEP_EVERY_S
             except Unavailable as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
             except Exception:
-                LOGGER.exception("looking after the jobs met a mistake of ours")
+                LOGGER.exception("supervising the jobs failed with an internal error")
 
-    def _stop_what_is_lost(self) -> None:
+    def _stop_lost_jobs(self) -> None:
         """End the computations of jobs that were dismissed, or given to another worker."""
         running = dict(self._stops)
         if not running:
@@ -182,70 +182,73 @@ class Worker:
         for lost in running.keys() - held:
             running[lost].set()
 
-    def _hand_back_what_is_forgotten(self) -> None:
+    def _hand_back_unknown_jobs(self) -> None:
         """Let go of jobs that this worker holds and does not know of, twice in a row.
 
         The database had given them when the answer was cut off.
         """
-        forgotten = self._store.work.held(self._presence.name) - self._stops.keys()
-        for held in forgotten & self._forgotten:
+        unknown = self._store.work.held(self._presence.name) - self._stops.keys()
+        for held in unknown & self._unknown:
             self._store.work.hand_back(held)
-        self._forgotten = forgotten
+        self._unknown = unknown
 
-    def _see_through(self, job: JobRecord) -> None:
+    def _process(self, job: JobRecord) -> None:
         held = (job.id, job.token)
         stop = self._stops[held] = threading.Event()
-        begun = time.monotonic()
+        begin = time.monotonic()
         try:
-            with journal.bound(job=job.id, trace=job.trace), self._store.blobs.aside() as traces:
-                outcome = self._computed(job, stop, traces)
+            with service_log.bound(job=job.id, trace=job.trace), self._store.blobs.scratch_file() as traces:
+                outcome = self._outcome(job, stop, traces)
                 self._settle(held, outcome, traces)
-                self._tell(job, outcome, time.monotonic() - begun)
+                self._report(job, outcome, time.monotonic() - begin)
         finally:
             del self._stops[held]
 
-    def _computed(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
-        """Compute a job, and give how that went, whatever happened."""
+    def _outcome(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
+        """Compute a job, and turn every error into an outcome."""
         try:
-            return self._outcome(job, stop, traces)
+            return self._run(job, stop, traces)
         except VeritorqueError as error:
             return Failed(problem_of(error).document())
         except Problem as problem:
             return Failed(problem.document())
         except Unavailable as error:
-            LOGGER.warning("the job is handed back, for the database does not answer: %s", error.reason)
+            LOGGER.warning("the job is handed back because the database does not answer: %s", error.reason)
             self._closing.wait(PAUSE_S)
             return Stopped()
         except Exception:
-            LOGGER.exception("the job met a mistake of ours")
-            return Failed(mistake().document())
+            LOGGER.exception("the job failed with an internal error")
+            return Failed(internal_error().document())
 
-    def _outcome(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
-        computation = self._computation(job, traces)
+    def _run(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
+        computation = computation_of(job, self._store.of(job.tenant), self._robots)
         if self._closing.is_set():
             stop.set()
         progress, timeout_s = Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
-        return self._executor.run(computation, progress=progress, stop=stop, timeout_s=timeout_s)
+        with open_workspace(computation, self._store.blobs, traces) as workspace:
+            return self._executor.run(
+                computation, workspace, progress=progress, stop=stop, timeout_s=timeout_s
+            )
 
-    def _tell(self, job: JobRecord, outcome: Outcome, seconds: float) -> None:
+    def _report(self, job: JobRecord, outcome: Outcome, seconds: float) -> None:
         problem = outcome.problem if isinstance(outcome, Failed | Died) else None
         kind = None if problem is None else str(problem["type"]).removeprefix(URN)
         ended = Ended(job.request.kind, OUTCOMES[type(outcome)], round(seconds, 6), kind)
         LOGGER.info("computed", extra=asdict(ended))
-        if self._told is not None:
-            self._told(ended)
+        if self._on_ended is not None:
+            self._on_ended(ended)
 
     def _settle(self, held: Held, outcome: Outcome, traces: Path) -> None:
-        """Write the outcome down, however long the database or room on the disk takes to come."""
+        """Write the outcome down, and try again while the database does not answer or the disk is full."""
         while True:
             try:
-                return self._settled(held, outcome, traces)
+                return self._write(held, outcome, traces)
             except (Unavailable, OSError) as error:
-                LOGGER.warning("the outcome waits to be written: %s", error)
+                LOGGER.warning("the outcome cannot be written yet: %s", error)
                 if self._closing.wait(PAUSE_S):
                     return None
 
-    def _settled(self, held: Held, outcome: Outcome, traces: Path) -> None:
+    def _write(self, held: Held, outcome: Outcome, traces: Path) -> None:
         if isinstance(outcome, Finished):
             self._store.keep_result(held, outcome.result, traces)
         elif isinstance(outcome, Failed):
@@ -254,35 +257,3 @@ class Worker:
             self._store.work.bury(held, outcome.problem)
         else:
             self._store.work.hand_back(held)  # after a shutdown; a dismissed job stays dismissed
-
-    def _computation(self, job: JobRecord, traces: Path) -> Computation:
-        store = self._store.of(job.tenant)
-        robot = store.robots.get(job.request.robot)
-        description = robot.description if robot else self._robots.get(job.request.robot)
-        if description is None:
-            raise _gone("robot", job.request.robot)
-        logs = []
-        for identity in job.request.logs:
-            log = store.logs.get(identity)
-            if log is None:
-                raise _gone("log", identity)
-            mapping = log.summary["mapping"]
-            known = mapping if isinstance(mapping, dict) else None
-            logs.append(LogFile(store.blobs.path(log.sha256), str(log.summary["name"]), known, log.sha256))
-        return Computation(
-            kind=job.request.kind,
-            robot=description,
-            logs=tuple(logs),
-            options=job.request.options,
-            reference=reference_file(store, job.request.kind, job.request.options),
-            traces=traces,
-        )
-
-
-def _gone(what: str, identity: str) -> Problem:
-    return Problem(
-        "not-found",
-        f"the {what} {identity} was deleted while the job waited",
-        evidence={what: identity},
-        remedy="create it again and ask for the job again",
-    )

@@ -2,14 +2,15 @@
 
 Bytes never change once they are kept, so most are copied first; then the rows as one instant saw them; then
 the bytes that had come in between. Bytes that a row of that instant needs outlive the copying, because a
-sweep needs two looks, a while apart, before it removes anything.
+sweep needs two passes, a while apart, before it removes anything.
 """
 
 from collections.abc import Set as AbstractSet
 
 from sqlalchemy import Connection, insert, select, text
 
-from ..store.blobs import PIECE, BlobStore
+from ..store.blobs.blob_store import BlobStore
+from ..store.blobs.incoming import CHUNK_BYTES
 from ..store.errors import Damaged
 from ..store.store import Store
 from ..store.tables import METADATA
@@ -73,9 +74,9 @@ def _copy_blobs(source: BlobStore, target: BlobStore, wanted: AbstractSet[str], 
 
 
 def _copy_blob(source: BlobStore, target: BlobStore, sha256: str) -> None:
-    with source.path(sha256).open("rb") as file, target.receive() as incoming:
-        while piece := file.read(PIECE):
-            incoming.write(piece)
+    with source.open(sha256) as file, target.receive() as incoming:
+        while chunk := file.read(CHUNK_BYTES):
+            incoming.write(chunk)
         if incoming.sha256 != sha256:
             raise Damaged(sha256, f"its hash is {incoming.sha256}")
         target.keep(incoming)

@@ -124,7 +124,7 @@ def _blobs(store: Store) -> Iterator[Finding]:
             store.blobs.check(sha256)
         except Damaged as error:
             damaged.append(f"{sha256} ({error.evidence})")
-    missing = [sha256 for sha256 in sorted(needed - kept) if not store.blobs.path(sha256).exists()]
+    missing = [sha256 for sha256 in sorted(needed - kept) if not _exists(store, sha256)]
     lost = "restore them from a backup, or delete the logs and jobs that need them: "
     for subject, found in (("damaged bytes", damaged), ("missing bytes", missing)):
         if found:
@@ -135,6 +135,14 @@ def _blobs(store: Store) -> Iterator[Finding]:
     orphans = kept - needed
     if orphans:
         yield Finding("bytes", f"{len(orphans)} files are not needed by anything", "run: veritorque gc")
+
+
+def _exists(store: Store, sha256: str) -> bool:
+    try:
+        store.blobs.open(sha256).close()
+    except OSError as error:
+        return not isinstance(error, FileNotFoundError)
+    return True
 
 
 def _all(directory: Path) -> Iterator[Path]:

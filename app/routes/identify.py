@@ -21,14 +21,15 @@ from ..http.exception_handlers import problem_response
 from ..http.negotiation import LONGEST_WAIT_S, wait_seconds
 from ..http.openapi import body, file_part, problems, text_part
 from ..http.routing import chapter
-from ..jobs.queue import Wanted
+from ..jobs.queue import Submission
+from ..kinds.identify import Identify
 from ..problems import Problem
 from ..schemas.examples import MAPPING
 from ..schemas.jobs import Job
 from ..schemas.results import ResultDocument
+from ..services.job_feed import wait_for
 from ..services.serialisers import job_document
 from ..services.services import Desk, DeskOf
-from ..services.waiting import wait_for
 from ..store.records import JobRecord, LogRecord, RobotRecord
 
 ROUTER = chapter("/v1/identify", tag="identify")
@@ -82,8 +83,8 @@ async def identify(
         robot = await _robot(desk, form)
         logs = tuple([await _log(desk, part, mapping) for part in files])
     ids = tuple(log.id for log in logs)
-    wanted = Wanted("identify", robot.id, ids, options, trace=request.state.trace)
-    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, wanted)
+    submission = Submission(Identify.name, robot.id, ids, options, trace=request.state.trace)
+    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, submission)
     seconds = wait_seconds(prefer)
     job = await wait_for(desk.feed, job, LONGEST_WAIT_S if seconds is None else seconds)
     return await anyio.to_thread.run_sync(_answer, desk, job)
@@ -125,7 +126,7 @@ async def _log(desk: Desk, part: UploadFile, mapping: dict[str, object] | None) 
 def _answer(desk: Desk, job: JobRecord) -> Response:
     path = f"/v1/jobs/{job.id}"
     if job.result_sha256 is not None:
-        result = desk.store.blobs.path(job.result_sha256).read_bytes()
+        result = desk.store.blobs.read(job.result_sha256)
         return Response(
             result, media_type="application/json", headers={"Content-Location": f"{path}/results"}
         )

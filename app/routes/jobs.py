@@ -1,33 +1,35 @@
 """Serve jobs: asked for, followed, waited for, dismissed, and read."""
 
 import json
-from typing import Annotated
+from itertools import compress
+from typing import Annotated, Any
 
 from fastapi import Header, Path, Request, Response
 from fastapi.responses import HTMLResponse, JSONResponse
 
 from ..http.body.json_body import check, parse_json, require_media_type
-from ..http.immutable_response import UNCHANGED, IfNoneMatch, Result, file_response
+from ..http.immutable_response import UNCHANGED, Blob, IfNoneMatch, file_response
 from ..http.negotiation import matches, preferred, wait_seconds
 from ..http.openapi import body, problems, reference
 from ..http.pagination import CursorOf, Limit, before, following
 from ..http.routing import chapter
-from ..jobs.queue import Wanted
+from ..jobs.queue import Submission
+from ..kinds.kind import JobKind
+from ..kinds.registry import KINDS, RESULT_DOCUMENT, kind_of
 from ..problems import Problem
-from ..schemas.examples import JOB_REQUESTS
 from ..schemas.jobs import Job, JobList, JobRequest
-from ..schemas.results import ResultDocument
 from ..services.export_files import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
-from ..services.finished_jobs import RETRY_AFTER_S, find_job, result_of, traces_of
-from ..services.job_feed import no_such_job
-from ..services.report_response import report_response
-from ..services.serialisers import job_document
+from ..services.finished_jobs import RETRY_AFTER_S, find_job, report_of, result_of, traces_of
+from ..services.job_feed import no_such_job, wait_for
+from ..services.serialisers import PARAMETERS_FILE, job_document
 from ..services.services import DeskOf
-from ..services.waiting import wait_for
 from ..store.records import JobRecord
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
 RESULT_FORMS = ("application/json", "text/csv", "text/html")
+EXAMPLES = {
+    kind.name: {"summary": kind.words.summary, "value": kind.words.request} for kind in KINDS.values()
+}
 
 
 @ROUTER.post(
@@ -37,7 +39,7 @@ RESULT_FORMS = ("application/json", "text/csv", "text/html")
     summary="Create a job",
     responses=problems(400, 413, 415, 422)
     | {200: {"model": Job, "description": "The job finished within the waiting time"}},
-    openapi_extra=body({"application/json": {"schema": reference(JobRequest), "examples": JOB_REQUESTS}}),
+    openapi_extra=body({"application/json": {"schema": reference(JobRequest), "examples": EXAMPLES}}),
 )
 async def create_job(
     request: Request,
@@ -55,7 +57,7 @@ async def create_job(
     """Create a job, or return an existing identical one. Invalid requests are refused immediately."""
     require_media_type(request, ("application/json",))
     asked = check(JobRequest, parse_json(await request.body()))
-    wanted = Wanted(
+    submission = Submission(
         kind=asked.kind,
         robot=asked.robot,
         logs=tuple(asked.logs),
@@ -63,7 +65,7 @@ async def create_job(
         key=idempotency_key,
         trace=request.state.trace,
     )
-    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, wanted)
+    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, submission)
     seconds = wait_seconds(prefer)
     if seconds is not None:
         job = await wait_for(desk.feed, job, seconds)
@@ -102,7 +104,7 @@ async def read_job(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None)
 
 @ROUTER.get(
     "/{job_id}/results",
-    response_model=ResultDocument,
+    response_model=RESULT_DOCUMENT,
     summary="Read the result",
     responses=problems(404, 406, 409)
     | {
@@ -120,22 +122,14 @@ def read_results(
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the result document; with Accept: text/csv its base parameters, with text/html its report."""
-    form = preferred(accept, RESULT_FORMS)
-    if form is None:
-        raise Problem(
-            "not-acceptable",
-            f"results do not come as {accept}",
-            evidence={"accept": accept, "known": list(RESULT_FORMS)},
-            remedy="accept one of the known forms",
-        )
+    _form(accept, RESULT_FORMS)
     job = find_job(desk, job_id)
+    form = _form(accept, _forms_of(kind_of(job.request.kind)))
     result = result_of(desk, job)
     if form == "text/csv":
-        return result.unless_known(
-            if_none_match, "parameters.csv", lambda: _artifact(result, "parameters.csv")
-        )
+        return result.unless_known(if_none_match, PARAMETERS_FILE, lambda: _artifact(result, PARAMETERS_FILE))
     if form == "text/html":
-        return result.unless_known(if_none_match, "report", lambda: report_response(desk, job))
+        return result.unless_known(if_none_match, "report", lambda: report_of(desk, job))
     return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
 
 
@@ -148,7 +142,7 @@ def read_results(
 def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read the report: one HTML file with figures and tables, without scripts."""
     job = find_job(desk, job_id)
-    return result_of(desk, job).unless_known(if_none_match, "report", lambda: report_response(desk, job))
+    return result_of(desk, job).unless_known(if_none_match, "report", lambda: report_of(desk, job))
 
 
 @ROUTER.get(
@@ -168,11 +162,12 @@ def read_artifact(
     if artifact == TRACES_FILE:
         return file_response(traces_of(desk, job), artifact, TRACES_TYPE, if_none_match)
     result = result_of(desk, job)
-    if artifact not in ARTIFACTS:
+    known = [*kind_of(job.request.kind).artifacts, TRACES_FILE]
+    if artifact not in known:
         raise Problem(
             "not-found",
             f"the result has no file {artifact}",
-            evidence={"artifact": artifact, "known": [*ARTIFACTS, TRACES_FILE]},
+            evidence={"artifact": artifact, "known": known},
             remedy="ask for one of the known files",
         )
     response = result.unless_known(if_none_match, artifact, lambda: _artifact(result, artifact))
@@ -207,6 +202,23 @@ def _job_response(job: JobRecord, *, applied: int | None) -> Response:
     return JSONResponse(job_document(job), 202, headers=headers | {"Retry-After": RETRY_AFTER_S})
 
 
-def _artifact(result: Result, artifact: str) -> Response:
+def _form(accept: str | None, forms: tuple[str, ...]) -> str:
+    form = preferred(accept, forms)
+    if form is None:
+        raise Problem(
+            "not-acceptable",
+            f"results do not come as {accept}",
+            evidence={"accept": accept, "known": list(forms)},
+            remedy="accept one of the known forms",
+        )
+    return form
+
+
+def _forms_of(kind: JobKind[Any]) -> tuple[str, ...]:
+    offered = (True, PARAMETERS_FILE in kind.artifacts, kind.has_report)
+    return tuple(compress(RESULT_FORMS, offered))
+
+
+def _artifact(result: Blob, artifact: str) -> Response:
     form = ARTIFACTS[artifact]
     return Response(form.write(json.loads(result.content())), media_type=form.media_type)

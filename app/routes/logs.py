@@ -28,10 +28,10 @@ from ..http.routing import chapter
 from ..problems import Problem
 from ..schemas.examples import CSV_LOG, MAPPING
 from ..schemas.logs import LogList, LogSummary, LogTraces
-from ..services.decimated_traces import GlanceOf
+from ..services.decimated_traces import SelectionOf
 from ..services.serialisers import log_document
 from ..services.services import Desk, DeskOf
-from ..store.blobs import Incoming
+from ..store.blobs.incoming import Incoming
 from ..store.records import LogRecord
 from ..version import VERSION
 
@@ -112,19 +112,19 @@ def read_log(desk: DeskOf, log_id: str) -> Response:
 async def read_traces(
     desk: DeskOf,
     log_id: str,
-    glance: GlanceOf,
+    selection: SelectionOf,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the channels of a log, min/max decimated; `from` and `to` select a range."""
     log = await anyio.to_thread.run_sync(desk.catalogue.log, log_id)
-    glance = replace(glance, channels=_chosen(log, glance.channels))
-    asked = (glance.points, "-".join(glance.channels), glance.begin, glance.end)
+    selection = replace(selection, channels=_chosen(log, selection.channels))
+    asked = (selection.points, "-".join(selection.channels), selection.begin, selection.end)
     etag = f'"{log.id}-{"-".join(map(str, asked))}-{VERSION}"'
     headers = {"ETag": etag, "Cache-Control": "private, no-cache"}
     if matches(if_none_match, etag):
         return Response(status_code=304, headers=headers)
     document = await anyio.to_thread.run_sync(
-        lambda: desk.catalogue.trace_log(log, glance), limiter=desk.readers
+        lambda: desk.catalogue.trace_log(log, selection), limiter=desk.readers
     )
     return Response(document, media_type="application/json", headers=headers)
 

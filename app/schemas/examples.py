@@ -1,32 +1,8 @@
-"""Give the examples for /docs, so that "Try it out" works with the YuMi arm.
-
-The ids of the example logs follow from the bytes of the files that ship with the project, uploaded under
-their own names; a test keeps them together.
-"""
+"""Give the examples of robots, logs and mappings for /docs, so that "Try it out" works with the YuMi arm."""
 
 from ...core.robot.builtin import builtin_description
 
 YUMI_LEFT: dict[str, object] = builtin_description("yumi-left")
-EXAMPLE_LOG = "examples/yumi/log.csv"
-EXAMPLE_LOG_ID = "log-5d5467910a83d6dbb2b0"
-JOB_REQUEST: dict[str, object] = {
-    "kind": "identify",
-    "robot": "yumi-left",
-    "logs": [EXAMPLE_LOG_ID],
-    "options": {},
-}
-HIDDEN_LOG = "examples/yumi/hidden_log.csv"
-HIDDEN_LOG_ID = "log-a7b55ace1b0dad189dae"
-DIAGNOSE_REQUEST: dict[str, object] = {
-    "kind": "diagnose",
-    "robot": "yumi-left",
-    "logs": [HIDDEN_LOG_ID],
-    "options": {"reference": None},
-}
-JOB_REQUESTS: dict[str, object] = {
-    "identify": {"summary": "Identify the arm from the first example log", "value": JOB_REQUEST},
-    "diagnose": {"summary": "Diagnose the second example log", "value": DIAGNOSE_REQUEST},
-}
 PENDULUM_URDF = """<robot name="pendulum">
   <link name="base"/>
   <link name="rod">

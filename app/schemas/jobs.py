@@ -1,20 +1,26 @@
 """Describe requests for jobs, and jobs."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, JsonValue
 
+from ..kinds.registry import KINDS
 from .common import Identity, Instant, Next, Open, Options, ProblemDocument, Strict
 
+if TYPE_CHECKING:
+    Kind = str
+else:
+    Kind = Literal[tuple(KINDS)]
+FEWEST_LOGS = int(all(kind.takes_logs for kind in KINDS.values()))
 State = Literal["accepted", "running", "successful", "failed", "dismissed"]
 
 
 class JobRequest(Strict):
     """A request for a job: kind, robot and logs by id, and options."""
 
-    kind: Annotated[Literal["identify", "diagnose"], Field(description="what to compute")]
+    kind: Annotated[Kind, Field(description="what to compute")]
     robot: Identity
-    logs: Annotated[list[Identity], Field(min_length=1, max_length=100)]
+    logs: Annotated[list[Identity], Field(min_length=FEWEST_LOGS, max_length=100)]
     options: Options = Field(
         default={}, description="unknown options are refused with the list of known ones"
     )

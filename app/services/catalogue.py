@@ -7,13 +7,15 @@ from pathlib import PurePath
 
 from ...core.log.formats.content import recognise
 from ...core.robot.model import RobotModel
+from ...core.robot.plausibility import suspicions
 from ..inspection.inspector import Inspector
-from ..jobs import computations as science
-from ..jobs.computation import Glance, LogFile
+from ..inspection.log_reading import ChannelSelection, LogFile
+from ..kinds.base_parameters import base_parameters
 from ..problems import Problem
-from ..store.blobs import Incoming
+from ..store.blobs.incoming import Incoming
 from ..store.records import Document, LogRecord, RobotRecord
 from ..store.store import TenantStore
+from .robot_descriptions import built_in_descriptions, read_description, read_urdf
 
 LONGEST_NAME = 200
 
@@ -51,7 +53,7 @@ class Catalogue:
         RobotError
             If the description cannot be used.
         """
-        return self._add(*science.read_description(description))
+        return self._add(*read_description(description))
 
     def add_urdf(
         self,
@@ -68,7 +70,7 @@ class Catalogue:
         RobotError
             If the URDF cannot be used.
         """
-        return self._add(*science.read_urdf(text, base_link=base_link, tip_link=tip_link, gravity=gravity))
+        return self._add(*read_urdf(text, base_link=base_link, tip_link=tip_link, gravity=gravity))
 
     def robot(self, identity: str, *, named_in_body: bool = False) -> RobotRecord:
         """Find a robot.
@@ -113,7 +115,7 @@ class Catalogue:
     def base_parameters(self, robot: RobotRecord) -> Document:
         """Say what motion of a robot can tell apart; computed once and remembered."""
         if robot.id not in self._base_parameters:
-            self._base_parameters[robot.id] = science.base_parameters(robot.description)
+            self._base_parameters[robot.id] = base_parameters(robot.description)
         return {"robot": robot.id} | self._base_parameters[robot.id]
 
     def add_log(
@@ -134,7 +136,7 @@ class Catalogue:
         summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
         return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})
 
-    def trace_log(self, log: LogRecord, glance: Glance) -> bytes:
+    def trace_log(self, log: LogRecord, selection: ChannelSelection) -> bytes:
         """Draw channels of a log, as the document that is sent.
 
         Raises
@@ -143,14 +145,11 @@ class Catalogue:
             If its bytes are not what they were.
         """
         mapping = log.summary["mapping"]
-        file = LogFile(
-            self._store.blobs.path(log.sha256),
-            str(log.summary["name"]),
-            mapping if isinstance(mapping, dict) else None,
-            log.sha256,
-        )
+        known = mapping if isinstance(mapping, dict) else None
         size = int(str(log.summary["bytes"]))
-        return self._inspector.trace(file, glance, size=size)
+        with self._store.blobs.local_copy(log.sha256) as path:
+            file = LogFile(path, str(log.summary["name"]), known, log.sha256)
+            return self._inspector.trace(file, selection, size=size)
 
     def log(self, identity: str, *, named_in_body: bool = False) -> LogRecord:
         """Find a log.
@@ -174,7 +173,7 @@ class Catalogue:
             name=robot.name,
             joints=len(robot.joints),
             description=description,
-            suspicions=science.doubts(robot),
+            suspicions=suspicions(robot),
         )
 
 
@@ -192,20 +191,18 @@ def log_name(given: str) -> str:
 
 def built_in_robots() -> dict[str, RobotRecord]:
     """Give the robots that everybody has, by id."""
-    return {
-        name: _built_in(name, description) for name, description in science.built_in_descriptions().items()
-    }
+    return {name: _built_in(name, description) for name, description in built_in_descriptions().items()}
 
 
 def _built_in(name: str, description: Document) -> RobotRecord:
-    robot, written = science.read_description(description)
+    robot, written = read_description(description)
     return RobotRecord(
         id=name,
         name=robot.name,
         joints=len(robot.joints),
         built_in=True,
         description=written,
-        suspicions=science.doubts(robot),
+        suspicions=suspicions(robot),
         created_at=None,
     )
 

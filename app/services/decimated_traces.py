@@ -11,8 +11,8 @@ from ...core.log.preview import FEWEST_POINTS, MOST_POINTS
 from ...core.report.traces.layout import SIGNALS
 from ...core.report.traces.reading import Traces, View, read_traces
 from ...core.report.traces.views import read_views
-from ..http.immutable_response import Result
-from ..jobs.computation import Glance
+from ..http.immutable_response import Blob
+from ..inspection.log_reading import ChannelSelection
 from ..json_text import json_bytes
 from ..problems import Problem
 
@@ -48,21 +48,21 @@ ViewOf = Annotated[View, Depends(_view)]
 """What is asked for in a query."""
 
 
-def _glance(
+def _selection(
     points: Points = 2000,
     channels: Channels = None,
     begin: Annotated[Stamp, Query(alias="from")] = None,
     end: Annotated[Stamp, Query(alias="to")] = None,
-) -> Glance:
+) -> ChannelSelection:
     names = () if channels is None else tuple(name.strip() for name in channels.split(","))
-    return Glance(names, points, begin, end)
+    return ChannelSelection(names, points, begin, end)
 
 
-GlanceOf = Annotated[Glance, Depends(_glance)]
+SelectionOf = Annotated[ChannelSelection, Depends(_selection)]
 """What of a log is asked for in a query."""
 
 
-def traces_response(kept: Result, view: View, if_none_match: str | None) -> Response:
+def traces_response(traces: Blob, view: View, if_none_match: str | None) -> Response:
     """Draw traces.
 
     Raises
@@ -74,14 +74,15 @@ def traces_response(kept: Result, view: View, if_none_match: str | None) -> Resp
     form = "-".join(map(str, asked))
 
     def drawn() -> Response:
-        kept.check()
-        document = _document(view, read_traces(kept.path, view))
+        traces.check()
+        with traces.local_copy() as file:
+            document = _document(view, read_traces(file, view))
         return Response(json_bytes(document), media_type="application/json")
 
-    return kept.unless_known(if_none_match, form, drawn)
+    return traces.unless_known(if_none_match, form, drawn)
 
 
-def views_response(kept: Result, *, log: int, joint: int, if_none_match: str | None) -> Response:
+def views_response(traces: Blob, *, log: int, joint: int, if_none_match: str | None) -> Response:
     """Draw what is left over position, velocity and frequency.
 
     Raises
@@ -93,19 +94,20 @@ def views_response(kept: Result, *, log: int, joint: int, if_none_match: str | N
     """
 
     def drawn() -> Response:
-        kept.check()
-        document = {"log": log, "joint": joint} | asdict(read_views(kept.path, log=log, joint=joint))
+        traces.check()
+        with traces.local_copy() as file:
+            document = {"log": log, "joint": joint} | asdict(read_views(file, log=log, joint=joint))
         return Response(json_bytes(_lists(document)), media_type="application/json")
 
-    return kept.unless_known(if_none_match, f"views-{log}-{joint}", drawn)
+    return traces.unless_known(if_none_match, f"views-{log}-{joint}", drawn)
 
 
 def _lists(value: object) -> object:
     """Write arrays as lists of numbers with the digits that single precision has."""
     if isinstance(value, dict):
-        return {name: _lists(one) for name, one in value.items()}
+        return {name: _lists(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [_lists(one) for one in value]
+        return [_lists(entry) for entry in value]
     return _short(value.tolist()) if isinstance(value, np.ndarray) else value
 
 

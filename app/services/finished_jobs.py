@@ -1,12 +1,21 @@
-"""Find a job and what it left: its result, its traces; or say why there are none."""
+"""Find a job, its result, its traces and its report, or say why there are none."""
 
-from ..http.immutable_response import Result
+import json
+
+from fastapi.responses import HTMLResponse
+
+from ...core.report.page.page import POLICY
+from ...core.report.page.running import Origin
+from ..http.immutable_response import Blob
+from ..kinds.registry import kind_of
 from ..problems import Problem
 from ..store.records import JobRecord
 from .job_feed import no_such_job
 from .services import Desk
 
 RETRY_AFTER_S = "1"
+FRAMED = "; frame-ancestors 'none'; sandbox"
+"""What only a header may say: the page is shown nowhere else, and runs nothing."""
 
 
 def find_job(desk: Desk, job_id: str) -> JobRecord:
@@ -23,7 +32,7 @@ def find_job(desk: Desk, job_id: str) -> JobRecord:
     return job
 
 
-def result_of(desk: Desk, job: JobRecord) -> Result:
+def result_of(desk: Desk, job: JobRecord) -> Blob:
     """Give a job's result document.
 
     Raises
@@ -32,7 +41,7 @@ def result_of(desk: Desk, job: JobRecord) -> Result:
         If it has none: it is not finished, or failed, or was dismissed (409).
     """
     if job.result_sha256 is not None:
-        return Result(job.result_sha256, desk.store.blobs.path(job.result_sha256))
+        return Blob(job.result_sha256, desk.store.blobs)
     if job.state == "failed":
         evidence = {"state": job.state, "problem": job.problem}
         cause = str((job.problem or {}).get("cause", "the job failed"))
@@ -52,8 +61,8 @@ def result_of(desk: Desk, job: JobRecord) -> Result:
     )
 
 
-def traces_of(desk: Desk, job: JobRecord) -> Result:
-    """Give what a job computed instant by instant.
+def traces_of(desk: Desk, job: JobRecord) -> Blob:
+    """Give the torques and residuals of every sample.
 
     Raises
     ------
@@ -68,4 +77,34 @@ def traces_of(desk: Desk, job: JobRecord) -> Result:
             evidence={"job": job.id},
             remedy="delete the job and ask for it again: it was computed by an earlier version",
         )
-    return Result(job.traces_sha256, desk.store.blobs.path(job.traces_sha256))
+    return Blob(job.traces_sha256, desk.store.blobs)
+
+
+def report_of(desk: Desk, job: JobRecord) -> HTMLResponse:
+    """Write the report of a finished job as a page, with figures over time where its traces were kept.
+
+    Raises
+    ------
+    Problem
+        If the job has no result (409), or its kind no report (404).
+    Damaged
+        If its result or its traces are missing, or do not have their digests.
+    """
+    kind = kind_of(job.request.kind)
+    if not kind.has_report:
+        raise Problem(
+            "not-found",
+            f"a job of kind {kind.name} has no report, only its result",
+            evidence={"job": job.id},
+            remedy=f"read /v1/jobs/{job.id}/results",
+        )
+    document = json.loads(result_of(desk, job).content())
+    origin = Origin(job.id, job.finished_at or "")
+    if job.traces_sha256 is None:
+        page = kind.report(document, None, origin)
+    else:
+        traces = Blob(job.traces_sha256, desk.store.blobs)
+        traces.check()
+        with traces.local_copy() as file:
+            page = kind.report(document, file, origin)
+    return HTMLResponse(page, headers={"Content-Security-Policy": POLICY + FRAMED})

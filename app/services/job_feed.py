@@ -7,6 +7,7 @@ versions every few milliseconds.
 
 import asyncio
 import logging
+import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -161,6 +162,17 @@ class JobFeed:
 
     async def _off_the_loop(self, work: Callable[[Sequence[Place]], Given], places: Sequence[Place]) -> Given:
         return await asyncio.get_running_loop().run_in_executor(self._thread, work, places)
+
+
+async def wait_for(feed: JobFeed, job: JobRecord, seconds: float) -> JobRecord:
+    """Give the job as it is when it is finished, when the time is over, or when the service ends."""
+    deadline = time.monotonic() + seconds
+    while not job.finished and not feed.ending and (left := deadline - time.monotonic()) > 0.0:
+        now = await feed.change((job.tenant, job.id), known=job.version, seconds=left)
+        if now is None:  # deleted meanwhile
+            return job
+        job = now
+    return job
 
 
 def no_such_job(identity: str) -> Problem:

@@ -1,6 +1,9 @@
 """Write records as the documents of the contract."""
 
+from ..kinds.registry import KINDS
 from ..store.records import Document, JobRecord, LogRecord, RobotRecord
+
+PARAMETERS_FILE = "parameters.csv"
 
 
 def robot_summary(robot: RobotRecord) -> Document:
@@ -32,11 +35,12 @@ def job_document(job: JobRecord) -> Document:
     path = f"/v1/jobs/{job.id}"
     links = {"self": path}
     if job.state == "successful":
-        links |= {
-            "results": f"{path}/results",
-            "report": f"{path}/report",
-            "parameters_csv": f"{path}/results/parameters.csv",
-        }
+        kind = KINDS[job.request.kind]
+        links["results"] = f"{path}/results"
+        if kind.has_report:
+            links["report"] = f"{path}/report"
+        if PARAMETERS_FILE in kind.artifacts:
+            links["parameters_csv"] = f"{path}/results/{PARAMETERS_FILE}"
         if job.traces_sha256 is not None:
             links["traces"] = f"{path}/traces"
     return {

@@ -12,14 +12,15 @@ from ..auth.callers import Caller, caller_of
 from ..auth.keys import KeyRing
 from ..auth.rate_limit import Pace
 from ..inspection.inspector import Inspector
-from ..jobs import computations as science
 from ..jobs.computation import Ended
-from ..jobs.executor import Executor, ProcessExecutor
-from ..jobs.limits import Limits
-from ..jobs.queue import Queue, Wanted
+from ..jobs.executors.executor import Executor
+from ..jobs.executors.limits import Limits
+from ..jobs.executors.process_executor import ProcessExecutor
+from ..jobs.queue import Queue, Submission
+from ..jobs.rehearsal import rehearse
 from ..jobs.supervisor import Supervisor
-from ..jobs.warm_up import rehearse
 from ..jobs.worker import Capacity, Worker
+from ..kinds.registry import KINDS
 from ..problems import Problem
 from ..settings import Settings
 from ..store.lock import DirectoryLock
@@ -42,7 +43,7 @@ class Desk:
     queue: Queue
     readers: anyio.CapacityLimiter
     feed: JobFeed
-    intake: Intake[Wanted, JobRecord]
+    intake: Intake[Submission, JobRecord]
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Services:
     store: Store
     keys: KeyRing
     feed: JobFeed
-    intake: Intake[Wanted, JobRecord]
+    intake: Intake[Submission, JobRecord]
     pace: Pace
     inspector: Inspector
     computing: Worker | Supervisor | None
@@ -84,7 +85,8 @@ class Services:
         if computing is not None:
             computing.start()
         inspector.prepare()
-        science.read_options("identify", {})  # loads what that needs, so that no request waits for it
+        for kind in KINDS.values():
+            kind.read_options({})  # loads what that needs, so that no request waits for it
 
         def alive() -> bool:
             return computing is None or computing.alive
@@ -136,9 +138,9 @@ def worker_of(
     settings: Settings,
     executor: Executor,
     built_in: dict[str, RobotRecord],
-    told: Callable[[Ended], None] | None,
+    on_ended: Callable[[Ended], None] | None,
 ) -> Worker:
-    """Make a worker as the settings ask for it; `told` hears how every computation went."""
+    """Make a worker by the settings; `on_ended` is called with the outcome of every computation."""
     return Worker(
         store,
         executor,
@@ -149,7 +151,7 @@ def worker_of(
             timeout_s=settings.job_timeout_s,
             retention_days=settings.retention_days,
         ),
-        told=told,
+        on_ended=on_ended,
     )
 
 

@@ -15,7 +15,7 @@ from functools import partial
 from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select, update
 
 from .database import Database
-from .queueing import Asked, Outcome, queue_all
+from .queueing import NewJob, Outcome, queue_all
 from .records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
 from .rows import job_record, request_record
 from .tables import JOBS, now
@@ -42,24 +42,24 @@ class JobStore:
         OverQuota
             If the tenant has as many unfinished jobs as it may have.
         """
-        (outcome,) = self.begin_to_add([Asked(request, key, trace)])()
+        (outcome,) = self.begin_to_add([NewJob(request, key, trace)])()
         if isinstance(outcome, Exception):
             raise outcome
         return outcome
 
-    def begin_to_add(self, asked: list[Asked]) -> Callable[[], list[Outcome]]:
+    def begin_to_add(self, jobs: list[NewJob]) -> Callable[[], list[Outcome]]:
         """Queue jobs together, and give what waits until they are; for each it gives the job, or why not."""
-        if not asked:
+        if not jobs:
             return list
-        coming = self._database.begin(partial(queue_all, tenant=self._tenant, quota=self._quota, asked=asked))
+        coming = self._database.begin(partial(queue_all, tenant=self._tenant, quota=self._quota, jobs=jobs))
 
         def wait() -> list[Outcome]:
             try:
                 return coming.result()
             except Exception as error:  # noqa: BLE001 - it belongs to the one request that brought it about
-                if len(asked) == 1:
+                if len(jobs) == 1:
                     return [error]
-            return [outcome for one in asked for outcome in self.begin_to_add([one])()]
+            return [outcome for job in jobs for outcome in self.begin_to_add([job])()]
 
         return wait
 

@@ -49,13 +49,13 @@ NEW = insert(JOBS).returning(JOBS)
 
 
 @dataclass(frozen=True)
-class Asked:
-    """Ask for a job.
+class NewJob:
+    """Describe a job to be queued.
 
     Attributes
     ----------
     key
-        What a client calls its request, so that it can send it twice and mean it once.
+        The client's Idempotency-Key, which makes a repeated request the same job.
     trace
         Id of the trace that the request belongs to; a job keeps that of the first one.
     """
@@ -83,89 +83,89 @@ class Asked:
 Outcome = JobRecord | Exception
 
 
-def queue_all(connection: Connection, tenant: str, quota: Quota, asked: Sequence[Asked]) -> list[Outcome]:
+def queue_all(connection: Connection, tenant: str, quota: Quota, jobs: Sequence[NewJob]) -> list[Outcome]:
     """Queue jobs; give for each the job, or why there is none: `KeyReused` or `OverQuota`."""
-    keys = [one.key for one in asked if one.key is not None]
-    for about in sorted({*(one.fingerprint for one in asked), *(f"{tenant} {key}" for key in keys)}):
+    keys = [job.key for job in jobs if job.key is not None]
+    for about in sorted({*(job.fingerprint for job in jobs), *(f"{tenant} {key}" for key in keys)}):
         take_turns(connection, about)  # in the same order as everybody, so that no two wait for each other
-    decisions = _Decisions(connection, tenant, quota, asked)
-    decided = [decisions.decide(one) for one in asked]
+    decisions = _Decisions(connection, tenant, quota, jobs)
+    decided = [decisions.decide(job) for job in jobs]
     queued = decisions.write()
-    return [queued[one] if isinstance(one, str) else one for one in decided]
+    return [queued[decision] if isinstance(decision, str) else decision for decision in decided]
 
 
 class _Decisions:
     """Decide request by request; a job that is about to be queued is named by its fingerprint."""
 
-    def __init__(self, connection: Connection, tenant: str, quota: Quota, asked: Sequence[Asked]) -> None:
+    def __init__(self, connection: Connection, tenant: str, quota: Quota, jobs: Sequence[NewJob]) -> None:
         self._connection, self._tenant, self._quota = connection, tenant, quota
         mine = {"tenant": tenant}
-        alike = mine | {"fingerprints": [one.fingerprint for one in asked]}
+        alike = mine | {"fingerprints": [job.fingerprint for job in jobs]}
         rows = connection.execute(ALIKE, alike)
         self._alike: dict[str, JobRecord | str] = {row.fingerprint: job_record(row) for row in rows}
-        keys = [one.key for one in asked if one.key is not None]
+        keys = [job.key for job in jobs if job.key is not None]
         repeated = connection.execute(REPEATED, mine | {"keys": keys}).all() if keys else []
         self._repeated: dict[str, tuple[str, JobRecord | str | None]] = {
             row.key: (row.digest, None if row.id is None else job_record(row)) for row in repeated
         }
         self._room = room_for_jobs(connection, tenant, quota)
-        self._new: list[Asked] = []
-        self._noted: dict[str, tuple[Asked, JobRecord | str]] = {}
+        self._new: list[NewJob] = []
+        self._noted: dict[str, tuple[NewJob, JobRecord | str]] = {}
 
-    def decide(self, one: Asked) -> Outcome | str:
+    def decide(self, job: NewJob) -> Outcome | str:
         """Give the job that answers a request, why there is none, or the name of a new one."""
-        digest, found = self._repeated.get(one.key or "", (one.digest, None))
-        if digest != one.digest:
-            return KeyReused(str(one.key))
+        digest, found = self._repeated.get(job.key or "", (job.digest, None))
+        if digest != job.digest:
+            return KeyReused(str(job.key))
         if found is not None:
             return found
-        known = self._alike.get(one.fingerprint)
+        known = self._alike.get(job.fingerprint)
         if known is None:
             if self._room <= 0:
                 return self._no_room()
-            known = self._another(one)
-        if one.key is not None:
-            self._repeated[one.key] = (one.digest, known)
-            self._noted[one.key] = (one, known)
+            known = self._add(job)
+        if job.key is not None:
+            self._repeated[job.key] = (job.digest, known)
+            self._noted[job.key] = (job, known)
         return known
 
     def write(self) -> dict[str, JobRecord]:
         """Write what is new, and give the new jobs by name."""
         queued: dict[str, JobRecord] = {}
         if self._new:
-            rows = self._connection.execute(NEW, [_row(self._tenant, one) for one in self._new])
+            rows = self._connection.execute(NEW, [_row(self._tenant, job) for job in self._new])
             queued = {row.fingerprint: job_record(row) for row in rows}
         if self._noted:
             self._connection.execute(FORGET, {"tenant": self._tenant, "keys": list(self._noted)})
             notes = [
-                self._note(one, queued[found] if isinstance(found, str) else found)
-                for one, found in self._noted.values()
+                self._note(new, queued[found] if isinstance(found, str) else found)
+                for new, found in self._noted.values()
             ]
             self._connection.execute(insert(REPEATS), notes)
         return queued
 
-    def _another(self, one: Asked) -> str:
+    def _add(self, job: NewJob) -> str:
         self._room -= 1
-        self._new.append(one)
-        self._alike[one.fingerprint] = one.fingerprint
-        return one.fingerprint
+        self._new.append(job)
+        self._alike[job.fingerprint] = job.fingerprint
+        return job.fingerprint
 
     def _no_room(self) -> OverQuota:
         most = self._quota.queued or 0
         return OverQuota("unfinished jobs", most=most, setting="VERITORQUE_QUEUED_PER_TENANT")
 
-    def _note(self, one: Asked, job: JobRecord) -> dict[str, str | None]:
-        mine = {"tenant": self._tenant, "key": one.key, "digest": one.digest}
+    def _note(self, new: NewJob, job: JobRecord) -> dict[str, str | None]:
+        mine = {"tenant": self._tenant, "key": new.key, "digest": new.digest}
         return mine | {"job_id": job.id, "created_at": now()}
 
 
-def _row(tenant: str, one: Asked) -> dict[str, object]:
+def _row(tenant: str, job: NewJob) -> dict[str, object]:
     return {
         "tenant": tenant,
         "id": "job-" + secrets.token_hex(10),
-        "fingerprint": one.fingerprint,
-        "request": one.document.decode(),
-        "trace": one.trace,
+        "fingerprint": job.fingerprint,
+        "request": job.document.decode(),
+        "trace": job.trace,
         "state": "accepted",
         "stage": "",
         "fraction": 0.0,

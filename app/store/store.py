@@ -1,6 +1,6 @@
 """Bind records and bytes together: bytes are written before the record that needs them, and removed after it.
 
-What is in between when the power fails is bytes that no record needs; `app.store.sweep` removes them.
+What is in between when the power fails is bytes that no record needs; `app.store.blobs.sweep` removes them.
 """
 
 from dataclasses import dataclass
@@ -8,7 +8,9 @@ from pathlib import Path
 
 from sqlalchemy import Connection, exists, or_, select, union_all
 
-from .blobs import BlobStore, Incoming
+from .blobs.blob_store import BlobStore
+from .blobs.file_store import FileBlobStore
+from .blobs.incoming import Incoming
 from .database import Database
 from .jobs import JobStore
 from .logs import LogStore, log_id
@@ -40,7 +42,7 @@ class Store:
         directory.mkdir(parents=True, exist_ok=True)
         self.directory = directory
         self.database = Database(database_url) if database_url else Database.in_directory(directory)
-        self.blobs = BlobStore(directory / "blobs")
+        self.blobs: BlobStore = FileBlobStore(directory / "blobs")
         self.work = WorkStore(self.database)
         self.many_jobs = ManyJobs(self.database)
 

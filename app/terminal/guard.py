@@ -8,9 +8,8 @@ import tempfile
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import typer
 from typer.core import TyperGroup
@@ -25,26 +24,18 @@ NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 
 class Commands(TyperGroup):
-    """Hold commands by the modules that define them.
+    """Hold commands that are loaded when they are called; `load` finds them."""
 
-    Attributes
-    ----------
-    homes
-        Module by command; it holds a `typer.Typer` called ``COMMANDS`` whose name is the command's own or
-        which is a single command.
-    """
-
-    homes: ClassVar[dict[str, str]] = {}
-
-    def list_commands(self, _ctx: Any) -> list[str]:  # noqa: ANN401  # typer's own type is private
-        """List the commands in the order in which a reader meets them."""
-        return list(self.homes)
+    def load(self, name: str) -> typer.Typer | None:
+        """Load the `typer.Typer` that holds a command, or is that single command; None for unknown names."""
+        raise NotImplementedError
 
     def get_command(self, _ctx: Any, cmd_name: str) -> Any:  # noqa: ANN401  # typer's own, private
         """Load a command; None where there is none of this name."""
-        if cmd_name not in self.homes:
+        commands = self.load(cmd_name)
+        if commands is None:
             return None
-        loaded = get_command(import_module(self.homes[cmd_name]).COMMANDS)
+        loaded = get_command(commands)
         found = getattr(loaded, "commands", {}).get(cmd_name, loaded)
         found.name = cmd_name
         let_commands_hear()

@@ -1,6 +1,7 @@
-"""Name every command and the module that holds it; nothing else is loaded before one is asked for."""
+"""Name every command and the module that holds it; nothing else is loaded before one is called."""
 
-from typing import Annotated
+from importlib import import_module
+from typing import Annotated, Any
 
 import typer
 
@@ -8,9 +9,7 @@ from ..version import VERSION
 from .guard import Commands
 from .output.streams import say, speak_any_alphabet
 
-HOMES = {
-    "identify": "veritorque.app.terminal.commands.identify",
-    "diagnose": "veritorque.app.terminal.commands.diagnose",
+MODULES = {
     "logs": "veritorque.app.terminal.commands.logs",
     "robots": "veritorque.app.terminal.commands.robots",
     "report": "veritorque.app.terminal.commands.report",
@@ -28,7 +27,23 @@ HOMES = {
 
 
 class _Veritorque(Commands):
-    homes = HOMES
+    """Hold the commands of the kinds of job, then all others."""
+
+    def list_commands(self, _ctx: Any) -> list[str]:  # noqa: ANN401  # typer's own type is private
+        """List the commands in the order in which a reader meets them."""
+        from ..kinds.registry import KINDS
+
+        return [*KINDS, *MODULES]
+
+    def load(self, name: str) -> typer.Typer | None:
+        """Load a command; kinds of job are loaded only for theirs, and for names that are not known."""
+        if name in MODULES:
+            commands: typer.Typer = import_module(MODULES[name]).COMMANDS
+            return commands
+        from ..kinds.registry import KINDS
+        from .commands.compute import command_of
+
+        return command_of(name) if name in KINDS else None
 
 
 COMMANDS = typer.Typer(

@@ -4,20 +4,16 @@ import json
 import signal
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import NoReturn
 
-import typer
-
-from .backend.protocol import Document, Study, bench
+from .backend.protocol import Document, Study
+from .backend.selection import open_backend
 from .output.files import require_folder, save
 from .output.streams import aside, write
 
-OutOption = Annotated[Path | None, typer.Option(help="Save the result document here.")]
-ReportOption = Annotated[Path | None, typer.Option(help="Save the report, one HTML file, here.")]
-
 
 @dataclass(frozen=True)
-class Wanted:
+class Destination:
     """Say where a result goes besides the terminal; with `json` the document goes there as it is."""
 
     json: bool
@@ -25,8 +21,8 @@ class Wanted:
     report: Path | None
 
 
-def run(study: Study, *, url: str, key: str, wanted: Wanted) -> Document:
-    """Compute, save what is wanted, and print the document where that is wanted; give it.
+def run(study: Study, *, url: str, key: str, destination: Destination) -> Document:
+    """Compute, save and print the result document as its destination says, and give it.
 
     Raises
     ------
@@ -36,15 +32,15 @@ def run(study: Study, *, url: str, key: str, wanted: Wanted) -> Document:
     from ..client.progress import bar
 
     signal.signal(signal.SIGTERM, _interrupt)  # ends a job on a service as Ctrl-C does
-    for path in (wanted.out, wanted.report):
+    for path in (destination.out, destination.report):
         if path is not None:
             require_folder(path)
-    with bench(url, key) as one, bar(aside()) as tell:
-        content = one.run(study, tell, wanted.report)
+    with open_backend(url, key) as backend, bar(aside()) as progress:
+        content = backend.run(study, progress, destination.report)
     document: Document = json.loads(content)
-    if wanted.out is not None:
-        save(wanted.out, content)
-    if wanted.json:
+    if destination.out is not None:
+        save(destination.out, content)
+    if destination.json:
         write(content)
     return document
 

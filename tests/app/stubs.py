@@ -3,8 +3,8 @@
 import threading
 
 from tests.core.report.documents import identified
-from veritorque.app.jobs import computations as science
 from veritorque.app.jobs.computation import Failed, Finished, Stopped
+from veritorque.app.jobs.compute import compute
 from veritorque.app.json_text import json_bytes
 from veritorque.app.problems import Problem, problem_of
 from veritorque.core.errors import VeritorqueError
@@ -18,7 +18,7 @@ class StubExecutor:
         self.release = threading.Event()
         self.started = threading.Event()
         self.stopped = threading.Event()
-        self.computations = []
+        self.computations, self.workspaces = [], []
 
     def prepare(self):
         pass
@@ -26,8 +26,9 @@ class StubExecutor:
     def close(self):
         pass
 
-    def run(self, computation, *, progress, stop, timeout_s):
+    def run(self, computation, workspace, *, progress, stop, timeout_s):
         self.computations.append(computation)
+        self.workspaces.append(workspace)
         progress("estimate", 0.5)
         self.started.set()
         while not self.release.wait(0.005):
@@ -57,7 +58,7 @@ class InlineExecutor:
     def close(self):
         pass
 
-    def run(self, computation, *, progress, stop, timeout_s):
+    def run(self, computation, workspace, *, progress, stop, timeout_s):
         self.told = []
 
         def tell(stage, fraction):
@@ -65,6 +66,6 @@ class InlineExecutor:
             progress(stage, fraction)
 
         try:
-            return Finished(json_bytes(science.compute(computation, tell)))
+            return Finished(json_bytes(compute(computation, workspace, tell)))
         except VeritorqueError as error:
             return Failed(problem_of(error).document())

@@ -12,14 +12,16 @@ from starlette.testclient import TestClient
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import description
 from tests.app.stubs import StubExecutor
-from veritorque.app.jobs import computations as science
+from veritorque.app.kinds.diagnose import HIDDEN_LOG_ID
+from veritorque.app.kinds.identify import EXAMPLE_LOG_ID
+from veritorque.app.kinds.registry import KINDS as JOB_KINDS
 from veritorque.app.main import create_app
 from veritorque.app.problems import KINDS, Problem
 from veritorque.app.schemas import examples
 from veritorque.app.schemas.jobs import Job, JobList, JobRequest
 from veritorque.app.schemas.logs import LogList, LogSummary
 from veritorque.app.schemas.robots import Robot, RobotDescription, RobotList
-from veritorque.app.services import readiness
+from veritorque.app.services import catalogue, readiness
 from veritorque.app.settings import Settings
 from veritorque.app.store.logs import log_id as id_of_log
 from veritorque.app.version import VERSION
@@ -161,8 +163,8 @@ def test_answers_follow_the_documented_models(client, robot_id, log_id):
 
 
 def test_the_examples_of_the_contract_work(client):
-    for example in examples.JOB_REQUESTS.values():
-        JobRequest.model_validate(example["value"])
+    for kind in JOB_KINDS.values():
+        JobRequest.model_validate(kind.words.request)
     assert client.post("/v1/robots", json=examples.YUMI_LEFT).status_code == 201
     urdf = client.post("/v1/robots", content=examples.PENDULUM_URDF, headers={"Content-Type": "text/xml"})
     assert urdf.status_code == 201
@@ -172,15 +174,15 @@ def test_the_examples_of_the_contract_work(client):
 @pytest.mark.parametrize(
     ("log", "identity", "kind"),
     [
-        (examples.EXAMPLE_LOG, examples.EXAMPLE_LOG_ID, "identify"),
-        (examples.HIDDEN_LOG, examples.HIDDEN_LOG_ID, "diagnose"),
+        ("examples/yumi/log.csv", EXAMPLE_LOG_ID, "identify"),
+        ("examples/yumi/hidden_log.csv", HIDDEN_LOG_ID, "diagnose"),
     ],
 )
 def test_the_example_jobs_name_the_logs_that_ship_with_the_project(client, log, identity, kind):
     path = ROOT / log
     answer = client.post("/v1/logs", files={"file": (path.name, path.read_bytes(), "text/csv")})
     assert answer.json()["id"] == identity
-    assert client.post("/v1/jobs", json=examples.JOB_REQUESTS[kind]["value"]).status_code == 202
+    assert client.post("/v1/jobs", json=JOB_KINDS[kind].words.request).status_code == 202
 
 
 def test_the_id_of_a_log_depends_on_bytes_name_and_mapping_only():
@@ -240,7 +242,7 @@ def test_a_service_that_still_loads_the_solver_is_alive_but_not_ready(tmp_path):
 
 def test_what_needs_the_solver_waits_until_it_is_loaded(tmp_path, monkeypatch):
     loading = Loading()
-    monkeypatch.setattr(science, "base_parameters", lambda _robot: {"counts": {"base": 5}})
+    monkeypatch.setattr(catalogue, "base_parameters", lambda _robot: {"counts": {"base": 5}})
     with service(tmp_path, loading) as client, ThreadPoolExecutor() as others:
         robot = client.post("/v1/robots", json=description()).json()["id"]
         assert_problem(client.get("/v1/robots/none/base-parameters"), 404, "not-found")

@@ -18,8 +18,8 @@ from tests.app.jobs.test_executor import COMPUTATION
 from tests.app.jobs.test_jobs import another, asked, state_of
 from tests.app.stubs import InlineExecutor, StubExecutor
 from veritorque.app.jobs import worker as worker_module
-from veritorque.app.jobs.computation import Died, Stopped
-from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.jobs.computation import Died, Stopped, Workspace
+from veritorque.app.jobs.executors.process_executor import ProcessExecutor
 from veritorque.app.store import tables
 from veritorque.app.store.errors import Unavailable
 
@@ -197,7 +197,7 @@ def test_a_signal_to_all_processes_of_the_service_ends_no_computation_behind_its
     stop, ended = threading.Event(), []
 
     def compute():
-        ended.append(executor.run(COMPUTATION, progress=hit, stop=stop, timeout_s=60.0))
+        ended.append(executor.run(COMPUTATION, Workspace(), progress=hit, stop=stop, timeout_s=60.0))
 
     def hit(stage, fraction):
         os.kill(int(stage), signal.SIGTERM)
@@ -216,11 +216,11 @@ def test_a_signal_to_all_processes_of_the_service_ends_no_computation_behind_its
 
 def test_a_computation_that_cannot_be_started_is_tried_again(tmp_path, log_bytes, monkeypatch):
     class Hapless(StubExecutor):
-        def run(self, computation, **how):
+        def run(self, computation, workspace, **how):
             if not self.computations:
                 self.computations.append(computation)
                 return Died({"type": "urn:veritorque:problem:computation-stopped"})
-            return super().run(computation, **how)
+            return super().run(computation, workspace, **how)
 
     with service(tmp_path, Hapless()) as client:
         free(client)
@@ -232,7 +232,7 @@ def test_a_computation_that_cannot_be_started_is_tried_again(tmp_path, log_bytes
 def test_without_processes_to_be_had_a_computation_counts_as_died(monkeypatch):
     executor = ProcessExecutor(work.echo, preload=())
     monkeypatch.setattr(executor._context.Process, "start", _refuse)
-    outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=5.0)
+    outcome = executor.run(COMPUTATION, Workspace(), progress=print, stop=threading.Event(), timeout_s=5.0)
     assert isinstance(outcome, Died)
 
 

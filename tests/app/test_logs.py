@@ -12,7 +12,7 @@ import pytest
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns
 from veritorque.app.schemas.logs import LogSummary
-from veritorque.app.store.sweep import Sweep
+from veritorque.app.store.blobs.sweep import Sweep
 
 CSV = {"Content-Type": "text/csv"}
 
@@ -56,12 +56,12 @@ def test_bytes_that_another_log_needs_outlive_a_deletion(client, log_bytes):
     path = client.app.state.services.store.blobs.path(kept["sha256"])
     sweep = Sweep(client.app.state.services.store)
     client.delete(f"/v1/logs/{gone['id']}")
-    assert [sweep.look(), sweep.look()] == [0, 0]
+    assert [sweep.run(), sweep.run()] == [0, 0]
     assert path.read_bytes() == log_bytes
     for log in client.get("/v1/logs").json()["logs"]:
         client.delete(f"/v1/logs/{log['id']}")
-    sweep.look()
-    assert sweep.look() > 0
+    sweep.run()
+    assert sweep.run() > 0
     assert not path.exists()
 
 

@@ -160,7 +160,7 @@ def test_a_job_that_computes_when_the_service_is_told_to_end_is_handed_back(tmp_
     """The service runs as it does for users, with its worker process beside it."""
     script = (
         "import sys; from veritorque.app.jobs import worker_process as process\n"
-        "from veritorque.app.jobs.executor import ProcessExecutor\n"
+        "from veritorque.app.jobs.executors.process_executor import ProcessExecutor\n"
         "from veritorque.app.terminal.main import main; from tests.app import work\n"
         "process.executor_of = lambda settings, store: ProcessExecutor(work.sleep, preload=())\n"
         "if __name__ == '__main__': main()\n"

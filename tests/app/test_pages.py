@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.app.conftest import assert_problem, service
+from veritorque.app.kinds.diagnose import HIDDEN_LOG_ID
+from veritorque.app.kinds.identify import EXAMPLE_LOG_ID
 from veritorque.app.pages.files import STATIC
-from veritorque.app.schemas.examples import EXAMPLE_LOG_ID, HIDDEN_LOG_ID
 from veritorque.app.store.logs import log_id
 
 

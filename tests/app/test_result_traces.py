@@ -11,7 +11,7 @@ from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import InlineExecutor, StubExecutor
 from veritorque.app.schemas.results import ResultDocument
 from veritorque.app.schemas.traces import ResidualViews, ResultTraces
-from veritorque.app.store.sweep import Sweep
+from veritorque.app.store.blobs.sweep import Sweep
 
 FEW = {"bootstrap": {"draws": 0}}
 
@@ -100,11 +100,11 @@ def test_traces_are_kept_as_long_as_their_job_and_no_longer(tmp_path):
         job = f"/v1/jobs/{job_of(client)['id']}"
         store = client.app.state.services.store
         sweep, kept = Sweep(store), len(store.blobs.marks())
-        assert (sweep.look(), sweep.look()) == (0, 0)
+        assert (sweep.run(), sweep.run()) == (0, 0)
         assert client.get(f"{job}/traces?joint=1").status_code == 200
         client.delete(job)
-        sweep.look()
-        sweep.look()
+        sweep.run()
+        sweep.run()
         assert kept - len(store.blobs.marks()) == 2  # the result and the traces
 
 

@@ -137,7 +137,7 @@ def test_a_disk_that_is_full_all_the_same_is_a_problem_too(tmp_path, log_bytes, 
         raise OSError(28, "No space left on device")
 
     with service(tmp_path) as client:
-        monkeypatch.setattr("veritorque.app.store.blobs.os.fsync", full)
+        monkeypatch.setattr("veritorque.app.store.blobs.incoming.os.fsync", full)
         assert_problem(client.post("/v1/logs", content=log_bytes, headers=CSV), 507, "disk-full")
 
 

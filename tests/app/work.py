@@ -11,17 +11,17 @@ import numpy as np
 from veritorque.core.errors import ExcitationError
 
 
-def echo(computation, progress):
+def echo(computation, workspace, progress):
     progress("echo", 0.5)
     return {"robot": computation.robot, "options": computation.options, "pid": os.getpid()}
 
 
-def sleep(computation, progress):
+def sleep(computation, workspace, progress):
     progress("sleep", 0.1)
     time.sleep(60.0)
 
 
-def refuse(computation, progress):
+def refuse(computation, workspace, progress):
     raise ExcitationError(
         "the motion is too slow",
         evidence={"speed": np.float64(0.01), "bad": float("nan")},
@@ -29,43 +29,43 @@ def refuse(computation, progress):
     )
 
 
-def stumble(computation, progress):
+def stumble(computation, workspace, progress):
     raise KeyError("a secret of ours")
 
 
-def hoard(computation, progress):
+def hoard(computation, workspace, progress):
     kept = [np.ones(2**24) for _ in range(64)]  # 128 MiB each
     return {"kept": len(kept)}
 
 
-def spin(computation, progress):
+def spin(computation, workspace, progress):
     signal.signal(signal.SIGALRM, lambda *_: progress("spun", 1.0))
     while True:
         pass
 
 
-def name_your_cpus(computation, progress):
+def name_your_cpus(computation, workspace, progress):
     progress(" ".join(map(str, os.sched_getaffinity(0))), 0.0)
     time.sleep(60.0)
 
 
-def vanish(computation, progress):
+def vanish(computation, workspace, progress):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def fill_the_disk(computation, progress):
+def fill_the_disk(computation, workspace, progress):
     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
-def leave(computation, progress):
+def leave(computation, workspace, progress):
     sys.exit(3)
 
 
-def not_finite(computation, progress):
+def not_finite(computation, workspace, progress):
     return {"value": float("nan")}
 
 
-def name_yourself(computation, progress):
+def name_yourself(computation, workspace, progress):
     progress(str(os.getpid()), 0.0)
     time.sleep(60.0)
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from tests.chaos.work import compute
-from veritorque.app.jobs.computation import Computation, LogFile
+from veritorque.app.jobs.computation import Computation, LogBlob, Workspace
 from veritorque.app.json_text import json_bytes
 from veritorque.app.settings import LOCAL
 from veritorque.app.store.store import Store
@@ -48,12 +48,10 @@ def expected(store, request):
     """Compute a request in this process, in peace."""
     mine = store.of(LOCAL)
     robot, logs = mine.robots.get(request["robot"]), [mine.logs.get(one) for one in request["logs"]]
-    files = tuple(
-        LogFile(store.blobs.path(log.sha256), str(log.summary["name"]), log.summary["mapping"], log.sha256)
-        for log in logs
-    )
-    asked = Computation(request["kind"], robot.description, files, request["options"])
-    return json_bytes(compute(asked, lambda stage, fraction: None))
+    blobs = tuple(LogBlob(log.sha256, str(log.summary["name"]), log.summary["mapping"]) for log in logs)
+    asked = Computation(request["kind"], robot.description, blobs, request["options"])
+    files = {log.sha256: store.blobs.path(log.sha256) for log in logs}
+    return json_bytes(compute(asked, Workspace(files), lambda stage, fraction: None))
 
 
 def _count(store: Store):

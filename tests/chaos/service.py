@@ -22,8 +22,8 @@ def main():
 
 def _executor(settings, _store):
     from tests.chaos.work import compute
-    from veritorque.app.jobs.executor import ProcessExecutor
-    from veritorque.app.jobs.limits import Limits
+    from veritorque.app.jobs.executors.limits import Limits
+    from veritorque.app.jobs.executors.process_executor import ProcessExecutor
 
     limits = Limits(settings.job_memory_bytes, settings.job_cpus)
     return ProcessExecutor(compute, limits=limits, preload=("tests.chaos.work",), at_once=settings.workers)

@@ -8,18 +8,19 @@ import hashlib
 import time
 
 from veritorque.app.json_text import canonical_json
-from veritorque.app.store.blobs import check_file
+from veritorque.app.store.blobs.blob_store import check_file
 
 STAGES = 3
 STAGE_S = 0.05
 
 
-def compute(computation, progress):
+def compute(computation, workspace, progress):
     """Give sums of the logs' columns, and what was asked for."""
     sums = []
     for log in computation.logs:
-        check_file(log.path, log.sha256)
-        with log.path.open(newline="") as file:
+        path = workspace.files[log.sha256]
+        check_file(path, log.sha256)
+        with path.open(newline="") as file:
             rows = [list(map(float, row)) for row in list(csv.reader(file))[1:]]
         sums.append([sum(column) for column in zip(*rows, strict=True)])
     for stage in range(STAGES):

@@ -27,6 +27,7 @@ SKELETON = (
     "veritorque.core.robot.model",
     "veritorque.core.study",
     "veritorque.app.jobs.worker",
+    "veritorque.app.kinds.identify",
     "veritorque.app.main",
     "veritorque.app.routes.logs",
     "veritorque.app.routes.robots",
@@ -34,7 +35,7 @@ SKELETON = (
 )
 
 ALLOWED = (
-    ("veritorque.app.jobs.worker", "veritorque.core.study"),
+    ("veritorque.app.kinds.identify", "veritorque.core.study"),
     ("veritorque.app.routes.robots", "veritorque.app.jobs.worker"),
     ("veritorque.core.dynamics.terms", "veritorque.core.robot.model"),
     ("veritorque.core.estimate.programme", "cvxpy"),
@@ -63,8 +64,9 @@ REFUSED = (
     ("compiled-kernels", "veritorque.core.dynamics.terms", "numba"),
     ("routes-without-core", "veritorque.app.routes.logs", "veritorque.core.log.model"),
     ("routes-apart", "veritorque.app.routes.logs", "veritorque.app.routes.robots"),
-    ("study-by-jobs", "veritorque.app.main", "veritorque.core.study"),
-    ("study-by-jobs", "veritorque.app.routes.robots", "veritorque.core.study"),
+    ("study-by-kinds", "veritorque.app.main", "veritorque.core.study"),
+    ("study-by-kinds", "veritorque.app.routes.robots", "veritorque.core.study"),
+    ("study-by-kinds", "veritorque.app.jobs.worker", "veritorque.core.study"),
     ("plant-apart", "tests.plant.friction", "veritorque.core.dynamics.terms"),
     ("plant-apart", "tests.plant.friction", "veritorque.app.main"),
 )

@@ -13,7 +13,7 @@ from rich.table import Table
 from tests.fuzz.campaign import MAPPING, Tally, case, run
 from tests.fuzz.seeds import seeds
 from veritorque.app.inspection.inspector import Inspector
-from veritorque.app.jobs.computation import LogFile
+from veritorque.app.inspection.log_reading import LogFile
 from veritorque.app.problems import Problem
 
 MEMORY_DISK = Path("/dev/shm")  # noqa: S108  (a folder of chance name within)

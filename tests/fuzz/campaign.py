@@ -23,8 +23,7 @@ from statistics import median
 
 from tests.fuzz.mutation import spoilt
 from tests.fuzz.seeds import seeds
-from veritorque.app.jobs import computations as science
-from veritorque.app.jobs.computation import LogFile
+from veritorque.app.inspection.log_reading import LogFile, summarise_log
 from veritorque.app.json_text import json_bytes
 from veritorque.core.errors import VeritorqueError
 
@@ -83,7 +82,7 @@ def read(path: Path) -> str:
         What is no error of ours: that is what the campaign looks for.
     """
     try:
-        json_bytes(science.summarise_log(LogFile(path, "fuzz", MAPPING, "0" * 64), media_type=None))
+        json_bytes(summarise_log(LogFile(path, "fuzz", MAPPING, "0" * 64), media_type=None))
     except VeritorqueError:
         return "refused"
     except MemoryError:

@@ -11,11 +11,11 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, ru
 
 from tests.chaos.run import MEMORY
 from veritorque.app.jobs.liveness import Presence
-from veritorque.app.jobs.reclaim import Lives
+from veritorque.app.jobs.reclaim import Reclaimer
+from veritorque.app.store.blobs.sweep import Sweep
 from veritorque.app.store.errors import KeyReused
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
-from veritorque.app.store.sweep import Sweep
 from veritorque.app.store.work import MOST_ATTEMPTS
 
 MOST_RUNNING = 2
@@ -130,7 +130,7 @@ class JobLives(RuleBasedStateMachine):
     def kill(self, owner):
         """Kill a worker: its lock is free, and whoever watches takes its jobs back."""
         os.close(self.workers[owner]._file)
-        Lives(self.store, self.watcher).look()
+        Reclaimer(self.store, self.watcher).look()
         for identity, job in list(self.jobs.items()):
             if job.state == "running" and job.owner == owner:
                 self._ended(identity, "die", None)
@@ -146,8 +146,8 @@ class JobLives(RuleBasedStateMachine):
     @rule()
     def sweep(self):
         sweep = Sweep(self.store)
-        sweep.look()
-        sweep.look()
+        sweep.run()
+        sweep.run()
         assert self.store.blobs.marks().keys() == self.store.needed()
 
     @invariant()

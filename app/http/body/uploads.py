@@ -14,7 +14,7 @@ from starlette.requests import ClientDisconnect, Request
 
 from ....core.log.formats.content import FORMS, NO_CLAIM
 from ...problems import Problem
-from ...store.blobs import Incoming
+from ...store.blobs.incoming import Incoming
 from ..refusals import too_large
 from .multipart import parse_form
 

@@ -1,10 +1,7 @@
-"""Compute in this process, on files: no service, no database, nothing kept."""
+"""Compute in this process, on files: without a service or a database, and without keeping anything."""
 
 import hashlib
-import shutil
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 from ....core.errors import LogError, OptionError, RobotError
@@ -13,12 +10,10 @@ from ..kernel_cache import COMPILING, share_compiled_kernels
 from ..output.files import save
 from ..output.streams import note
 from ..threads import limit_threads
-from .protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
-
-PRIOR = "prior"
+from .protocol import WHOLE, Document, FromUrdf, Progress, Study, require_whole
 
 
-class LocalBench:
+class LocalBackend:
     """Do the work here."""
 
     def __init__(self) -> None:
@@ -39,39 +34,40 @@ class LocalBench:
         RobotError
             If there is none, or it cannot be used.
         """
-        from ...jobs import computations as science
+        from ....core.robot.plausibility import suspicions
+        from ...services.robot_descriptions import built_in_descriptions, read_description, read_urdf
 
-        known = science.built_in_descriptions()
+        known = built_in_descriptions()
         if given in known:
             require_whole(given, part)
-            model, description = science.read_description(known[given])
+            model, description = read_description(known[given])
         else:
             content = _robot_file(given, known)
             if content.lstrip()[:1] in (b"{", b"[") or given.endswith(".json"):
                 from ...http.body.json_body import parse_json
 
                 require_whole(given, part)
-                model, description = science.read_description(parse_json(content, what=given))
+                model, description = read_description(parse_json(content, what=given))
             else:
-                model, description = science.read_urdf(content, **vars(part))
+                model, description = read_urdf(content, **vars(part))
         return {
             "id": given,
             "name": model.name,
             "joints": len(model.joints),
             "built_in": given in known,
-            "suspicions": list(science.doubts(model)),
+            "suspicions": list(suspicions(model)),
             "description": description,
         }
 
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
-        from ...jobs import computations as science
+        from ...kinds.base_parameters import base_parameters
 
         description = self.robot(given, part)["description"]
-        _tell_of_compiling()
-        return {"robot": given} | science.base_parameters(description)
+        _note_compilation()
+        return {"robot": given} | base_parameters(description)
 
-    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
+    def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
         """Compute; what cannot succeed is refused before the solver is loaded.
 
         Raises
@@ -79,24 +75,30 @@ class LocalBench:
         VeritorqueError
             If the robot, the logs or the options do not allow it.
         """
-        from ...jobs import computations as science
-        from ...jobs.computation import Computation, LogFile
+        from ...jobs.computation import Computation, LogBlob, Workspace
+        from ...jobs.compute import compute
+        from ...kinds.registry import kind_of
         from ...services.catalogue import log_name
-        from ...services.report import report_page
 
-        tell("load", 0.0)
+        progress("load", 0.0)
+        kind, options = kind_of(study.kind), dict(study.options)
         robot = self.robot(study.robot, study.part)["description"]
-        science.read_options(study.kind, dict(study.options))
+        kind.read_options(options)
         mapping = None if study.mapping is None else dict(study.mapping)
-        logs = tuple(LogFile(path, log_name(path.name), mapping, _hash(path)) for path in study.logs)
-        _tell_of_compiling()
-        with _reference(study) as (options, reference), tempfile.TemporaryDirectory() as folder:
+        digests = {path: _hash(path) for path in study.logs}
+        logs = tuple(LogBlob(digests[path], log_name(path.name), mapping) for path in study.logs)
+        _note_compilation()
+        earlier = _result_file(kind.reference(options))
+        if earlier is not None:
+            digests[earlier] = _hash(earlier)
+        reference = None if earlier is None else digests[earlier]
+        computation = Computation(kind.name, robot, logs, options, reference)
+        with tempfile.TemporaryDirectory() as folder:
             traces = None if report is None else Path(folder) / "residuals.parquet"
-            document = science.compute(
-                Computation(study.kind, robot, logs, options, reference, traces=traces), tell
-            )
+            workspace = Workspace({digest: path for path, digest in digests.items()}, traces)
+            document = compute(computation, workspace, progress)
             if report is not None:
-                save(report, report_page(document, traces).encode())
+                save(report, kind.report(document, traces).encode())
             return json_bytes(document)
 
 
@@ -123,26 +125,19 @@ def _hash(path: Path) -> str:
         ) from error
 
 
-@contextmanager
-def _reference(study: Study) -> Iterator[tuple[Document, Path | None]]:
-    """Give the options, with the earlier result that they name in a file named by its hash."""
-    options = dict(study.options)
-    named = options.get("reference")
-    if not isinstance(named, str) or named == PRIOR:
-        yield options, None
-        return
+def _result_file(named: str | None) -> Path | None:
+    """Give the file of the earlier result that the options name; None where they name none."""
+    if named is None:
+        return None
     if not Path(named).is_file():
         raise OptionError(
             f"there is no result {named} to compare with",
             evidence={"reference": named},
             remedy='name the file of an earlier result document, or "prior"',
         )
-    with tempfile.TemporaryDirectory() as directory:
-        kept = Path(directory) / _hash(Path(named))
-        shutil.copyfile(named, kept)
-        yield options, kept
+    return Path(named)
 
 
-def _tell_of_compiling() -> None:
+def _note_compilation() -> None:
     if not share_compiled_kernels():
         note(f"the first computation on a machine compiles for {COMPILING}; afterwards it starts in seconds")

@@ -1,10 +1,9 @@
-"""Say what a command asks of whoever computes: this process on files, or a service.
+"""Define what commands ask of a backend: this process, which works on files, or a service.
 
-Both give the documents of the API, so that what is printed does not depend on where it came from.
+Both give the documents of the API, so that what is printed does not depend on where it was computed.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
@@ -12,7 +11,7 @@ from typing import Any, Protocol
 from ....core.errors import OptionError
 
 Document = dict[str, Any]
-Tell = Callable[[str, float], None]
+Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True)
@@ -34,9 +33,9 @@ class Study:
     Attributes
     ----------
     kind
-        ``identify`` or ``diagnose``.
+        Name of a kind of job.
     robot
-        What `Bench.robot` takes.
+        What `Backend.robot` takes.
     mapping
         Of all logs; None for the default names.
     part
@@ -68,7 +67,7 @@ def require_whole(given: str, part: FromUrdf) -> None:
         )
 
 
-class Bench(Protocol):
+class Backend(Protocol):
     """Do the work of the commands."""
 
     def robots(self) -> list[Document]:
@@ -83,21 +82,6 @@ class Bench(Protocol):
         """Say what motion of a robot can tell apart."""
         ...
 
-    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
+    def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
         """Compute; give the result document, and write the report where one is wanted."""
         ...
-
-
-@contextmanager
-def bench(url: str, key: str) -> Iterator[Bench]:
-    """Choose who computes: the service at `url`, or this process where it is empty."""
-    if url:
-        from ...client.client import Client
-        from .remote import RemoteBench
-
-        with Client(url, key or None) as client:
-            yield RemoteBench(client)
-    else:
-        from .local import LocalBench
-
-        yield LocalBench()

@@ -1,4 +1,4 @@
-"""Let a service compute: upload, ask, follow, and dismiss the job when the command is interrupted."""
+"""Have a service compute: upload, submit, follow, and dismiss the job if the command is interrupted."""
 
 from contextlib import suppress
 from functools import partial
@@ -11,10 +11,10 @@ from ...client.parcel import require_file
 from ...client.records import Robot
 from ..output.files import means_a_file, save
 from ..output.streams import note
-from .protocol import WHOLE, Document, FromUrdf, Study, Tell, require_whole
+from .protocol import WHOLE, Document, FromUrdf, Progress, Study, require_whole
 
 
-class RemoteBench:
+class RemoteBackend:
     """Do the work on a service."""
 
     def __init__(self, client: Client) -> None:
@@ -36,22 +36,22 @@ class RemoteBench:
         """Say what motion of a robot can tell apart."""
         return self._client.base_parameters(self._robot(given, part))
 
-    def run(self, study: Study, tell: Tell, report: Path | None) -> bytes:
-        """Compute; whoever interrupts this dismisses the job."""
+    def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
+        """Compute; an interruption dismisses the job."""
         for path in study.logs:
             require_file(path, LogError)
         robot = self._robot(study.robot, study.part)
-        tell("upload", 0.0)
+        progress("upload", 0.0)
         logs = [self._client.upload(path, mapping=study.mapping) for path in study.logs]
-        ask = partial(self._client.submit, study.kind, robot, logs, study.options)
+        submit = partial(self._client.submit, study.kind, robot, logs, study.options)
         job = None
         try:
-            job = ask()
+            job = submit()
             note(f"job {job.id}")
-            self._client.wait(job, tell)
+            self._client.finish(job, progress)
         except KeyboardInterrupt:
             with suppress(ServiceError):
-                self._client.cancel(job or ask())  # asked for again, it is the same job
+                self._client.cancel(job or submit())  # the same request is the same job
             raise
         if report is not None:
             save(report, self._client.report(job))

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from ...json_text import json_bytes
-from ..backend.protocol import bench
+from ..backend.selection import open_backend
 from ..options import (
     BaseLinkOption,
     GravityOption,
@@ -32,8 +32,8 @@ GEOMETRY = ("alpha", "d", "theta_offset", "r", "gamma", "b")
 @COMMANDS.command(name="list", epilog="\b\nExample:\n  veritorque robots list")
 def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = False) -> None:
     """List the built-in and, with --url, the stored robots."""
-    with bench(url, key) as one:
-        robots = one.robots()
+    with open_backend(url, key) as backend:
+        robots = backend.robots()
     if json:
         write(json_bytes(robots))
         return
@@ -56,8 +56,8 @@ def show(  # noqa: PLR0913  # the options of a command line
     json: JsonOption = False,
 ) -> None:
     """Show a robot; with --json its description, also for a URDF."""
-    with bench(url, key) as one:
-        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
+    with open_backend(url, key) as backend:
+        seen = backend.robot(robot, part_of(base_link, tip_link, gravity))
     if json:
         write(json_bytes(seen["description"]))
         return
@@ -83,8 +83,8 @@ def check(  # noqa: PLR0913  # the options of a command line
     key: KeyOption = "",
 ) -> None:
     """Check a description: invalid values are errors, implausible values are warnings."""
-    with bench(url, key) as one:
-        seen = one.robot(robot, part_of(base_link, tip_link, gravity))
+    with open_backend(url, key) as backend:
+        seen = backend.robot(robot, part_of(base_link, tip_link, gravity))
     say(f"{seen['name']}: {seen['joints']} joints; valid")
     _print_warnings(seen)
     if fail_on_findings and seen["suspicions"]:
@@ -106,8 +106,8 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
     json: JsonOption = False,
 ) -> None:
     """List the base parameters of a robot with their groupings."""
-    with bench(url, key) as one:
-        document = one.base_parameters(robot, part_of(base_link, tip_link, gravity))
+    with open_backend(url, key) as backend:
+        document = backend.base_parameters(robot, part_of(base_link, tip_link, gravity))
     if json:
         write(json_bytes(document))
         return
@@ -134,7 +134,9 @@ def _print_joints(rows: list[dict[str, Any]]) -> None:
         Column("on", [str(row.get("antecedent", "")) for row in rows], spare=2),
         *(Column(name, [f"{row.get(name) or 0.0:.4g}" for row in rows]) for name in shown),
         Column(
-            "position", ["" if one is None else f"{one[0]:.4g} .. {one[1]:.4g}" for one in limits], spare=4
+            "position",
+            ["" if limit is None else f"{limit[0]:.4g} .. {limit[1]:.4g}" for limit in limits],
+            spare=4,
         ),
     ]
     print_table(out(), columns)

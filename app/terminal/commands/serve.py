@@ -124,6 +124,6 @@ def _listen(settings: Settings) -> None:
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
     say(f"http://{shown}:{settings.port}/docs")
     metrics = Metrics()
-    supervisor = Supervisor(settings, told=metrics.ended) if settings.workers else None
+    supervisor = Supervisor(settings, on_ended=metrics.ended) if settings.workers else None
     with suppress(KeyboardInterrupt):
         Server(create_app(settings, supervisor=supervisor, metrics=metrics), settings).run()

@@ -13,9 +13,9 @@ from ...lifecycle.backup import restore as restore_backup
 from ...lifecycle.doctor import examine
 from ...lifecycle.retention import expire
 from ...settings import Settings
+from ...store.blobs.sweep import Sweep
 from ...store.errors import Damaged, Unavailable
 from ...store.store import Store
-from ...store.sweep import Sweep
 from ..environment import chosen_settings, stop
 from ..output.exit_codes import Exit
 from ..output.streams import say
@@ -41,9 +41,9 @@ def gc(
         for kind, count in expire(store.database, settings.retention_days).items():
             say(f"{count} {kind} expired")
         sweep = Sweep(store)
-        sweep.look()
+        sweep.run()
         time.sleep(pause_s)
-        say(f"{sweep.look()} unreferenced files removed")
+        say(f"{sweep.run()} unreferenced files removed")
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")

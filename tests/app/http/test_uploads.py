@@ -11,7 +11,7 @@ from starlette.requests import Request
 
 from veritorque.app.http.body.uploads import AHEAD, PIECE, receive_body
 from veritorque.app.problems import Problem
-from veritorque.app.store.blobs import BlobStore
+from veritorque.app.store.blobs.file_store import FileBlobStore
 from veritorque.app.store.errors import Unavailable
 
 SCOPE = {"type": "http", "method": "POST", "path": "/v1/logs", "headers": []}
@@ -43,7 +43,7 @@ def writers():
 @given(st.lists(st.integers(0, PIECE // 2 + 3), max_size=12), st.integers(0, 255))
 def test_all_bytes_are_kept_in_their_order(tmp_path_factory, sizes, first):
     pieces = [bytes([(first + number) % 256]) * size for number, size in enumerate(sizes)]
-    with BlobStore(tmp_path_factory.mktemp("blobs")).receive() as incoming:
+    with FileBlobStore(tmp_path_factory.mktemp("blobs")).receive() as incoming:
         received(request_of(pieces, END), incoming)
         incoming.finish()
         assert incoming.path.read_bytes() == b"".join(pieces)
@@ -74,7 +74,7 @@ def test_a_disk_that_is_full_ends_an_upload_soon(pieces):
 
 @pytest.mark.parametrize("pieces", [0, 1, 3])
 def test_a_client_that_goes_away_is_told_so_and_leaves_no_writer(tmp_path, pieces):
-    with BlobStore(tmp_path).receive() as incoming:
+    with FileBlobStore(tmp_path).receive() as incoming:
         with pytest.raises(Problem, match="the upload ended early"):
             received(request_of([bytes(PIECE)] * pieces, GONE), incoming)
         assert writers() == []

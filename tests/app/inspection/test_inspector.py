@@ -9,7 +9,7 @@ from tests.app.planar_arm import csv_log
 from veritorque.app.inspection import inspector as module
 from veritorque.app.inspection.budget import MEGABYTE, Budget, budget_for
 from veritorque.app.inspection.inspector import Inspector
-from veritorque.app.jobs.computation import LogFile
+from veritorque.app.inspection.log_reading import LogFile
 from veritorque.app.problems import Problem
 
 PLENTY = budget_for(0)
@@ -103,9 +103,8 @@ from veritorque.app.inspection.child import NEEDED
 for name in NEEDED:
     import_module(name)
 loaded = set(sys.modules)
-from veritorque.app.jobs import computations as science
-from veritorque.app.jobs.computation import LogFile
-science.summarise_log(LogFile(Path(sys.argv[1]), "arm", None, "f" * 64), media_type=None)
+from veritorque.app.inspection.log_reading import LogFile, summarise_log
+summarise_log(LogFile(Path(sys.argv[1]), "arm", None, "f" * 64), media_type=None)
 print(*(name for name in sys.modules if name not in loaded and not name.startswith("encodings.")))
 """
 

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.app import work
-from veritorque.app.jobs.computation import Computation, Died, Failed, Finished, Stopped
-from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.jobs.computation import Computation, Died, Failed, Finished, Stopped, Workspace
+from veritorque.app.jobs.executors.process_executor import ProcessExecutor
 
 ROOT = Path(__file__).parents[3]
 COMPUTATION = Computation(kind="identify", robot={"name": "arm"}, logs=(), options={"essential": True})
@@ -20,7 +20,9 @@ COMPUTATION = Computation(kind="identify", robot={"name": "arm"}, logs=(), optio
 
 def run(kind, *, stop=None, timeout_s=60.0, progress=lambda stage, fraction: None):
     executor = ProcessExecutor(kind)
-    return executor.run(COMPUTATION, progress=progress, stop=stop or threading.Event(), timeout_s=timeout_s)
+    return executor.run(
+        COMPUTATION, Workspace(), progress=progress, stop=stop or threading.Event(), timeout_s=timeout_s
+    )
 
 
 def test_a_computation_gives_its_document_from_another_process():
@@ -75,13 +77,13 @@ def test_an_error_of_the_science_keeps_its_evidence():
 def test_a_computation_does_not_outlive_the_service():
     """Kill a service the hard way: the process that computes for it notices and ends."""
     script = (
-        "import threading; from veritorque.app.jobs.executor import ProcessExecutor\n"
+        "import threading; from veritorque.app.jobs.executors.process_executor import ProcessExecutor\n"
         "from tests.app import work; "
-        "from tests.app.jobs.test_executor import COMPUTATION\n"
+        "from tests.app.jobs.test_executor import COMPUTATION, Workspace\n"
         "def tell(stage, fraction): print(stage, flush=True)\n"
         "if __name__ == '__main__':\n"
         "    ProcessExecutor(work.name_yourself).run("
-        "COMPUTATION, progress=tell, stop=threading.Event(), timeout_s=60.0)\n"
+        "COMPUTATION, Workspace(), progress=tell, stop=threading.Event(), timeout_s=60.0)\n"
     )
     service = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=ROOT)
     with service:

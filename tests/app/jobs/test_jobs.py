@@ -8,7 +8,7 @@ from tests.app.planar_arm import description
 from tests.app.stubs import RESULT, StubExecutor, failing
 from veritorque.app.json_text import json_bytes
 from veritorque.app.schemas.jobs import Job
-from veritorque.app.store.sweep import Sweep
+from veritorque.app.store.blobs.sweep import Sweep
 
 
 @pytest.fixture
@@ -70,7 +70,8 @@ def test_the_computation_gets_what_was_asked_for(slow, executor, request_body, l
     executor.started.wait(5.0)
     (computation,) = executor.computations
     assert computation.options == {"essential": True}
-    assert computation.logs[0].path.read_bytes() == log_bytes
+    (workspace,) = executor.workspaces
+    assert workspace.files[computation.logs[0].sha256].read_bytes() == log_bytes
     assert computation.robot["name"] == "planar arm"
 
 
@@ -125,10 +126,10 @@ def test_deleting_a_finished_job_removes_it_with_its_result(slow, executor, requ
     store = slow.app.state.services.store
     result = store.blobs.path(store.of("local").jobs.get(job["id"]).result_sha256)
     sweep = Sweep(store)
-    assert sweep.look() == 0
+    assert sweep.run() == 0
     assert slow.delete(f"/v1/jobs/{job['id']}").status_code == 204
-    assert [sweep.look(), result.exists()] == [0, True]
-    assert [sweep.look(), result.exists()] == [1, False]
+    assert [sweep.run(), result.exists()] == [0, True]
+    assert [sweep.run(), result.exists()] == [1, False]
     assert_problem(slow.get(f"/v1/jobs/{job['id']}"), 404, "not-found")
 
 

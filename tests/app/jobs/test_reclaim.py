@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from veritorque.app.jobs.liveness import Presence
-from veritorque.app.jobs.reclaim import LEASE_S, Lives
+from veritorque.app.jobs.reclaim import LEASE_S, Reclaimer
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
 from veritorque.app.store.work import MOST_ATTEMPTS
@@ -56,42 +56,42 @@ def test_the_job_of_a_process_that_was_killed_is_taken_back_at_once(store, mine,
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as other:
         name = other.stdout.readline().strip()
         job = claimed(store, name)
-        lives = Lives(store, mine, clock=Clock())
-        assert (lives.look(), job().state) == (0, "running")
+        reclaimer = Reclaimer(store, mine, clock=Clock())
+        assert (reclaimer.run(), job().state) == (0, "running")
         other.kill()
         other.wait()
-        assert (lives.look(), job().state) == (1, "accepted")
+        assert (reclaimer.run(), job().state) == (1, "accepted")
     assert not (tmp_path / "workers" / name).exists()
 
 
 def test_the_job_of_a_worker_elsewhere_is_taken_back_when_its_beats_stop(store, mine):
     job, clock = claimed(store, "elsewhere"), Clock()
-    lives = Lives(store, mine, clock=clock)
+    reclaimer = Reclaimer(store, mine, clock=clock)
     for _ in range(5):
         clock.now += 0.9 * LEASE_S
         store.work.beat("elsewhere")
-        assert (lives.look(), job().state) == (0, "running")
+        assert (reclaimer.run(), job().state) == (0, "running")
     clock.now += 1.1 * LEASE_S
-    assert (lives.look(), job().state) == (1, "accepted")
+    assert (reclaimer.run(), job().state) == (1, "accepted")
 
 
 def test_a_watcher_that_was_frozen_itself_takes_nothing_from_those_who_worked(store, mine):
     job, clock = claimed(store, "elsewhere"), Clock()
-    lives = Lives(store, mine, clock=clock)
-    lives.look()
+    reclaimer = Reclaimer(store, mine, clock=clock)
+    reclaimer.run()
     clock.now += 100.0 * LEASE_S
     store.work.beat("elsewhere")
-    assert (lives.look(), job().state) == (0, "running")
+    assert (reclaimer.run(), job().state) == (0, "running")
 
 
 def test_a_job_whose_workers_go_silent_again_and_again_fails(store, mine):
     job, clock = claimed(store, "elsewhere"), Clock()
-    lives = Lives(store, mine, clock=clock)
+    reclaimer = Reclaimer(store, mine, clock=clock)
     for attempt in range(MOST_ATTEMPTS):
         if attempt:
             store.work.claim("elsewhere", most_per_tenant=9)
-        lives.look()
+        reclaimer.run()
         clock.now += 1.1 * LEASE_S
-        lives.look()
+        reclaimer.run()
     assert job().state == "failed"
     assert "3 times" in job().problem["cause"]

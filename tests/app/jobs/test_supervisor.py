@@ -34,7 +34,7 @@ def supervised(script, told=None):
         started.append(process)
         return process
 
-    watching = Supervisor(Settings.model_construct(), start, told=told)
+    watching = Supervisor(Settings.model_construct(), start, on_ended=told)
     watching.start()
     try:
         yield watching, started

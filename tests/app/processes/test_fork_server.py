@@ -13,8 +13,8 @@ import pytest
 
 from tests.app import work
 from tests.app.jobs.test_executor import COMPUTATION
-from veritorque.app.jobs.computation import Finished
-from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.jobs.computation import Finished, Workspace
+from veritorque.app.jobs.executors.process_executor import ProcessExecutor
 from veritorque.app.processes.fork_server import Child, Standby, fork_server
 
 CONTEXT = fork_server()
@@ -115,7 +115,7 @@ def test_a_rehearsal_makes_way_for_a_computation():
     executor = ProcessExecutor(work.echo, preload=(), rehearse=work.rehearse_for_ever)
     executor.prepare()
     time.sleep(0.3)
-    outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=60.0)
+    outcome = executor.run(COMPUTATION, Workspace(), progress=print, stop=threading.Event(), timeout_s=60.0)
     executor.close()
     assert isinstance(outcome, Finished)
     assert json.loads(outcome.result)["robot"] == COMPUTATION.robot
@@ -125,7 +125,7 @@ def test_a_rehearsal_that_fails_does_no_harm():
     executor = ProcessExecutor(work.echo, preload=(), rehearse=work.refuse_to_rehearse)
     executor.prepare()
     time.sleep(0.3)
-    outcome = executor.run(COMPUTATION, progress=print, stop=threading.Event(), timeout_s=60.0)
+    outcome = executor.run(COMPUTATION, Workspace(), progress=print, stop=threading.Event(), timeout_s=60.0)
     executor.close()
     assert isinstance(outcome, Finished)
 
@@ -138,12 +138,12 @@ time.sleep(300.0)
 
 STOPPED_EARLY = """
 import threading
-from veritorque.app.jobs.executor import ProcessExecutor
+from veritorque.app.jobs.executors.process_executor import ProcessExecutor
 from tests.app import work
-from tests.app.jobs.test_executor import COMPUTATION
+from tests.app.jobs.test_executor import COMPUTATION, Workspace
 
 def asked():
-    print(executor.run(COMPUTATION, progress=print, stop=stop, timeout_s=60.0))
+    print(executor.run(COMPUTATION, Workspace(), progress=print, stop=stop, timeout_s=60.0))
 
 stop = threading.Event()
 executor = ProcessExecutor(work.echo, preload=("slow_to_load",))

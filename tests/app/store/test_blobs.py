@@ -2,22 +2,22 @@
 
 import pytest
 
-from veritorque.app.store.blobs import BlobStore
+from veritorque.app.store.blobs.file_store import FileBlobStore
 
 
 @pytest.fixture
 def blobs(tmp_path):
-    return BlobStore(tmp_path)
+    return FileBlobStore(tmp_path)
 
 
 @pytest.fixture
 def restarted(blobs, tmp_path):
     """The same directory as a service sees it that starts while a worker goes on."""
-    return BlobStore(tmp_path)
+    return FileBlobStore(tmp_path)
 
 
 def test_a_restart_leaves_what_a_worker_is_about_to_keep(blobs, restarted):
-    with blobs.aside() as traces:
+    with blobs.scratch_file() as traces:
         traces.write_bytes(b"torque")
         restarted.remove_leftovers()
         sha256 = blobs.put_file(traces)
@@ -33,7 +33,7 @@ def test_a_restart_leaves_what_another_process_receives(blobs, restarted):
 
 
 def test_what_nobody_holds_any_more_is_removed(blobs, restarted, tmp_path):
-    with blobs.aside() as traces:
+    with blobs.scratch_file() as traces:
         traces.write_bytes(b"torque")
     aside = tmp_path / "incoming"
     assert list(aside.iterdir()) == []

@@ -5,13 +5,13 @@ from sqlalchemy.exc import DataError, IntegrityError
 
 from veritorque.app.store import queueing
 from veritorque.app.store.errors import KeyReused, OverQuota
-from veritorque.app.store.queueing import Asked
+from veritorque.app.store.queueing import NewJob
 from veritorque.app.store.records import JobRequestRecord, Quota
 from veritorque.app.store.store import Store
 
 
 def asked(number=0, key=None):
-    return Asked(JobRequestRecord("identify", "arm", ("log-1",), {"number": number}), key)
+    return NewJob(JobRequestRecord("identify", "arm", ("log-1",), {"number": number}), key)
 
 
 def names(outcomes):
@@ -71,7 +71,7 @@ def test_a_request_that_the_database_refuses_takes_none_of_the_others_with_it(st
     monkeypatch.setattr(
         queueing, "_row", lambda tenant, one: row(tenant, one) | (spoilt if one.trace == "bad" else {})
     )
-    bad = Asked(JobRequestRecord("identify", "arm", (), {}), None, "bad")
+    bad = NewJob(JobRequestRecord("identify", "arm", (), {}), None, "bad")
     outcomes = store.of("local").jobs.begin_to_add([asked(1), bad, asked(2)])()
     assert isinstance(outcomes[1], IntegrityError | DataError)
     assert {job.request.options["number"] for job in store.of("local").jobs.page(limit=9)} == {1, 2}

@@ -18,7 +18,7 @@ from tests.app.stubs import InlineExecutor, StubExecutor, failing
 from tests.app.terminal.conftest import ROOT, run
 from tests.core.report.documents import diagnosed, nothing_found
 from veritorque.app.client.client import Client
-from veritorque.app.jobs import computations as science
+from veritorque.app.jobs import compute as computing
 from veritorque.app.problems import KINDS
 from veritorque.app.terminal.output.exit_codes import NO_RESULT, NO_SERVICE, Exit
 from veritorque.core.errors import ExcitationError, LogError, SolverError
@@ -55,7 +55,7 @@ def test_files_and_a_service_give_the_same_document_byte_for_byte(planar, tmp_pa
 
 def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
     monkeypatch.setattr(
-        "veritorque.app.terminal.backend.local.LocalBench.run", lambda *_: identified.read_bytes()
+        "veritorque.app.terminal.backend.local.LocalBackend.run", lambda *_: identified.read_bytes()
     )  # the same document, printed
     ended = run("identify", "yumi-left", "examples/yumi/log.csv", COLUMNS="40")
     rows = [line.split() for line in ended.stdout.splitlines()]
@@ -72,7 +72,7 @@ def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
 @pytest.mark.parametrize(("document", "code"), [(diagnosed(), Exit.FOUND), (nothing_found(), Exit.DONE)])
 def test_a_diagnosis_fails_on_findings_only_where_that_is_asked_for(desk, monkeypatch, document, code):
     content = json.dumps(document).encode()
-    monkeypatch.setattr("veritorque.app.terminal.backend.local.LocalBench.run", lambda *_: content)
+    monkeypatch.setattr("veritorque.app.terminal.backend.local.LocalBackend.run", lambda *_: content)
     command = ("diagnose", "yumi-left", "examples/yumi/log.csv")
     assert run(*command).exit_code == Exit.DONE
     failing_run = run(*command, "--fail-on-findings", "--json")
@@ -136,7 +136,7 @@ def test_a_computation_that_gives_nothing_says_so_by_its_code(planar, monkeypatc
     def stopped(*_):
         raise error
 
-    monkeypatch.setattr(science, "compute", stopped)
+    monkeypatch.setattr(computing, "compute", stopped)
     ended = run("identify", "arm.json", "swing.csv", "--json")
     assert (ended.exit_code, no_tables(ended)) == (code, True)
     assert getattr(error, "cause", "interrupted") in ended.stderr
@@ -146,7 +146,7 @@ def test_a_mistake_of_ours_leaves_its_trace_in_a_file_and_not_on_the_screen(plan
     def mistaken(*_):
         raise ZeroDivisionError("by zero")
 
-    monkeypatch.setattr(science, "compute", mistaken)
+    monkeypatch.setattr(computing, "compute", mistaken)
     monkeypatch.setattr(tempfile, "tempdir", str(planar))
     ended = run("identify", "arm.json", "swing.csv")
     assert ended.exit_code == Exit.MISTAKE
@@ -263,7 +263,7 @@ def test_a_result_on_disk_is_what_a_diagnosis_compares_with(planar, monkeypatch)
         assert computation.options == {"reference": "before.json"}
         return diagnosed()
 
-    monkeypatch.setattr(science, "compute", looked)
+    monkeypatch.setattr(computing, "compute", looked)
     assert run("diagnose", "arm.json", "swing.csv", "--reference", "before.json").exit_code == 0
     assert seen == [json.loads(Path("before.json").read_text())]
 

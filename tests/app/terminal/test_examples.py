@@ -16,7 +16,7 @@ from tests.core.report.documents import diagnosed
 from veritorque.app.jobs import worker_process as process
 from veritorque.app.jobs.computation import Finished
 from veritorque.app.json_text import json_bytes
-from veritorque.app.terminal.backend.local import LocalBench
+from veritorque.app.terminal.backend.local import LocalBackend
 from veritorque.app.terminal.commands import serve
 from veritorque.app.terminal.main import COMMANDS
 from veritorque.app.terminal.output.exit_codes import Exit
@@ -59,11 +59,11 @@ def test_every_command_has_help_with_an_example_of_itself(name):
 class _Recording(StubExecutor):
     """Leave what a computation leaves instant by instant, where a log is diagnosed; it is not looked into."""
 
-    def run(self, computation, **more):
-        ended = super().run(computation, **more)
+    def run(self, computation, workspace, **more):
+        ended = super().run(computation, workspace, **more)
         if computation.kind != "diagnose":
             return ended
-        computation.traces.write_bytes(b"PAR1")
+        workspace.traces.write_bytes(b"PAR1")
         return Finished(json_bytes(diagnosed()))
 
 
@@ -124,7 +124,7 @@ def test_a_command_that_opened_the_journal_leaves_none_to_a_standard_error_that_
 def test_the_examples_of_a_diagnosis_find_what_is_hidden_in_its_log(monkeypatch):
     """The science of it is tested elsewhere and takes its time; here it is what the command does with it."""
     asked = []
-    monkeypatch.setattr(LocalBench, "run", lambda _, *given: asked.append(given) or json_bytes(diagnosed()))
+    monkeypatch.setattr(LocalBackend, "run", lambda _, *given: asked.append(given) or json_bytes(diagnosed()))
     ends = [called(line, {}).exit_code for line in examples(EVERY["diagnose"])]
     assert ends == [Exit.FOUND, Exit.DONE]
     (study, _, report), (other, _, none) = asked

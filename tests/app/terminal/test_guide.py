@@ -11,8 +11,9 @@ from tests.app.terminal.conftest import ROOT
 from tests.app.terminal.test_examples import called
 from tests.core.report.documents import diagnosed
 from veritorque.app.json_text import json_bytes
-from veritorque.app.terminal.backend.local import LocalBench
-from veritorque.app.terminal.main import HOMES
+from veritorque.app.kinds.registry import KINDS
+from veritorque.app.terminal.backend.local import LocalBackend
+from veritorque.app.terminal.main import MODULES
 from veritorque.app.terminal.output.exit_codes import Exit
 
 GUIDE = (ROOT / "docs" / "terminal.md").read_text(encoding="utf-8")
@@ -37,7 +38,7 @@ def test_every_command_of_the_guide_runs_in_the_order_of_reading(
         asked.append(study)
         return identified.read_bytes() if study.kind == "identify" else json_bytes(diagnosed())
 
-    monkeypatch.setattr(LocalBench, "run", computed)
+    monkeypatch.setattr(LocalBackend, "run", computed)
     executor = StubExecutor()
     executor.release.set()
     with listening_service(tmp_path_factory.mktemp("served"), executor) as (_, port):
@@ -55,6 +56,6 @@ def test_the_codes_of_the_guide_are_those_that_there_are():
     assert [int(one) for one in told] == [code.value for code in Exit]
 
 
-@pytest.mark.parametrize("name", [name for name in HOMES if name not in ("openapi", "version")])
+@pytest.mark.parametrize("name", [name for name in (*KINDS, *MODULES) if name not in ("openapi", "version")])
 def test_every_command_is_in_the_guide(name):
     assert f"`{name}" in GUIDE

@@ -9,7 +9,7 @@ from tests.app.planar_arm import GRAVITY, LENGTH, csv_log, description
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import run
 from tests.core.report.documents import diagnosed, identified
-from veritorque.app.jobs import computations as science
+from veritorque.app.jobs import compute as computing
 from veritorque.app.terminal.output.exit_codes import Exit
 
 MEANT = ("--base-link", "wall", "--tip-link", "fore", f"--gravity=0,{-GRAVITY},0")
@@ -80,7 +80,7 @@ def test_every_study_computes_with_the_part_that_is_meant(cell, served, monkeypa
     refused = run(*asked)
     assert (refused.exit_code, "different numbers of joints" in refused.stderr) == (Exit.INPUT, True)
     seen = []
-    monkeypatch.setattr(science, "compute", lambda one, _: seen.append(one.robot) or STUDIES[kind]())
+    monkeypatch.setattr(computing, "compute", lambda one, *_: seen.append(one.robot) or STUDIES[kind]())
     executor, url = served
     for where in ((), url):
         ended = run(*asked, *MEANT, *where, "--json")

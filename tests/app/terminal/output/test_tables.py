@@ -25,7 +25,7 @@ def printed(desk, identified, monkeypatch):
     """Print what a command prints in a terminal of some width."""
     documents = {"identify": identified.read_bytes(), "diagnose": json_bytes(diagnosed())}
     monkeypatch.setattr(
-        "veritorque.app.terminal.backend.local.LocalBench.run", lambda _, study, *__: documents[study.kind]
+        "veritorque.app.terminal.backend.local.LocalBackend.run", lambda _, study, *__: documents[study.kind]
     )
 
     def at(width, command):

@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-_taken: list[socket.socket] = []
+_reserved: list[socket.socket] = []
 """Addresses that stand for CPUs, held as long as this process lives."""
 
 
@@ -62,7 +62,7 @@ def _limit(what: int, wanted: int) -> None:
 def _pin(count: int) -> None:
     """Stay on so many CPUs, on such that no other computation of this machine has, where there are."""
     allowed = sorted(os.sched_getaffinity(0))
-    chosen = [cpu for cpu in allowed if len(_taken) < count and _take(cpu)]
+    chosen = [cpu for cpu in allowed if len(_reserved) < count and _take(cpu)]
     others = [cpu for cpu in allowed if cpu not in chosen]
     turn = os.getpid() % len(allowed)  # computations that have to share do not all share the same one
     others = others[turn:] + others[:turn]
@@ -76,5 +76,5 @@ def _take(cpu: int) -> bool:
     except OSError:
         address.close()
         return False
-    _taken.append(address)
+    _reserved.append(address)
     return True

@@ -1,55 +1,38 @@
-"""Run computations so that they can be followed, stopped and survived.
+"""Run every computation in a process of its own.
 
-The interface is one method; the one implementation gives every computation a process of its own, forked from
-a server process that has the solver loaded already, and waiting for its computation ahead of time. A crash, a
-dismissal or a timeout ends that process and nothing else.
+Processes are forked ahead of time from a server process that has loaded the solver, and wait for their
+computations. A crash, a dismissal or a timeout ends one such process and nothing else.
 """
 
 import json
 import logging
 import signal
 import time
-from collections.abc import Callable
 from multiprocessing.connection import wait
 from threading import Event
-from typing import Protocol
 
-from ..problems import Problem
-from ..processes.fork_server import READERS, Child, NotWanted, Standby, fork_server
-from . import computations, job_process
-from .computation import (
+from ...kinds.kind import Progress
+from ...kinds.registry import KINDS
+from ...problems import Problem
+from ...processes.fork_server import READERS, Child, NotWanted, Standby, fork_server
+from .. import compute
+from ..computation import (
     Computation,
     Died,
     Failed,
     Finished,
     Outcome,
-    Progress,
     Rehearse,
     Stopped,
     Work,
+    Workspace,
 )
+from . import job_process
 from .limits import Limits
 
 LOGGER = logging.getLogger(__name__)
-LOOK_EVERY_S = 0.05
-
-Stop = Callable[[], bool]
-
-
-class Executor(Protocol):
-    """Run computations one by one, from several threads at the same time."""
-
-    def prepare(self) -> None:
-        """Load what the first computation would otherwise wait for."""
-        ...
-
-    def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
-        """Run a computation to its end, until `stop` is set, or until the time is over (s)."""
-        ...
-
-    def close(self) -> None:
-        """Let go of all that was prepared, once nothing is computed any more."""
-        ...
+POLL_S = 0.05
+PRELOAD = tuple(dict.fromkeys(module for kind in KINDS.values() for module in kind.preload))
 
 
 class ProcessExecutor:
@@ -64,22 +47,22 @@ class ProcessExecutor:
     preload
         Modules that the server process loads before it forks.
     rehearse
-        Does the like of the work in a process that has nothing to do yet, so that all of it is in memory.
+        Rehearses the work in a process that waits, so that its libraries and memory are ready.
     at_once
-        Computations for which a process waits.
+        Processes that wait for computations.
     """
 
     def __init__(
         self,
-        work: Work = computations.compute,
+        work: Work = compute.compute,
         *,
         limits: Limits = Limits(),  # noqa: B008 - it never changes
-        preload: tuple[str, ...] = ("veritorque.core.study", "sklearn.ensemble", *READERS),
+        preload: tuple[str, ...] = (*PRELOAD, *READERS),
         rehearse: Rehearse = job_process.nothing,
         at_once: int = 1,
     ) -> None:
         self._context = fork_server(
-            "veritorque.app.jobs.fork_hooks", "veritorque.app.jobs.job_process", *preload
+            "veritorque.app.processes.ignore_sigterm", "veritorque.app.jobs.executors.job_process", *preload
         )
         self._at_once = at_once
         self._standby = Standby(lambda: Child(self._context, job_process.compute, work, limits, rehearse))
@@ -89,17 +72,25 @@ class ProcessExecutor:
         for coming in self._standby.prepare(self._at_once):
             coming.result()
 
-    def run(self, computation: Computation, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:
+    def run(
+        self,
+        computation: Computation,
+        workspace: Workspace,
+        *,
+        progress: Progress,
+        stop: Event,
+        timeout_s: float,
+    ) -> Outcome:
         """Run a computation in a process of its own; see `Executor`."""
         try:
             with self._standby.child(stop) as process:
-                process.pipe.send((computation, timeout_s))
+                process.pipe.send((computation, workspace, timeout_s))
                 return _follow(process, progress=progress, stop=stop, timeout_s=timeout_s)
         except NotWanted:
             return Stopped()
         except (EOFError, OSError) as error:  # the server that forks is gone; it is started again by itself
-            LOGGER.warning("no process could be had: %r", error)
-            return Died(_vanished(None).document())
+            LOGGER.warning("no process for a computation could be started: %r", error)
+            return Died(_ended_without_result(None).document())
 
     def close(self) -> None:
         """End the processes that wait."""
@@ -111,7 +102,7 @@ def _follow(process: Child, *, progress: Progress, stop: Event, timeout_s: float
     while not stop.is_set():
         if time.monotonic() > deadline:
             return Failed(_too_slow(timeout_s).document())
-        if not wait([process.pipe], timeout=LOOK_EVERY_S):
+        if not wait([process.pipe], timeout=POLL_S):
             continue
         try:
             message = process.pipe.recv_bytes()
@@ -119,7 +110,7 @@ def _follow(process: Child, *, progress: Progress, stop: Event, timeout_s: float
             exit_code = process.exit_code()
             if exit_code == -signal.SIGXCPU:
                 return Failed(_too_slow(timeout_s).document())
-            return Died(_vanished(exit_code).document())
+            return Died(_ended_without_result(exit_code).document())
         outcome = _read(message, progress)
         if outcome is not None:
             return outcome
@@ -133,7 +124,7 @@ def _read(message: bytes, progress: Progress) -> Outcome | None:
     if letter == job_process.FAILURE:
         return Failed(json.loads(content))
     if letter == job_process.TRACE:
-        LOGGER.error("a computation met a mistake of ours:\n%s", content.decode(errors="replace"))
+        LOGGER.error("a computation failed with an internal error:\n%s", content.decode(errors="replace"))
     else:
         stage, fraction = json.loads(content)
         progress(stage, fraction)
@@ -149,8 +140,8 @@ def _too_slow(timeout_s: float) -> Problem:
     )
 
 
-def _vanished(exit_code: int | None) -> Problem:
-    """Say that the process ended without a word; a negative exit code is a signal's number."""
+def _ended_without_result(exit_code: int | None) -> Problem:
+    """Report a process that ended without a result; a negative exit code is a signal's number."""
     return Problem(
         "computation-stopped",
         "the computation's process ended without a result",

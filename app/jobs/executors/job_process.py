@@ -1,8 +1,8 @@
-"""Compute one job in a process of its own, and tell the service how it goes over a pipe.
+"""Compute one job in a process of its own, and report to the service over a pipe.
 
 A message is one letter and its content: ``p`` progress, ``r`` the result document, ``f`` the problem
-document, ``t`` the trace of a mistake of ours (for the service's own log, never for clients). A computation
-does not outlive the service.
+document, ``t`` the traceback of an internal error (for the service's own log, never for clients). A
+computation does not outlive the service.
 """
 
 import errno
@@ -10,45 +10,49 @@ import os
 import signal
 import threading
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from multiprocessing.connection import Connection
 
-from ...core.errors import VeritorqueError
-from ..json_text import json_bytes
-from ..problems import Problem, problem_of, problem_of_damage
-from ..store.errors import Damaged
-from .computation import Computation, Progress, Rehearse, Work
+from ....core.errors import VeritorqueError
+from ...json_text import json_bytes
+from ...kinds.kind import Progress
+from ...problems import Problem, problem_of, problem_of_damage
+from ...store.errors import Damaged
+from ...store.records import Document
+from ..computation import Rehearse, Work
 from .limits import Limits
 
 PROGRESS, RESULT, FAILURE, TRACE = b"p", b"r", b"f", b"t"
 IDLE_S = 0.02
-"""Where no computation comes for so long, there is time to rehearse."""
+"""Time without a computation after which the work is rehearsed."""
 
 
 def compute(pipe: Connection, work: Work, limits: Limits, rehearse: Rehearse) -> None:
-    """Wait for a computation and carry it out; the entry point of the process.
+    """Wait for a computation and run it; the entry point of the process.
 
-    Where there is time, the work is rehearsed meanwhile.
+    The work is rehearsed while no computation comes.
     """
-    for told in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(told, signal.SIG_IGN)  # they are for the service, which then stops its computations
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)  # the service handles them, and stops its computations
     limits.hold()
     if not pipe.poll(IDLE_S):
         _rehearse(pipe, rehearse)
     try:
-        computation, timeout_s = pipe.recv()
+        computation, workspace, timeout_s = pipe.recv()
     except EOFError:  # the service is gone
         return
-    threading.Thread(target=_end_with_the_service, args=(pipe,), daemon=True).start()
+    threading.Thread(target=_end_with_service, args=(pipe,), daemon=True).start()
     limits.hold_to_time(timeout_s)
-    _carry_out(pipe, work, computation, limits)
+    _report(pipe, partial(work, computation, workspace), limits)
 
 
 def nothing(_progress: Progress) -> None:
     """Rehearse nothing."""
 
 
-def _carry_out(pipe: Connection, work: Work, computation: Computation, limits: Limits) -> None:
+def _report(pipe: Connection, work: Callable[[Progress], Document], limits: Limits) -> None:
     sending = threading.Lock()
 
     def send(letter: bytes, content: bytes) -> None:
@@ -59,16 +63,16 @@ def _carry_out(pipe: Connection, work: Work, computation: Computation, limits: L
         send(PROGRESS, json_bytes([stage, min(max(float(fraction), 0.0), 1.0)]))
 
     try:
-        send(RESULT, json_bytes(work(computation, progress)))
+        send(RESULT, json_bytes(work(progress)))
     except Exception as error:  # noqa: BLE001  (the boundary of the process: what is not ours becomes a problem without internals)
         problem = _problem(error, limits)
         if problem is None:
             send(TRACE, traceback.format_exc().encode(errors="replace"))
-        send(FAILURE, json_bytes((problem or mistake()).document()))
+        send(FAILURE, json_bytes((problem or internal_error()).document()))
 
 
 def out_of_memory(limits: Limits) -> Problem:
-    """Say that the memory did not suffice."""
+    """Report that the memory did not suffice."""
     return Problem(
         "job-memory",
         f"the computation needs more memory than the {limits.memory_bytes} bytes that it may use",
@@ -80,7 +84,7 @@ def out_of_memory(limits: Limits) -> Problem:
 
 
 def no_room() -> Problem:
-    """Say that the disk did not suffice."""
+    """Report that the disk did not suffice."""
     return Problem(
         "disk-full",
         "the disk is full, so that what was computed could not be kept",
@@ -88,8 +92,8 @@ def no_room() -> Problem:
     )
 
 
-def mistake() -> Problem:
-    """Say that the mistake is ours."""
+def internal_error() -> Problem:
+    """Report an error of the service itself."""
     return Problem(
         "internal",
         "the computation met a mistake of the service",
@@ -97,21 +101,21 @@ def mistake() -> Problem:
     )
 
 
-class _WantedError(Exception):
-    """End a rehearsal: there is a computation."""
+class _ComputationWaitsError(Exception):
+    """End a rehearsal, because there is a computation."""
 
 
 def _rehearse(pipe: Connection, rehearse: Rehearse) -> None:
-    def look(_stage: str, _fraction: float) -> None:
+    def stop_if_needed(_stage: str, _fraction: float) -> None:
         if pipe.poll():
-            raise _WantedError
+            raise _ComputationWaitsError
 
-    with suppress(Exception):  # whatever stands in the way of a rehearsal, the computation itself will tell
-        rehearse(look)
+    with suppress(Exception):  # a real computation will report what made the rehearsal fail
+        rehearse(stop_if_needed)
 
 
 def _problem(error: Exception, limits: Limits) -> Problem | None:
-    """Say what went wrong; None where the mistake is ours."""
+    """Give the problem that an error means; None where it is an internal error."""
     if isinstance(error, VeritorqueError):
         return problem_of(error)
     if isinstance(error, Damaged):
@@ -124,7 +128,7 @@ def _problem(error: Exception, limits: Limits) -> Problem | None:
     return None
 
 
-def _end_with_the_service(pipe: Connection) -> None:
+def _end_with_service(pipe: Connection) -> None:
     with suppress(OSError):
         pipe.poll(None)  # nothing more is sent this way: it returns when the other end is gone
     os._exit(1)

@@ -1,0 +1,1 @@
+"""Run computations: a computation and its local files go in, its outcome comes out."""

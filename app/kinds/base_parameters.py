@@ -1,0 +1,18 @@
+"""Compute base parameters, which need no log and no job."""
+
+from ...core.robot.description import robot_from_description
+from ..store.records import Document
+
+
+def base_parameters(description: Document) -> Document:
+    """Say which combinations of parameters any motion of a robot can tell apart.
+
+    Raises
+    ------
+    RobotError
+        If the description cannot be used.
+    """
+    from ...core import study
+
+    document: Document = study.base_parameters(robot_from_description(description))
+    return document

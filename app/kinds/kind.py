@@ -1,0 +1,208 @@
+"""Define what a kind of job is: its options, admission, computation, result, and words.
+
+The contract, the queue, the workers, the results and the terminal read a kind's properties and methods here
+and ask nowhere for its name. A kind is loaded with every command, hence it imports numpy and the solver only
+where it uses them.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+
+from pydantic import BaseModel
+
+from ...core.export.formats import Format
+from ...core.report.page.running import Origin
+from ..problems import Problem
+from ..store.records import Document
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ...core.dynamics.model import DynamicModel
+    from ...core.log.model import JointLog
+    from ...core.robot.model import RobotModel
+
+Progress = Callable[[str, float], None]
+"""Takes the name of a stage and the fraction of the whole that is done."""
+Options = TypeVar("Options")
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """Let a command end with exit code 1 where its result calls for it.
+
+    Attributes
+    ----------
+    name
+        Of the flag that asks for it, as a Python name.
+    help
+        What the terminal says of it.
+    is_raised
+        Decides by the result document.
+    """
+
+    name: str
+    help: str
+    is_raised: Callable[[Mapping[str, Any]], bool]
+
+
+@dataclass(frozen=True)
+class Words:
+    """Hold what the contract and the terminal say of a kind.
+
+    Attributes
+    ----------
+    help
+        One sentence, for the command.
+    commands
+        Example command lines.
+    summary
+        Title of the example request.
+    request
+        The example request.
+    flags
+        Options of the computation that have a flag of their own, with its help.
+    alarm
+        When the command ends with exit code 1 although it has a result.
+    """
+
+    help: str
+    commands: tuple[str, ...]
+    summary: str
+    request: Document
+    flags: Mapping[str, str] = field(default_factory=dict)
+    alarm: Alarm | None = None
+
+
+@dataclass(frozen=True)
+class PlannedJob:
+    """Hold what is known of a job before anything is computed.
+
+    Attributes
+    ----------
+    robot
+        The robot's description.
+    logs
+        Summaries of the logs.
+    options
+        As they were sent.
+    model
+        Gives the robot's dynamic model with the named torque terms; None for the standard ones.
+    earlier_result
+        Gives the result document of an earlier job by its id, or refuses.
+    """
+
+    robot: Document
+    logs: tuple[Document, ...]
+    options: Document
+    model: Callable[[tuple[str, ...] | None], "DynamicModel"]
+    earlier_result: Callable[[str], Document]
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """Hold what a computation takes.
+
+    Attributes
+    ----------
+    reference
+        Result document of the earlier job that the options name.
+    traces
+        File to write the torques and residuals of every sample to; None where nobody wants them.
+    """
+
+    robot: "RobotModel"
+    logs: "tuple[JointLog, ...]"
+    options: Document
+    reference: Document | None = None
+    traces: Path | None = None
+
+
+class JobKind(ABC, Generic[Options]):
+    """Describe one kind of job; the methods with a body here are defaults.
+
+    Attributes
+    ----------
+    name
+        Its name in requests, results and commands.
+    takes_logs
+        Whether it is computed from logs, or from the robot alone.
+    result
+        Model of its result document.
+    words
+        What the contract and the terminal say of it.
+    preload
+        Modules to load before the first computation.
+    artifacts
+        The files that its result is also offered as.
+    has_report
+        Whether `report` writes one.
+    """
+
+    name: ClassVar[str]
+    takes_logs: ClassVar[bool] = True
+    result: ClassVar[type[BaseModel]]
+    words: ClassVar[Words]
+    preload: ClassVar[tuple[str, ...]] = ()
+    artifacts: ClassVar[Mapping[str, Format]] = {}
+    has_report: ClassVar[bool] = False
+
+    @abstractmethod
+    def read_options(self, options: Document) -> Options:
+        """Read the options of a request.
+
+        Raises
+        ------
+        OptionError
+            If an option does not exist or makes no sense.
+        """
+
+    @abstractmethod
+    def compute(self, inputs: Inputs, progress: Progress) -> Document:
+        """Compute the result document.
+
+        Raises
+        ------
+        VeritorqueError
+            If the robot, the logs or the options do not allow it.
+        """
+
+    def admit(self, job: PlannedJob, options: Options) -> None:
+        """Refuse what cannot succeed, before anything is computed.
+
+        Raises
+        ------
+        VeritorqueError, Problem
+            If the robot, the logs or the options do not allow it.
+        """
+
+    def reference(self, _options: Document) -> str | None:
+        """Name the earlier job whose result is needed; None where none is."""
+        return None
+
+    def report(self, document: dict[str, Any], traces: Path | None, origin: Origin | None = None) -> str:
+        """Write the report of a result as one HTML page; without traces it has no figures over time."""
+        raise NotImplementedError
+
+    def show(self, console: "Console", document: Mapping[str, Any]) -> None:
+        """Print a result for a person."""
+        console.print_json(data=document)
+
+    def require_logs(self, count: int) -> None:
+        """Refuse a request that has logs where the kind takes none, or none where it takes some.
+
+        Raises
+        ------
+        Problem
+            If it does (422).
+        """
+        if self.takes_logs != bool(count):
+            raise Problem(
+                "request",
+                f"a job of kind {self.name} {'needs a log' if self.takes_logs else 'takes no logs'}",
+                evidence={"pointer": "/logs", "logs": count},
+                remedy="name a log of GET /v1/logs" if self.takes_logs else "leave the logs out",
+            )

@@ -1,0 +1,33 @@
+"""List the kinds of job. A new kind is one file beside this one and one line here."""
+
+from collections.abc import Mapping
+from functools import reduce
+from operator import or_
+from typing import Any
+
+from ...core.errors import OptionError
+from .diagnose import Diagnose
+from .identify import Identify
+from .kind import JobKind
+
+KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose())}
+
+RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
+"""The model of a result document of any kind."""
+
+
+def kind_of(name: str) -> JobKind[Any]:
+    """Find a kind of job by its name.
+
+    Raises
+    ------
+    OptionError
+        If there is no such kind.
+    """
+    if name not in KINDS:
+        raise OptionError(
+            f"there is no job of kind {name}",
+            evidence={"given": name, "known": list(KINDS)},
+            remedy="ask for one of the known kinds",
+        )
+    return KINDS[name]
