@@ -21,7 +21,10 @@ class Diagnose(Identify):
 
     name = "diagnose"
     words = Words(
-        help="Identify a robot, then find the causes of its simulation error and what correcting them improves.",
+        help=(
+            "Identify a robot, then find the causes of its simulation error and what correcting "
+            "them improves."
+        ),
         commands=(
             "diagnose yumi-left examples/yumi/hidden_log.csv --report diagnosis.html --fail-on-findings",
             "diagnose robot.urdf examples/yumi/hidden_log.csv --tip-link joint_7 --gravity=0,0,-9.81",
@@ -33,9 +36,7 @@ class Diagnose(Identify):
             "logs": [HIDDEN_LOG_ID],
             "options": {"reference": None},
         },
-        flags={
-            "reference": "Reference: an earlier result (a file; with --url a job), or prior."
-        },
+        flags={"reference": "Reference: an earlier result (a file; with --url a job), or prior."},
         alarm=Alarm(
             "fail_on_findings",
             "Exit with 1 if there are findings.",

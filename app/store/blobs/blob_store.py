@@ -8,7 +8,7 @@ import hashlib
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from io import BufferedReader
+from io import BufferedIOBase
 from pathlib import Path
 
 from ..errors import Damaged
@@ -30,7 +30,7 @@ class BlobStore(ABC):
         """Keep what was received, and give its digest."""
 
     @abstractmethod
-    def open(self, sha256: str) -> BufferedReader:
+    def open(self, sha256: str) -> BufferedIOBase:
         """Open a blob for reading.
 
         Raises
@@ -113,7 +113,7 @@ def check_file(path: Path, sha256: str) -> None:
     _check(lambda: path.open("rb"), sha256)
 
 
-def _check(opened: Callable[[], BufferedReader], sha256: str) -> None:
+def _check(opened: Callable[[], BufferedIOBase], sha256: str) -> None:
     try:
         with opened() as stream:
             found = hashlib.file_digest(stream, "sha256").hexdigest()

@@ -6,7 +6,7 @@ import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from io import BufferedReader
+from io import BufferedIOBase
 from pathlib import Path
 
 from .blob_store import BlobStore, Mark
@@ -45,7 +45,7 @@ class FileBlobStore(BlobStore):
             os.close(directory)
         return incoming.sha256
 
-    def open(self, sha256: str) -> BufferedReader:
+    def open(self, sha256: str) -> BufferedIOBase:
         """Open a blob for reading."""
         return self.path(sha256).open("rb")
 

@@ -1,8 +1,9 @@
-"""Let Alembic run the steps on the connection it is given, within the transaction that is open there."""
+"""Let Alembic run the steps on the connection and for the tables that it is given, in an open transaction."""
 
 from alembic import context
 
-from ..tables import METADATA
-
-context.configure(connection=context.config.attributes["connection"], target_metadata=METADATA)
+given = (
+    context.config.attributes
+)  # Alembic runs this file by its path, so that it cannot import from beside it
+context.configure(connection=given["connection"], target_metadata=given["metadata"])
 context.run_migrations()

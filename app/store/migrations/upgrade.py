@@ -56,5 +56,5 @@ def step(connection: Connection, target: str) -> None:
 
     config = Config()
     config.set_main_option("script_location", str(Path(__file__).parent))
-    config.attributes["connection"] = connection
+    config.attributes |= {"connection": connection, "metadata": METADATA}
     command.upgrade(config, target)

@@ -258,8 +258,8 @@ def test_a_result_on_disk_is_what_a_diagnosis_compares_with(planar, monkeypatch)
     assert run("identify", "arm.json", "swing.csv", *QUICK, "--out", "before.json").exit_code == 0
     seen = []
 
-    def looked(computation, _):
-        seen.append(json.loads(Path(computation.reference).read_bytes()))
+    def looked(computation, workspace, _):
+        seen.append(json.loads(workspace.files[computation.reference].read_bytes()))
         assert computation.options == {"reference": "before.json"}
         return diagnosed()
 
