@@ -57,6 +57,10 @@ class ResultDocument(Open):
     provenance: dict[str, JsonValue]
     counts: Annotated[dict[str, int | None], Field(examples=[{"standard": 98, "base": 71, "essential": 57}])]
     base_parameters: list[BaseParameter]
+    terms: Annotated[
+        list[str],
+        Field(description="the torque terms of the model", examples=[["rigid_body", "viscous", "coulomb"]]),
+    ] = Field(default=[])
     standard_parameters: list[StandardParameter]
     bodies: Annotated[
         list[Body],

@@ -20,6 +20,7 @@ from ..signals.condition import Motion
 from .bodies import body_rows
 from .numbers import plain
 from .reference import written_factor
+from .terms import named_terms
 
 SCHEMA_VERSION = "1.0"
 
@@ -42,6 +43,7 @@ def identification_document(found: Identification, *, version: str, options: obj
             "essential": len(found.essential.kept),
         },
         "base_parameters": base_parameter_rows(found),
+        "terms": named_terms(found.base.model),
         "standard_parameters": _standard_parameters(found),
         "bodies": body_rows(found.base.model, found.estimate.standard),
         "feasibility": _feasibility(found),

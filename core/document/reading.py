@@ -11,15 +11,19 @@ from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
 from ..dynamics.terms.missing_coupling import MissingCoupling
 from ..dynamics.terms.missing_rotor import MissingRotor
+from ..errors import RobotError
 from ..extension.fold import folded
 from ..robot.description import robot_from_description
 from ..robot.frames import nearest_rotation
 from ..robot.model import Coupling, RobotModel
 from .identified import BaseValue, IdentifiedRobot
 from .model_file import model_from_document
+from .terms import named_terms
 
 Document = Mapping[str, Any]
 
+_STANDARD_NAME: Mapping[type, str] = {MissingRotor: "rotor_inertia", MissingCoupling: "coupling"}
+"""What a term that a diagnosis adds is called once the robot declares it."""
 ESSENTIAL = (
     "The identification let essential base parameters alone explain torque: where the representative gives "
     "another base parameter a value, that value is the prior's."
@@ -60,14 +64,20 @@ def identified_robot(document: Document) -> IdentifiedRobot:
 
 
 def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
-    """Build the model that a result was identified with, before any cure: the terms that have numbers."""
-    listed = {row["name"] for row in document["standard_parameters"]}
-    every = standard_model(robot)
-    names = [
-        term.name
-        for term in every.terms
-        if term.parameters(robot) and all(one.name in listed for one in term.parameters(robot))
-    ]
+    """Build the model that a result was identified with, before any correction: the terms that it names.
+
+    Raises
+    ------
+    RobotError
+        If the result does not name them.
+    """
+    names = document.get("terms")
+    if not names:
+        raise RobotError(
+            "the result does not name the torque terms of its model",
+            evidence={"missing": "/terms", "version": document["provenance"].get("version")},
+            remedy="identify the robot from its logs again",
+        )
     return _smoothed(standard_model(robot, tuple(names)), document["coulomb_smoothing_widths"])
 
 
@@ -122,22 +132,21 @@ def _standard_part(
     values: dict[str, float] = {}
     widths: tuple[float, ...] = ()
     couplings = list(robot.couplings)
+    held_terms: set[str] = set()
     beyond: list[str] = []
     for term, own in model.split(standard):
         if isinstance(term, (*STANDARD_TERMS.values(), MissingRotor, MissingCoupling)):
             names = (parameter.name for parameter in term.parameters(model.robot))
             values |= dict(zip(names, map(float, own), strict=True))
+            held_terms.add(_STANDARD_NAME.get(type(term), term.name))
             widths = getattr(term, "widths", ()) if isinstance(term, Coulomb) else widths
             couplings += _undeclared(term, couplings)
         elif getattr(term, "kind", "") not in repaired:
             beyond.append(term.name)
     whole = _declaring(robot, values, tuple(couplings))
-    names_of_terms = tuple(
-        term.name
-        for term in standard_model(whole).terms
-        if any(parameter.name in values for parameter in term.parameters(whole))
-    )
-    held = _smoothed(standard_model(whole, names_of_terms), widths)
+    every = standard_model(whole)
+    named = tuple(name for name in named_terms(every) if name in held_terms)
+    held = _smoothed(standard_model(whole, named), widths)
     if beyond:
         remarks = [*remarks, f"The extended model also has {', '.join(beyond)}; model.json holds these too."]
     return IdentifiedRobot(

@@ -15,6 +15,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..dynamics import terms as package
+from ..dynamics.model import DynamicModel
 from ..dynamics.prediction import Prediction
 from ..dynamics.term import Term
 from ..errors import RobotError
@@ -34,6 +35,11 @@ def known_terms() -> Mapping[str, type]:
         for kind in vars(module).values()
         if isinstance(kind, type) and kind.__module__ == module.__name__ and _is_term(kind)
     }
+
+
+def named_terms(model: DynamicModel) -> list[str]:
+    """Name the torque terms that have a parameter on the model's robot."""
+    return [term.name for term in model.terms if term.parameters(model.robot)]
 
 
 def term_fields(term: Term, beliefs: list[Prediction]) -> dict[str, object]:

@@ -50,8 +50,8 @@ def test_the_document_is_json_without_nan_or_infinity_and_comes_back_whole(docum
 
 
 CONTRACT = {
-    "": "schema_version kind robot logs provenance counts base_parameters standard_parameters feasibility"
-    " solver fit validation condition_number defects diagnosis",
+    "": "schema_version kind robot logs provenance counts base_parameters terms"
+    " standard_parameters feasibility solver fit validation condition_number defects diagnosis",
     "provenance": "version log_sha256 options",
     "counts": "standard base essential",
     "base_parameters": "name unit joint value value_ols standard_deviation relative_deviation_percent"

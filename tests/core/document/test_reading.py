@@ -15,6 +15,7 @@ from veritorque.core.document.identified import IdentifiedRobot
 from veritorque.core.document.model_file import model_document, read_model
 from veritorque.core.document.numbers import plain
 from veritorque.core.document.reading import identified_model, identified_robot
+from veritorque.core.document.terms import named_terms
 from veritorque.core.dynamics.model import DynamicModel, standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.coulomb import Coulomb
@@ -24,6 +25,7 @@ from veritorque.core.dynamics.terms.link_change import LinkChange
 from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
 from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
 from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.errors import RobotError
 from veritorque.core.export.formats import FORMATS
 from veritorque.core.export.mjcf import write_mjcf
 from veritorque.core.log.reader import log_from_arrays
@@ -85,6 +87,12 @@ def test_that_essential_parameters_alone_were_fitted_is_said():
     assert "essential" in identified_robot(document_of(essential=True)).remarks[0]
 
 
+def test_a_result_that_does_not_name_its_terms_is_refused_rather_than_guessed(document):
+    with pytest.raises(RobotError) as refusal:
+        identified_robot({key: value for key, value in document.items() if key != "terms"})
+    assert refusal.value.evidence["missing"] == "/terms"
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_every_format_is_written_from_a_result(document, name):
     assert FORMATS[name].write(document)
@@ -100,6 +108,7 @@ def test_engines_need_our_torque_for_a_robot_that_a_document_has_rounded(name):
         "robot": to_description(whole.robot),
         "provenance": {"options": {}},
         "coulomb_smoothing_widths": [],
+        "terms": named_terms(whole.model),
         "standard_parameters": listed,
         "base_parameters": [],
     }

@@ -38,6 +38,7 @@ def identified(**changes):
         "provenance": {"version": "0.1.0", "log_sha256": ["abc123"], "options": {"essential": True}},
         "counts": {"standard": 22, "base": 12, "essential": 11},
         "base_parameters": [parameter()],
+        "terms": ["rigid_body"],
         "standard_parameters": [
             {"name": "ZZ1", "joint": 1, "unit": "kg m2", "value": 0.4, "identifiable": "in_combination"}
         ],
