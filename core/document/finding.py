@@ -42,7 +42,7 @@ def title_of(cause: str) -> str:
     Examples
     --------
     >>> title_of("torque_ripple")
-    'The torque ripples along the angle'
+    'Torque ripple'
     """
     return BY_ID[cause].title if cause in BY_ID else cause
 

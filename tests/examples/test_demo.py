@@ -71,7 +71,7 @@ def told(capsys, result, hidden=None):
 
 def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
     page = told(capsys, diagnosed())
-    assert "The simulation of bench arm gets 1 thing wrong. 1. Joint 1's friction grows by" in page
+    assert "The simulation of bench arm gets 1 thing wrong. 1. Load-dependent friction on joint 1:" in page
     assert "Confidence 98 %. The chance that luck leaves so clear a trace is 1e-09." in page
     gain = (
         "takes 33 % (20 to 45 %) of the error on the joint away, up to 20 Hz, on data that no fit has seen."
@@ -187,12 +187,12 @@ def is_printed(line, words):
 
 
 def test_a_line_is_printed_where_its_words_and_about_its_numbers_stand():
-    page = "Joint 4's torque ripples by 0.118 ± 0.006 N m, 8.98 ± 0.1 times per turn"
-    assert is_printed("Joint 4's torque ripples by 0.12 ± 0.006 N m,", page)
-    assert is_printed("per turn", page)
-    assert not is_printed("Joint 2's torque ripples by 0.118 ± 0.006 N m,", page)
-    assert not is_printed("Joint 4's torque ripples by 0.18 ± 0.006 N m,", page)
-    assert not is_printed("Joint 4's friction", page)
+    page = "Torque ripple on joint 4: amplitude 0.118 ± 0.006 N m, 8.98 ± 0.1 cycles per revolution"
+    assert is_printed("Torque ripple on joint 4: amplitude 0.12 ± 0.006 N m,", page)
+    assert is_printed("per revolution", page)
+    assert not is_printed("Torque ripple on joint 2: amplitude 0.118 ± 0.006 N m,", page)
+    assert not is_printed("Torque ripple on joint 4: amplitude 0.18 ± 0.006 N m,", page)
+    assert not is_printed("Torque ripple on joint 4: phase", page)
 
 
 @pytest.mark.slow
@@ -224,5 +224,5 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     assert all(is_printed(line, words) for line in shown.group(1).splitlines() if line[:1] != " ")
     report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
     assert "gets two things wrong" in report
-    assert "torque ripples along the angle (joint 4)" in report
-    assert "friction grows with the transmitted torque (joint 2)" in report
+    assert "torque ripple (joint 4)" in report
+    assert "load-dependent friction (joint 2)" in report

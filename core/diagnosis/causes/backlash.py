@@ -1,4 +1,4 @@
-"""Suspect play in a joint's transmission, between the motor's encoder and the link."""
+"""Candidate cause: backlash in a joint's transmission, between the motor encoder and the link."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,49 +8,42 @@ from ...dynamics.term import Term
 from ...dynamics.terms.backlash import Backlash as BacklashTerm
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
-from .shared.common import (
-    OwnJointCause,
-    before_the_gear,
-    motor_inertias,
-    named,
-    shown,
-    spread,
-)
-from .shared.sites import revolute_joints
+from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, revolute_joints
+from .shared.text import by_name, quantity_text, rotor_text
 from .traits import SearchTraits
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
-"""Half widths in rad, evenly spread on a logarithmic scale: half as wide again is another motion."""
+"""Half widths in rad, on a logarithmic scale: half as wide again is another motion."""
 NARROWER, WIDER = 8.0, 5.0
-"""By how much the width may seem less or more than that which the crossings were computed for.
+"""Factors by which the width may be less or more than that which the crossings were computed for.
 
-Both are set by hand: in simulated play the best crossings are those of a wider gap, and seem too small a one.
+Set by hand: in simulated backlash the best crossings are those of a wider gap, whose estimate is too small.
 """
 SMOOTHING_OVER_BAND = 1.5
 
 
 @dataclass(frozen=True)
 class Backlash(OwnJointCause):
-    """Suspect play between a motor and its link."""
+    """Candidate cause: backlash between motor and link."""
 
     id = "backlash"
-    title = "The transmission has play"
+    title = "Backlash in the transmission"
     units = (("half_width", "rad"), ("motor_inertia", "kg m2"))
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
     traits = SearchTraits(linearisation_error=0.15)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
-        """List the joints that turn."""
+        """List the revolute joints."""
         del operating_point
         return [(joint,) for joint in revolute_joints(dataset.robot)]
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the width of the gap, of which the time of crossing is the cube root."""
+        """Scan the width of the gap; the time of crossing is its cube root."""
         return [
             {"around": value, **rotor}
             for rotor in motor_inertias(dataset, operating_point, site)
-            for value in spread(NARROWEST, WIDEST, STEPS)
+            for value in geometric_grid(NARROWEST, WIDEST, STEPS)
         ]
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
@@ -61,14 +54,14 @@ class Backlash(OwnJointCause):
         )
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a gap of about the width that the crossings were computed for."""
+        """Admit a gap of about the width that the crossings were computed for."""
         around = solved.scalars["around"]
         return super().admissible(solved) and bool(around / NARROWER < solved.values[0] < WIDER * around)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how wide the gap is."""
-        found = named(self.quantities(solved))
+        """State the half width of the gap."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s transmission has play: the link lags or leads its motor by "
-            f"{shown(found['half_width'])}, on the side from which the load presses{before_the_gear(found)}"
+            f"Backlash on joint {solved.site[0]}: the link lags or leads the motor by "
+            f"{quantity_text(found['half_width'])}, on the side that the load selects{rotor_text(found)}"
         )

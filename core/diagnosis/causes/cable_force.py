@@ -1,4 +1,4 @@
-"""Suspect that a hose or cable pulls over part of a joint's range."""
+"""Candidate cause: the force of a cable or hose over part of a joint's range."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +10,8 @@ from ...dynamics.term import Term
 from ...dynamics.terms.cable import Cable
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
-from .shared.common import OwnJointCause, named, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 from .traits import SearchTraits
 
 SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
@@ -19,10 +20,10 @@ SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
 
 @dataclass(frozen=True)
 class CableForce(OwnJointCause):
-    """Suspect a cable or hose."""
+    """Candidate cause: a cable or hose that is taut over part of the range."""
 
     id = "cable_force"
-    title = "A cable or hose pulls over part of the range"
+    title = "Cable or hose force over part of the range"
     units = (("stiffness", "N m/rad"), ("engage_angle", "rad"))
     experiment = "slow moves to both ends of the joint's range"
     coordinate = "position"
@@ -42,7 +43,7 @@ class CableForce(OwnJointCause):
         return Cable(site[0], scalars["engage_angle"], scalars["side"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a cable that pulls back."""
+        """Admit a cable that pulls back."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
@@ -60,10 +61,10 @@ class CableForce(OwnJointCause):
         )
 
     def statement(self, solved: FittedCause) -> str:
-        """Say from which angle on the cable pulls, and how strongly."""
-        found = named(self.quantities(solved))
+        """State the angle of engagement and the stiffness."""
+        found = by_name(self.quantities(solved))
         side = "above" if solved.scalars["side"] >= 0.0 else "below"
         return (
-            f"Something pulls on joint {solved.site[0]} {side} {shown(found['engage_angle'])}, with "
-            f"{shown(found['stiffness'])}, as a taut cable or hose does"
+            f"Cable or hose force on joint {solved.site[0]}: stiffness {quantity_text(found['stiffness'])} "
+            f"{side} {quantity_text(found['engage_angle'])}"
         )

@@ -1,7 +1,7 @@
-"""Suspect that the recorder missed samples and wrote the row before once more.
+"""Candidate cause: dropped samples, in whose place the recorder repeated the row before.
 
-Where torques carry noise, positions and torques of all joints never repeat together by chance; how often they
-would is judged from how often each repeats by itself.
+Where torques carry noise, positions and torques of all joints never repeat together by chance. The expected
+number of such repeats follows from how often each channel repeats by itself.
 """
 
 from dataclasses import dataclass
@@ -18,14 +18,14 @@ from ...signals.condition import Motion
 from ...signals.resample import dropped
 from ..dataset.dataset import Dataset
 from .protocol import Cure, Quantity
-from .sample_check import LEVEL, SampleFinding, Spoil, residual_share
+from .sample_check import LEVEL, Corruption, SampleFinding, residual_share
 
 ROWS = 65_536
 
 
 @dataclass(frozen=True, eq=False)
 class _Count:
-    """Count rows, dropped ones, and the chance of a repeat by luck."""
+    """Count rows, dropped rows, and the repeats expected by chance."""
 
     rows: int
     dropped: int
@@ -34,20 +34,20 @@ class _Count:
 
 @dataclass(frozen=True)
 class DroppedSamples:
-    """Suspect dropped samples."""
+    """Candidate cause: dropped samples."""
 
     id: ClassVar[str] = "dropped_samples"
-    title: ClassVar[str] = "Rows repeat the row before"
+    title: ClassVar[str] = "Dropped samples"
     cure: ClassVar[Cure] = "signal"
     units: ClassVar[tuple[tuple[str, str], ...]] = (("fraction", "1"),)
     experiment: ClassVar[str] = "any motion, recorded with the controller's own sample counter"
-    beyond_repair: ClassVar[str] = "What was not recorded is lost; the rows that repeat are left out"
+    beyond_repair: ClassVar[str] = "Samples that were not recorded are lost; the repeated rows are left out"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Count rows that repeat while the robot moves."""
         counts = [count for motion in dataset.motions for count in _counted(motion)]
-        rows, lost = sum(one.rows for one in counts), sum(one.dropped for one in counts)
-        expected = sum(one.expected for one in counts)
+        rows, lost = sum(count.rows for count in counts), sum(count.dropped for count in counts)
+        expected = sum(count.expected for count in counts)
         p_value = float(poisson.sf(lost - 1, expected)) if lost else 1.0
         if p_value > LEVEL:
             return ()
@@ -58,8 +58,8 @@ class DroppedSamples:
                 site=(),
                 quantities=(Quantity("fraction", None, "1", fraction, deviation),),
                 statement=(
-                    f"{lost} of {rows} rows ({100.0 * fraction:.3g} %) repeat all positions and torques of "
-                    "the row before while the robot moves; they are left out and bridged"
+                    f"Dropped samples: {lost} of {rows} rows ({100.0 * fraction:.3g} %) repeat all positions "
+                    "and torques of the row before while the robot moves; they are left out and interpolated"
                 ),
                 statistic=float(lost),
                 p_value=p_value,
@@ -81,7 +81,7 @@ def _counted(motion: Motion) -> list[_Count]:
 
 def _count(rows: LogRows, motion: Motion) -> _Count:
     lost = dropped(rows)
-    # While rows repeat, the robot moved if it is farther on after them.
+    # While rows repeat, the robot moved if its position differs after them.
     passed = [np.interp(rows.time, rows.time[~lost], column[~lost]) for column in rows.position.T]
     position = np.column_stack(passed)
     reach = min(5, len(rows.time) - 1)
@@ -100,14 +100,14 @@ def _count(rows: LogRows, motion: Motion) -> _Count:
     return _Count(int(moving.sum()), int(lost.sum()), float(moving.sum() * np.prod(chances)))
 
 
-def _bridged(fraction: float) -> Spoil:
-    """Leave out as many rows of a smooth motion and bridge them, as the study does."""
+def _bridged(fraction: float) -> Corruption:
+    """Leave out the same share of rows of a smooth motion and interpolate them, as the study does."""
 
-    def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
+    def corrupt(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
         place = np.arange(len(position))
         kept = rng.random(len(position)) >= fraction
         kept[[0, -1]] = True
         return np.asarray(CubicSpline(place[kept], position[kept])(place) - position)
 
-    return spoil
+    return corrupt

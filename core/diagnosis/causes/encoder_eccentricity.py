@@ -1,4 +1,4 @@
-"""Suspect that a joint's encoder disc sits off its axis: an angle error once per turn."""
+"""Candidate cause: an eccentric encoder disc, whose angle error repeats once per revolution."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,9 +13,9 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsLog
-from .shared.common import OwnJointCause, named, rounded, shown
-from .shared.sites import revolute_joints
-from .shared.waves import amplitude_and_angle
+from .shared.harmonics import amplitude_and_angle
+from .shared.own_joint import OwnJointCause, revolute_joints
+from .shared.text import by_name, number_text, quantity_text
 from .traits import SearchTraits
 
 LARGEST = 0.3
@@ -23,18 +23,18 @@ LARGEST = 0.3
 
 @dataclass(frozen=True)
 class EncoderEccentricity(OwnJointCause, CorrectsLog):
-    """Suspect an encoder error that repeats with every turn."""
+    """Candidate cause: an encoder error that repeats with every revolution."""
 
     id = "encoder_eccentricity"
-    title = "The encoder errs once per turn"
+    title = "Encoder eccentricity"
     cure = "signal"
     units = (("amplitude", "rad"), ("phase", "rad"))
-    experiment = "quick motion through as much of a turn as the joint's range allows"
+    experiment = "fast motion through as much of a revolution as the joint's range allows"
     coordinate = "position"
     traits = SearchTraits(linearisation_error=0.1)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
-        """List the joints that turn."""
+        """List the revolute joints."""
         del operating_point
         return [(joint,) for joint in revolute_joints(dataset.robot)]
 
@@ -44,36 +44,36 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
         return EncoderEccentricityTerm(site[0], operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want an error that a first-order column can stand for."""
+        """Admit an error that a first-order column can represent."""
         return bool(float(solved.values @ solved.values) < LARGEST**2)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report amplitude and phase of the error amplitude sin(q + phase)."""
-        (amplitude, wide), (phase, with_other_holdout) = amplitude_and_angle(solved.values, solved.covariance)
+        (amplitude, wide), (phase, doubt) = amplitude_and_angle(solved.values, solved.covariance)
         joint = solved.site[0]
         return (
             Quantity("amplitude", joint, "rad", amplitude, wide),
-            Quantity("phase", joint, "rad", phase, with_other_holdout),
+            Quantity("phase", joint, "rad", phase, doubt),
         )
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how large the error is and where."""
-        found = named(self.quantities(solved))
+        """State amplitude and phase of the error."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s encoder errs once per turn, by {shown(found['amplitude'])} times "
-            f"sin(q + {found['phase'].value:.2g})"
+            f"Encoder eccentricity on joint {solved.site[0]}: angle error "
+            f"{quantity_text(found['amplitude'])} times sin(q + {found['phase'].value:.2g})"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say what every reading is less by."""
+        """State what is subtracted from every reading."""
         del robot
-        wave = f"{rounded(numbers['amplitude'], 4)} rad times sin(q + {rounded(numbers['phase'], 4)})"
+        wave = f"{number_text(numbers['amplitude'], 4)} rad times sin(q + {number_text(numbers['phase'], 4)})"
         return f"From every angle q of joint {joints[0]} {wave} is subtracted"
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
-        """Take the error out of the angle, and out of the speed where it is logged.
+        """Subtract the error from the angle, and from the speed where it is logged.
 
-        The column has the error at the angle that was read, and so has its repair.
+        The column has the error at the angle that was read, and so has its correction.
         """
         own, amplitude = joints[0] - 1, numbers["amplitude"]
         turn = rows.position[:, own] + numbers["phase"]

@@ -1,4 +1,4 @@
-"""Suspect that a joint's zero is not where the robot's description has it."""
+"""Candidate cause: a joint's zero that differs from the robot's description."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,28 +11,28 @@ from ...robot.model import Link, RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsRobot
-from .shared.common import OwnJointCause, named, rounded, shown
-from .shared.sites import revolute_joints
+from .shared.own_joint import OwnJointCause, revolute_joints
+from .shared.text import by_name, number_text, quantity_text
 
 LARGEST = 0.5
 
 
 @dataclass(frozen=True)
 class EncoderOffset(OwnJointCause, CorrectsRobot):
-    """Suspect a constant zero error of one encoder.
+    """Candidate cause: a constant zero error of one encoder.
 
-    The description is mended, not the log: a zero that is off is off in every log of the robot.
+    The description is corrected, not the log: a zero error is in every log of the robot.
     """
 
     id = "encoder_offset"
-    title = "The joint's zero is off"
+    title = "Encoder zero error"
     cure = "signal"
     units = (("offset", "rad"),)
     experiment = "motion of the joints beyond this one through their whole range, with this joint moving too"
     coordinate = "position"
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
-        """List the joints that turn."""
+        """List the revolute joints."""
         del operating_point
         return [(joint,) for joint in revolute_joints(dataset.robot)]
 
@@ -42,29 +42,32 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
         return EncoderOffsetTerm(site[0], operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want an error that a first-order column can stand for."""
+        """Admit an error that a first-order column can represent."""
         return bool(abs(solved.values[0]) < LARGEST)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say by how much the reading is off."""
-        found = named(self.quantities(solved))["offset"]
-        return f"Joint {solved.site[0]}'s encoder reads the angle of the description plus {shown(found)}"
+        """State the zero error."""
+        found = by_name(self.quantities(solved))["offset"]
+        return (
+            f"Encoder zero error on joint {solved.site[0]}: the reading is the described angle plus "
+            f"{quantity_text(found)}"
+        )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say where the description puts the joint's zero now."""
+        """State the joint's zero before and after."""
         link = link_of(robot, joints[0])
         entry, before = ("offset", link.offset) if link.row is None else ("theta_offset", link.row.theta)
-        after = rounded(before - link.ratio * numbers["offset"], 4)
-        return f"Joint {joints[0]}'s {entry} goes from {rounded(before, 4)} to {after} rad"
+        after = number_text(before - link.ratio * numbers["offset"], 4)
+        return f"Joint {joints[0]}'s {entry} goes from {number_text(before, 4)} to {after} rad"
 
     def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
-        """Turn the zero of every link that the joint moves back by what the encoder reads too much."""
+        """Turn the zero of every link that the joint moves back by the zero error."""
         (joint,) = joints
-        links = (_turned(one, -numbers["offset"]) if one.joint == joint else one for one in robot.links)
+        links = (_rotated(link, -numbers["offset"]) if link.joint == joint else link for link in robot.links)
         return replace(robot, links=tuple(links))
 
 
-def _turned(link: Link, angle: float) -> Link:
+def _rotated(link: Link, angle: float) -> Link:
     if link.row is None:
         return replace(link, offset=link.offset + link.ratio * angle)
     row = replace(link.row, theta=link.row.theta + link.ratio * angle)

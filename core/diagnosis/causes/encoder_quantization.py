@@ -1,4 +1,4 @@
-"""Suspect that an encoder's step is too coarse for the derivatives that its motion needs."""
+"""Candidate cause: an encoder resolution that is too coarse for the derivatives of the motion."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -13,33 +13,33 @@ from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
 from ..dataset.dataset import Dataset
 from .protocol import Cure, Quantity
-from .sample_check import SampleFinding, Spoil, disturbance, share_of_residual
+from .sample_check import Corruption, SampleFinding, disturbance, share_of_residual
 
 LEAST_SHARE = 0.6
-"""Share of a joint's residual that rounding must account for to be named; good encoders make a half."""
+"""Share of a joint's residual that rounding must account for to be named; good ones account for a half."""
 LEAST_OF_TORQUE = 0.006
-"""The same of the torque itself: below, it is of no account to anyone."""
+"""The same for the torque itself: below, rounding is negligible."""
 COARSER = 5.0
-"""A step so many times the usual one of the other joints stands out,"""
+"""A step this many times the median step of the other joints stands out,"""
 NOTABLE, NOTABLE_OF_TORQUE = 0.05, 0.02
 """and is named from these shares of a joint's residual or of its torque on."""
 BY_CHANCE = 0.2
-"""Chance of one increment lying within a tenth of a whole number of steps."""
+"""Probability that one increment lies within a tenth of a whole number of steps."""
 
 
 @dataclass(frozen=True)
 class EncoderQuantization:
-    """Suspect a coarse encoder."""
+    """Candidate cause: a coarse encoder."""
 
     id: ClassVar[str] = "encoder_quantization"
-    title: ClassVar[str] = "The encoder's steps are too coarse"
+    title: ClassVar[str] = "Encoder resolution too coarse"
     cure: ClassVar[Cure] = "signal"
     units: ClassVar[tuple[tuple[str, str], ...]] = (("lsb", "rad"),)
     experiment: ClassVar[str] = "slow motion, which passes many samples within one step"
-    beyond_repair: ClassVar[str] = "Where the joint was between two counts of its encoder is not in the log"
+    beyond_repair: ClassVar[str] = "The joint's position between two counts of its encoder is not in the log"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
-        """Round each joint's smooth motion to its own steps and see what that does."""
+        """Round each joint's smooth motion to its own steps and measure the effect on the torque."""
         steps = np.max([_steps(motion.log) for motion in dataset.motions], axis=0)
         found = []
         for joint in np.flatnonzero(steps > 0.0):
@@ -57,14 +57,14 @@ class EncoderQuantization:
 
 
 def _stands_out(steps: JointVector, joint: int) -> bool:
-    """Tell whether a joint's steps are coarser than its robot's other encoders let one expect."""
+    """Tell whether a joint's steps are much coarser than those of the robot's other encoders."""
     others = np.delete(steps, joint)
     others = others[others > 0.0]
     return bool(len(others) and steps[joint] > COARSER * np.median(others))
 
 
 def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
-    """Tell whether rounding is worth a word, by its largest shares of a residual and of a torque."""
+    """Tell whether rounding is reported, by its largest shares of a residual and of a torque."""
     if stands_out and of_torque > NOTABLE_OF_TORQUE:
         return True
     return of_torque > LEAST_OF_TORQUE and share > (NOTABLE if stands_out else LEAST_SHARE)
@@ -72,7 +72,7 @@ def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
 
 def _of_torque(dataset: Dataset, gained: JointSeries) -> JointVector:
     """Give the RMS of an error over the torque's, per joint."""
-    sizes = [np.sqrt(np.mean(one**2, axis=0)) for one in (gained, dataset.torque)]
+    sizes = [np.sqrt(np.mean(torque**2, axis=0)) for torque in (gained, dataset.torque)]
     return np.asarray(sizes[0] / np.maximum(sizes[1], 1e-300))
 
 
@@ -84,10 +84,9 @@ def _finding(
         site=(joint + 1,),
         quantities=(Quantity("lsb", joint + 1, unit, step, 0.0),),
         statement=(
-            f"Joint {joint + 1}'s encoder has steps of {step:.3g} {unit}; differentiated, their rounding "
-            f"makes {100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s "
-            f"residual, and an error of {100.0 * float(of_torque.max()):.2g} % of joint "
-            f"{int(of_torque.argmax()) + 1}'s torque"
+            f"Encoder resolution of joint {joint + 1}: steps of {step:.3g} {unit}, whose rounding accounts "
+            f"for {100.0 * min(1.0, float(share.max())):.2g} % of joint {int(share.argmax()) + 1}'s residual "
+            f"and for {100.0 * float(of_torque.max()):.2g} % of joint {int(of_torque.argmax()) + 1}'s torque"
         ),
         statistic=float(share.max()),
         p_value=BY_CHANCE**FEWEST_INCREMENTS,
@@ -102,12 +101,12 @@ def _steps(log: JointLog) -> JointVector:
     return resolution.lsb("position")
 
 
-def _rounded(joint: int, step: float) -> Spoil:
-    def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
+def _rounded(joint: int, step: float) -> Corruption:
+    def corrupt(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
         error = np.zeros_like(position)
         column = position[:, joint] + step * rng.random()
         error[:, joint] = step * np.round(column / step) - column
         return error
 
-    return spoil
+    return corrupt

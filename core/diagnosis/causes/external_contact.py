@@ -1,4 +1,4 @@
-"""Suspect that something pushed against the last link for a while, once or several times."""
+"""Candidate cause: contact of the last link with the environment for a while, once or several times."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,17 +12,17 @@ from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
 from .protocol import FittedCause, Quantity, Scalars, Site
-from .shared.common import OwnJointCause, rounded
 from .shared.events import find_events
-from .shared.sites import end_links
+from .shared.own_joint import OwnJointCause, end_links
+from .shared.text import number_text
 from .traits import SearchTraits
 
 SPANS_TRIED = 1200
-"""Spans of time that a log of half a minute is searched for."""
+"""Spans of time that are tried in a log of half a minute."""
 MOST = 5
 """Contacts that are told apart."""
 STRONGEST = 1e3
-"""Force in N that would rather break a robot than show in its log."""
+"""Force in N that would break a robot."""
 LONGEST_LEVER = 0.5
 """Distance in m of a point of contact from the origin of the last link's frame."""
 
@@ -40,10 +40,10 @@ def _spans_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
 
 @dataclass(frozen=True)
 class ExternalContact(OwnJointCause):
-    """Suspect pushes of something outside against the last link."""
+    """Candidate cause: contact forces on the last link."""
 
     id = "external_contact"
-    title = "Something pushed against the robot"
+    title = "External contact"
     units = (("force", "N"), ("start", "s"), ("end", "s"))
     experiment = "the same motion again with nothing within reach"
     coordinate = "time"
@@ -54,12 +54,12 @@ class ExternalContact(OwnJointCause):
     )
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
-        """List the joints of links that carry no other, where one log tells what the time is."""
+        """List the joints of links that carry no other; several logs have no time in common."""
         del operating_point
         return [(joint,) for joint in end_links(dataset.robot)] if len(dataset.motions) == 1 else []
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """Find when the residual is a wrench on the link for a while."""
+        """Find the spans in which the residual is a wrench on the link."""
         mask = fitted_rows(dataset)
         push = pushed(dataset.robot, end_links(dataset.robot)[site[0]], dataset.state)
         left = torque_residual(dataset, operating_point)
@@ -81,7 +81,7 @@ class ExternalContact(OwnJointCause):
         return Contact(site[0], end_links(dataset.robot)[site[0]], _spans(scalars))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a force that leaves the robot whole, and a moment that its lever explains."""
+        """Admit a force that does not break the robot, and a moment that its lever explains."""
         wrenches = solved.values.reshape(-1, len(WRENCH))
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0)).reshape(-1, len(WRENCH))
         force = np.linalg.norm(wrenches[:, :3], axis=1)
@@ -90,36 +90,37 @@ class ExternalContact(OwnJointCause):
         return bool(np.all(force < STRONGEST) and np.all(moment < LONGEST_LEVER * force + doubt))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report every contact's force at its peak, when it begins and ends, and first the force known best.
+        """Report every contact's peak force, its begin and end, and first the force with the least deviation.
 
-        The largest is often that which is known least: what noise adds to a force makes it larger.
+        The largest force is often the least certain one: noise makes a force larger.
         """
         contacts = _contacts(solved)
-        best = min(contacts, key=lambda one: one.doubt)
+        best = min(contacts, key=lambda contact: contact.doubt)
         found = [Quantity("force", solved.site[0], "N", best.force, best.deviation)]
-        for number, one in enumerate(contacts, start=1):
-            # An edge of half a sine is known as well as its height, times a bit more than half its length.
-            edge = 0.6 * min(one.doubt, 1.0) * (one.span[1] - one.span[0])
+        for number, contact in enumerate(contacts, start=1):
+            # The edge of a half sine is as certain as its height, times a bit more than half its length.
+            edge = 0.6 * min(contact.doubt, 1.0) * (contact.span[1] - contact.span[0])
             found += [
-                Quantity(f"force_{number}", solved.site[0], "N", one.force, one.deviation),
-                Quantity(f"start_{number}", None, "s", one.span[0], edge),
-                Quantity(f"end_{number}", None, "s", one.span[1], edge),
+                Quantity(f"force_{number}", solved.site[0], "N", contact.force, contact.deviation),
+                Quantity(f"start_{number}", None, "s", contact.span[0], edge),
+                Quantity(f"end_{number}", None, "s", contact.span[1], edge),
             ]
         return tuple(found)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say when and how hard."""
+        """State spans and peak forces."""
         pushes = (
-            f"{rounded(one.force, 3)} ± {rounded(one.deviation)} N from {begin:.3g} s to {end:.3g} s"
-            for one in _contacts(solved)
-            for begin, end in [one.span]
+            f"{number_text(contact.force, 3)} ± {number_text(contact.deviation)} N from {begin:.3g} s to "
+            f"{end:.3g} s"
+            for contact in _contacts(solved)
+            for begin, end in [contact.span]
         )
-        return f"Something pushed against joint {solved.site[0]}'s link: {', '.join(pushes)}"
+        return f"External contact on the link of joint {solved.site[0]}: {', '.join(pushes)}"
 
 
 @dataclass(frozen=True)
 class _Contact:
-    """Hold one contact: when it was, its force at its peak and that force's deviation, N."""
+    """Hold one contact: its span, its peak force and that force's deviation, N."""
 
     span: Span
     force: float
@@ -127,7 +128,7 @@ class _Contact:
 
     @property
     def doubt(self) -> float:
-        """Give the deviation as a share of the force."""
+        """Give the relative deviation of the force."""
         return self.deviation / max(self.force, 1e-12)
 
 
@@ -140,7 +141,7 @@ def _contacts(solved: FittedCause) -> list[_Contact]:
 
 
 def _deviation(solved: FittedCause, number: int) -> float:
-    """Give the deviation of the size of one contact's force, N, to first order: that along the force."""
+    """Give the deviation of the norm of one contact's force, N, to first order: that along the force."""
     place = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
     force = solved.values[place]
     along = force / max(float(np.linalg.norm(force)), 1e-300)

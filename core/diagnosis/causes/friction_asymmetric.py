@@ -1,4 +1,4 @@
-"""Suspect that viscous friction differs between the two directions of motion."""
+"""Candidate cause: viscous friction that differs between the two directions of motion."""
 
 from dataclasses import dataclass
 
@@ -7,15 +7,16 @@ from ...dynamics.term import Term
 from ...dynamics.terms.asymmetric_viscous import AsymmetricViscous
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
-from .shared.common import OwnJointCause, named, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 
 
 @dataclass(frozen=True)
 class FrictionAsymmetric(OwnJointCause):
-    """Suspect viscous friction of two directions."""
+    """Candidate cause: direction-dependent viscous friction."""
 
     id = "friction_asymmetric"
-    title = "Viscous friction differs between directions"
+    title = "Direction-dependent viscous friction"
     units = (("delta_viscous", "N m s/rad"),)
     experiment = "constant-speed moves at three speeds or more, each in both directions"
 
@@ -25,10 +26,10 @@ class FrictionAsymmetric(OwnJointCause):
         return AsymmetricViscous(site[0])
 
     def statement(self, solved: FittedCause) -> str:
-        """Say which direction is the harder one, and by how much."""
-        found = named(self.quantities(solved))["delta_viscous"]
+        """State the direction of more friction and half the difference."""
+        found = by_name(self.quantities(solved))["delta_viscous"]
         more, less = ("forwards", "backwards") if found.value > 0.0 else ("backwards", "forwards")
         return (
-            f"Joint {solved.site[0]} has more viscous friction {more} than {less}: {shown(found)} to "
-            "either side of the mean"
+            f"Direction-dependent viscous friction on joint {solved.site[0]}: {more} more and {less} less "
+            f"than the mean by {quantity_text(found)}"
         )

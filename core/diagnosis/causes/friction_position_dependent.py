@@ -1,4 +1,4 @@
-"""Suspect that the Coulomb level of a joint waves along its angle."""
+"""Candidate cause: a Coulomb friction that is periodic in the joint's angle."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,8 +8,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.position_friction import PositionFriction
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
-from .shared.common import OwnJointCause, named, shown
 from .shared.harmonics import harmonics, wave_quantities
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 from .traits import SearchTraits
 
 MOST = 12
@@ -17,17 +18,17 @@ MOST = 12
 
 @dataclass(frozen=True)
 class FrictionPositionDependent(OwnJointCause):
-    """Suspect friction that varies with the angle."""
+    """Candidate cause: friction that varies with the angle."""
 
     id = "friction_position_dependent"
-    title = "Coulomb friction varies with the angle"
+    title = "Position-dependent Coulomb friction"
     units = (("amplitude", "N m"), ("harmonic", "1"), ("phase", "rad"))
     experiment = "slow moves at constant speed over the joint's whole range, in both directions"
     coordinate = "position"
     traits = SearchTraits(discrete=("centre",))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the waves per turn from one upwards."""
+        """Scan the cycles per revolution from one upwards."""
         del operating_point
         angle = dataset.state.position[:, site[0] - 1]
         return harmonics(angle, lowest=1.0, highest=float("inf"), most=MOST)
@@ -42,9 +43,9 @@ class FrictionPositionDependent(OwnJointCause):
         return wave_quantities(solved, "N m")
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how far the level waves, and how often per turn."""
-        found = named(self.quantities(solved))
+        """State amplitude and cycles per revolution."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s Coulomb friction varies by {shown(found['amplitude'])} to either "
-            f"side, {shown(found['harmonic'])} times per turn"
+            f"Position-dependent Coulomb friction on joint {solved.site[0]}: amplitude "
+            f"{quantity_text(found['amplitude'])}, {quantity_text(found['harmonic'])} cycles per revolution"
         )

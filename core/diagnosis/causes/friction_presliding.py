@@ -1,4 +1,4 @@
-"""Suspect that friction builds up over a distance after each reversal instead of jumping."""
+"""Candidate cause: presliding friction, which builds up over a distance after each reversal (Dahl)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,15 +10,16 @@ from ...dynamics.term import Term
 from ...dynamics.terms.presliding import Presliding
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
-from .shared.common import OwnJointCause, named, shown, spread
+from .shared.own_joint import OwnJointCause, geometric_grid
+from .shared.text import by_name, quantity_text
 
 
 @dataclass(frozen=True)
 class FrictionPresliding(OwnJointCause):
-    """Suspect presliding friction (Dahl)."""
+    """Candidate cause: presliding friction (Dahl)."""
 
     id = "friction_presliding"
-    title = "Friction builds up over a distance after each reversal"
+    title = "Presliding friction"
     units = (("coulomb_level", "N m"), ("presliding_distance", "rad"))
     experiment = "many slow reversals, each followed by a move of some degrees"
     coordinate = "travel"
@@ -27,7 +28,7 @@ class FrictionPresliding(OwnJointCause):
         """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
         del operating_point
         span = max(float(np.ptp(dataset.state.position[:, site[0] - 1])), 1e-6)
-        return [{"presliding_distance": value} for value in spread(2e-4 * span, 0.16 * span, 11)]
+        return [{"presliding_distance": value} for value in geometric_grid(2e-4 * span, 0.16 * span, 11)]
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
@@ -35,13 +36,13 @@ class FrictionPresliding(OwnJointCause):
         return Presliding(site[0], scalars["presliding_distance"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want friction that builds up, not one that falls."""
+        """Admit friction that builds up."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say over which distance how much friction builds up."""
-        found = named(self.quantities(solved))
+        """State level and presliding distance."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s friction of {shown(found['coulomb_level'])} builds up over "
-            f"{shown(found['presliding_distance'])} after each reversal"
+            f"Presliding friction on joint {solved.site[0]}: {quantity_text(found['coulomb_level'])} builds "
+            f"up over {quantity_text(found['presliding_distance'])} after each reversal"
         )

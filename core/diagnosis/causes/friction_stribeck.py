@@ -1,4 +1,4 @@
-"""Suspect that friction falls as a joint gets under way (Stribeck): the excess over the Coulomb level."""
+"""Candidate cause: Stribeck friction, an excess over the Coulomb level that decays with speed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,15 +8,16 @@ from ...dynamics.term import Term
 from ...dynamics.terms.stribeck import Stribeck
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
-from .shared.common import OwnJointCause, named, shown, spread
+from .shared.own_joint import OwnJointCause, geometric_grid
+from .shared.text import by_name, quantity_text
 
 
 @dataclass(frozen=True)
 class FrictionStribeck(OwnJointCause):
-    """Suspect Stribeck friction."""
+    """Candidate cause: Stribeck friction."""
 
     id = "friction_stribeck"
-    title = "Friction falls with speed near standstill"
+    title = "Stribeck friction"
     units = (("excess_torque", "N m"), ("stribeck_velocity", "rad/s"))
     experiment = "slow constant-speed moves, 1 % to 20 % of the joint's speed, in both directions"
 
@@ -24,7 +25,7 @@ class FrictionStribeck(OwnJointCause):
         """Scan the Stribeck velocity from 3 % of the RMS speed to the RMS speed."""
         del operating_point
         speed = max(float(dataset.speed[site[0] - 1]), 1e-6)
-        return [{"stribeck_velocity": value} for value in spread(0.03 * speed, 1.0 * speed, 9)]
+        return [{"stribeck_velocity": value} for value in geometric_grid(0.03 * speed, 1.0 * speed, 9)]
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""
@@ -32,13 +33,13 @@ class FrictionStribeck(OwnJointCause):
         return Stribeck(site[0], scalars["stribeck_velocity"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want an excess, not a lack."""
+        """Admit a positive excess."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how much friction is lost at which speed."""
-        found = named(self.quantities(solved))
+        """State excess and Stribeck velocity."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]} has {shown(found['excess_torque'])} more friction near standstill than "
-            f"its Coulomb level; it is lost over {shown(found['stribeck_velocity'])}"
+            f"Stribeck friction on joint {solved.site[0]}: {quantity_text(found['excess_torque'])} above the "
+            f"Coulomb level near standstill, decaying over {quantity_text(found['stribeck_velocity'])}"
         )

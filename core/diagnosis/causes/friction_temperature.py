@@ -1,4 +1,4 @@
-"""Suspect that friction follows the joint's warmth: as logged, or as a warm-up over the time of the log."""
+"""Candidate cause: friction that depends on the joint's temperature: logged, or a warm-up over the log."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,19 +10,20 @@ from ...dynamics.term import Term
 from ...dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
-from .shared.common import NOTHING, OwnJointCause, named, shown
+from .shared.own_joint import NOTHING, OwnJointCause
+from .shared.text import by_name, quantity_text
 
 SHARES = (0.05, 0.12, 0.3, 0.7, 3.0)
-"""Time constants of a warm-up, as shares of the time looked at."""
+"""Time constants of a warm-up, as shares of the data set's duration."""
 SLOPES = (("coulomb_slope", "N m"), ("viscous_slope", "N m s/rad"))
 
 
 @dataclass(frozen=True)
 class FrictionTemperature(OwnJointCause):
-    """Suspect friction that changes with temperature."""
+    """Candidate cause: temperature-dependent friction."""
 
     id = "friction_temperature"
-    title = "Friction changes with temperature"
+    title = "Temperature-dependent friction"
     units = (
         ("coulomb_slope", "N m or N m/K"),
         ("viscous_slope", "N m s/rad or N m s/rad/K"),
@@ -60,12 +61,13 @@ class FrictionTemperature(OwnJointCause):
         )
 
     def statement(self, solved: FittedCause) -> str:
-        """Say by how much friction changes, per kelvin or over which time."""
-        found = named(self.quantities(solved))
+        """State the changes of friction, per kelvin or over the warm-up."""
+        found = by_name(self.quantities(solved))
         changes = (
-            f"Joint {solved.site[0]}'s Coulomb friction changes by {shown(found['coulomb_slope'])} and its "
-            f"viscous friction by {shown(found['viscous_slope'])}"
+            f"Temperature-dependent friction on joint {solved.site[0]}: Coulomb friction changes by "
+            f"{quantity_text(found['coulomb_slope'])}, viscous friction by "
+            f"{quantity_text(found['viscous_slope'])}"
         )
         if "time_constant" not in found:
-            return f"{changes} of its temperature"
-        return f"{changes} as it warms up with a time constant of {shown(found['time_constant'])}"
+            return changes
+        return f"{changes} during a warm-up with a time constant of {quantity_text(found['time_constant'])}"

@@ -1,4 +1,4 @@
-"""Suspect that friction bends with speed: a power of it beside the linear viscous friction."""
+"""Candidate cause: nonlinear viscous friction, a power of the speed beside the linear one."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,20 +8,21 @@ from ...dynamics.term import Term
 from ...dynamics.terms.nonlinear_viscous import NonlinearViscous
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
-from .shared.common import OwnJointCause, named, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 
 EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
 """A power of zero is Coulomb friction, of one viscous friction: the model has both."""
 APART = 0.1
-"""A power this near to either takes away what the model's own friction adds, and may be of any size."""
+"""A power this near to either cancels the model's own friction, and its size is arbitrary."""
 
 
 @dataclass(frozen=True)
 class FrictionViscousNonlinear(OwnJointCause):
-    """Suspect friction that is not linear in speed."""
+    """Candidate cause: friction that is not linear in speed."""
 
     id = "friction_viscous_nonlinear"
-    title = "Friction is not linear in speed"
+    title = "Nonlinear viscous friction"
     units = (("coefficient", "N m (s/rad)^p"), ("exponent", "1"))
     experiment = "constant-speed moves from 5 % to 100 % of the joint's speed, in both directions"
 
@@ -36,15 +37,15 @@ class FrictionViscousNonlinear(OwnJointCause):
         return NonlinearViscous(site[0], scalars["exponent"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a power that is neither Coulomb nor viscous friction."""
+        """Admit a power that is neither Coulomb nor viscous friction."""
         power = solved.scalars["exponent"]
         return super().admissible(solved) and power >= APART and abs(power - 1.0) >= APART
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how friction grows with which power."""
-        found = named(self.quantities(solved))
+        """State exponent and coefficient."""
+        found = by_name(self.quantities(solved))
         grows = "grows" if solved.values[0] > 0.0 else "falls"
         return (
-            f"Beside its viscous part, joint {solved.site[0]}'s friction {grows} with speed to the power "
-            f"{shown(found['exponent'])}: coefficient {shown(found['coefficient'])}"
+            f"Nonlinear viscous friction on joint {solved.site[0]}: it {grows} with speed to the power "
+            f"{quantity_text(found['exponent'])}, coefficient {quantity_text(found['coefficient'])}"
         )

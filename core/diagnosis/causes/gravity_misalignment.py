@@ -1,4 +1,4 @@
-"""Suspect that the base is tilted: gravity does not point where the robot's description has it."""
+"""Candidate cause: a tilted base, so that gravity has another direction than in the robot's description."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,24 +13,25 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
-from .shared.common import OwnJointCause, rounded, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import number_text, quantity_text
 
 LARGEST = 0.5
 
 
 @dataclass(frozen=True)
 class GravityMisalignment(OwnJointCause, CorrectsRobot):
-    """Suspect a tilted base."""
+    """Candidate cause: a tilted base."""
 
     id = "gravity_misalignment"
-    title = "The base is tilted against the description"
+    title = "Base tilt"
     cure = "robot"
     units = (("tilt_x", "rad"), ("tilt_y", "rad"))
-    experiment = "the same slow motion with the first joint at four angles, a quarter of a turn apart"
+    experiment = "the same slow motion with the first joint at four angles, a quarter of a revolution apart"
     coordinate = "position"
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
-        """Act on the whole robot, where it has weight."""
+        """Act on the whole robot, where there is gravity."""
         del operating_point
         return [()] if np.any(dataset.robot.gravity) else []
 
@@ -40,28 +41,34 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
         return Tilt(0, operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a tilt that a first-order column can stand for."""
+        """Admit a tilt that a first-order column can represent."""
         return bool(np.hypot(*solved.values) < LARGEST)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report the axes about which a tilt shows: a planar arm sees one only."""
-        return tuple(one for one in super().quantities(solved) if one.standard_deviation < LARGEST)
+        """Report the axes about which a tilt is observable: for a planar arm only one."""
+        return tuple(tilt for tilt in super().quantities(solved) if tilt.standard_deviation < LARGEST)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say about which axes gravity is turned."""
+        """State the rotation of gravity about each axis."""
         turns = " and ".join(
-            f"by {shown(one)} about the base's {one.name[-1]} axis" for one in self.quantities(solved)
+            f"by {quantity_text(tilt)} about the base's {tilt.name[-1]} axis"
+            for tilt in self.quantities(solved)
         )
-        return f"Gravity is turned against the description {turns}, as if the base were tilted the other way"
+        return (
+            f"Base tilt: gravity is rotated {turns} against the description, as by a base tilted the other "
+            "way"
+        )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say where gravity points now."""
+        """State gravity before and after."""
         after = self.corrected_robot(robot, joints, numbers)
-        old, new = (", ".join(rounded(one, 4) for one in arm.gravity) for arm in (robot, after))
+        old, new = (
+            ", ".join(number_text(component, 4) for component in arm.gravity) for arm in (robot, after)
+        )
         return f"Gravity in the base frame goes from ({old}) to ({new}) m/s2"
 
     def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
-        """Turn gravity; about an axis whose tilt does not show it stays as it is."""
+        """Rotate gravity; not about an axis whose tilt is not observable."""
         del joints
         about_x, about_y = tilt_axes(np.asarray(robot.gravity, dtype=float))
         turn = numbers.get("tilt_x", 0.0) * about_x + numbers.get("tilt_y", 0.0) * about_y

@@ -1,7 +1,7 @@
-"""Write the reader's list of causes from the causes themselves, so that the document cannot drift.
+"""Write docs/causes.md from the causes themselves, so that the document cannot drift.
 
-What a cause is, its numbers, what it is confused with and which motion would tell stand in the cause's own
-file; `make reference` writes docs/causes.md from them, and a test compares the two.
+What a cause is, its numbers and the motion that shows it are in its own file, what it imitates in
+`imitation`. `make reference` writes the page, and a test compares the two.
 """
 
 import inspect
@@ -20,15 +20,15 @@ OPENING = """\
 Written by `make reference` from the files of `core/diagnosis/causes`; change those, not this page.
 
 A finding of a diagnosis names one of these causes and the joint that it acts on. Where two of them explain a
-log equally well, the other one is named beside it (`ambiguous_with`) with the experiment that separates them.
-Where the log could not have shown a cause, the result says so (`not_identifiable`), with the experiment that
-would. Besides `causes_found`, a verdict may be `nothing_found` (the residual is noise) or `unexplained`: a
-generic learner still predicts part of the residual on blocks that it has not seen, and no cause of this list
-explains that part.
+log equally well, the other one is listed beside it (`ambiguous_with`) with the experiment that separates
+them. Where the log could not have shown a cause, the result lists it (`not_identifiable`) with the experiment
+that would. Besides `causes_found`, a verdict may be `nothing_found` (the residual is noise) or `unexplained`:
+a generic learner predicts part of the residual on held-out blocks, and no cause of this list explains that
+part.
 
-What a finding cures is one of three things, which are the three ways a simulation can be wrong. Its repair is
-what a user can take: of the `robot`'s description, of the `log`, of the `model` alone (a further term), or of
-`nothing`, where what was lost cannot be brought back ([repairs](diagnosis.md#repairs)).
+A simulation can be wrong in three ways: `cure` says in which. A finding's repair corrects the `robot`'s
+description, the `log`, the `model` alone (by a further term), or `nothing`, where the samples are lost
+([repairs](diagnosis.md#repairs)).
 
 | cure | what is wrong | what is done |
 |---|---|---|
@@ -36,19 +36,19 @@ what a user can take: of the `robot`'s description, of the `log`, of the `model`
 CURES: Mapping[str, tuple[str, str]] = {
     "term": (
         "a term is missing",
-        "its torque joins the model, and all parameters are identified again under the same constraints",
+        "its term is added to the model, and all parameters are identified again under the same constraints",
     ),
     "signal": (
-        "a signal lies",
-        "where it bends the torque, what it does joins the model as a term; the repair mends the log",
+        "a signal is wrong",
+        "where it changes the torque, its effect is added as a term; the repair corrects the log",
     ),
     "robot": (
-        "the robot is not the one described",
-        "what the difference does joins the model as a term; the repair is the corrected description",
+        "the robot's description is wrong",
+        "the effect of the error is added to the model as a term; the repair is the corrected description",
     ),
 }
 ONLY_AGAINST = """\
-Only against a [reference](diagnosis.md#what-has-changed): where everything is identified anew it is absorbed.
+Only against a [reference](diagnosis.md#what-has-changed): without one, the base parameters absorb it.
 
 """
 OVERVIEW = """
@@ -62,24 +62,25 @@ OVERVIEW = """
 def guide() -> str:
     """Write the document in Markdown."""
     cures = "".join(f"| {cure} | {wrong} | {done} |\n" for cure, (wrong, done) in CURES.items())
-    only = {one.id: ", only against a reference" for one in ONLY_CHANGES}
+    only = {cause.id: ", only against a reference" for cause in ONLY_CHANGES}
     rows = "".join(
-        f"| [{name}](#{name}) | {one.title}{only.get(name, '')} | {one.cure} | {_repair(one)} |\n"
-        for name, one in BY_ID.items()
+        f"| [{name}](#{name}) | {cause.title}{only.get(name, '')} | {cause.cure} | {_repair(cause)} |\n"
+        for name, cause in BY_ID.items()
     )
-    return OPENING + cures + OVERVIEW + rows + "".join(_section(one) for one in BY_ID.values())
+    return OPENING + cures + OVERVIEW + rows + "".join(_section(cause) for cause in BY_ID.values())
 
 
 def _section(cause: Cause | SampleCheck) -> str:
-    suspected = " ".join((inspect.getdoc(inspect.getmodule(cause)) or "").split("\n\n")[0].split())
+    opening = " ".join((inspect.getdoc(inspect.getmodule(cause)) or "").split("\n\n")[0].split())
+    hypothesis = opening.removeprefix("Candidate cause: ")
     units = "".join(f"| {name} | {_written(unit)} |\n" for name, unit in cause.units)
     return (
         f"\n## {cause.id}\n\n"
-        f"What is suspected: {suspected.removeprefix('Suspect ')}\n\n"
+        f"{hypothesis[0].upper()}{hypothesis[1:]}\n\n"
         f"{ONLY_AGAINST * (cause in ONLY_CHANGES)}"
         f"| number | unit |\n|---|---|\n{units}\n"
         f"Shown by: {cause.experiment}.\n\n"
-        "Confused with:\n\n" + "".join(_imitation(*entry) for entry in imitations(cause.id).items())
+        "Imitates:\n\n" + "".join(_imitation(*entry) for entry in imitations(cause.id).items())
     )
 
 
@@ -92,7 +93,7 @@ def _imitation(other: str, entry: Imitation) -> str:
 
 
 def _written(unit: str) -> str:
-    """Write a unit for a table; numbers without one are said to have none."""
+    """Write a unit for a table, and none for a number without one."""
     return "none" if unit == "1" else unit
 
 

@@ -59,8 +59,7 @@ IMITATIONS: tuple[Imitation, ...] = (
         "friction_temperature",
         "torque_offset_drift",
         "both change slowly with time; friction changes its sign with the direction of motion",
-        "repeat a slow move in both directions, cold at the start and after half an hour of motion at the "
-        "end",
+        "repeat a slow move in both directions, cold at the start and after half an hour of motion",
     ),
     Imitation(
         "friction_temperature",
@@ -149,8 +148,7 @@ IMITATIONS: tuple[Imitation, ...] = (
         "torque_saturation",
         "both act at large torques; saturation ends at one level, a nonlinear gain continues",
         "raise a payload step by step (a nonlinear gain shows below the largest torque) and repeat the "
-        "motion a "
-        "tenth slower (the torque then stays below the limit)",
+        "motion a tenth slower (the torque then stays below the limit)",
     ),
     Imitation(
         "torque_gain_nonlinear",
@@ -214,8 +212,8 @@ IMITATIONS: tuple[Imitation, ...] = (
     Imitation(
         "payload_change",
         "link_parameters",
-        "against a reference, a heavier link equals a body fixed to it; where it may be a body, it is "
-        "called one",
+        "against a reference, a heavier link equals a body fixed to it; where it may be a body, it is called "
+        "one",
         "weigh the link, or check whether something is fixed to it",
     ),
     Imitation(

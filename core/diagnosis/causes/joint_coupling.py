@@ -1,4 +1,4 @@
-"""Suspect that a motor turns with two joints although the robot's description does not say so."""
+"""Candidate cause: a transmission coupling of two joints that the robot's description does not declare."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,30 +13,31 @@ from ...robot.model import Coupling, RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
-from .shared.common import OwnJointCause, named, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 from .traits import SearchTraits
 
 FURTHEST = 2
-"""Gears couple a joint with the next or the one after it."""
+"""Transmissions couple a joint with the next or the one after it."""
 NAMES = (("Iam", "kg m2"), ("Fvm", "N m s/rad"), ("Fcm", "N m"))
 DOUBT = 2.0
-"""Deviations by which an estimate may lie on the wrong side of zero."""
+"""Standard deviations by which an estimate may be negative."""
 
 
 @dataclass(frozen=True)
 class JointCoupling(OwnJointCause, CorrectsRobot):
-    """Suspect an undeclared gear coupling."""
+    """Candidate cause: an undeclared transmission coupling."""
 
     id = "joint_coupling"
-    title = "A motor turns with two joints at once"
+    title = "Undeclared transmission coupling"
     cure = "robot"
     units = (("Fvm", "N m s/rad"), ("Fcm", "N m"), ("Iam", "kg m2"))
-    experiment = "move each of the two joints alone, then both the same way and both against each other"
+    experiment = "move each of the two joints alone, then both in the same and in opposite directions"
     coordinate = "other_velocity"
     traits = SearchTraits(discrete=("weight",))
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
-        """List pairs of turning joints, at most two apart, that no declared coupling joins."""
+        """List pairs of revolute joints, at most two apart, that no declared coupling joins."""
         del operating_point
         robot = dataset.robot
         turning = {link.joint for link in robot.links if link.kind == "revolute"}
@@ -45,11 +46,11 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
             (first, second)
             for second in sorted(turning)
             for first in range(max(1, second - FURTHEST), second)
-            if first in turning and not any({first, second} <= one for one in declared)
+            if first in turning and not any({first, second} <= joints for joints in declared)
         ]
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the sense in which the first joint turns the motor."""
+        """Scan the sign with which the first joint turns the motor."""
         del dataset, operating_point, site
         return [{"weight": 1.0}, {"weight": -1.0}]
 
@@ -60,14 +61,14 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
         return MissingCoupling(Coupling("undeclared", site[1], (site[0], site[1]), weights))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want inertia and friction that are not negative beyond doubt, and at least one of them positive."""
+        """Admit inertia and friction: none significantly negative, one significantly positive."""
         size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
         return super().admissible(solved) and bool(size.min() > -DOUBT and size.max() > DOUBT)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the motor's inertia and friction under the number of the joint that it drives."""
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
-        found = named(
+        found = by_name(
             [
                 Quantity(name, solved.site[1], unit, float(value), float(deviation))
                 for (name, unit), value, deviation in zip(NAMES, solved.values, deviations, strict=True)
@@ -76,22 +77,22 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
         return tuple(found[name] for name, _ in self.units)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say which two joints the motor turns with, and what its inertia and friction are."""
-        found = named(self.quantities(solved))
+        """State the two joints, the motor's inertia and its friction."""
+        found = by_name(self.quantities(solved))
         first, second = solved.site
         sums = "sum" if solved.scalars["weight"] >= 0.0 else "difference"
         return (
-            f"The motor of joint {second} turns with the {sums} of joints {first} and {second}, which nobody "
-            f"declared: inertia {_known(found['Iam'])}, viscous friction {_known(found['Fvm'])}, "
-            f"Coulomb friction {_known(found['Fcm'])}"
+            f"Undeclared transmission coupling of joints {first} and {second}: a motor turns with their "
+            f"{sums}, inertia {_significant(found['Iam'])}, viscous friction {_significant(found['Fvm'])}, "
+            f"Coulomb friction {_significant(found['Fcm'])}"
         )
 
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
-        """Give the reported numbers, and the weight of the first joint in the motor's turn."""
+        """Give the reported numbers, and the weight of the first joint in the motor's rotation."""
         return {**super().numbers(dataset, solved), "weight": solved.scalars["weight"]}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say which coupling is declared."""
+        """State which coupling is declared."""
         first, second = joints
         sign = "plus" if numbers["weight"] >= 0.0 else "minus"
         return (
@@ -102,14 +103,14 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
     def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Declare the coupling, under the number of the joint that its motor drives or the next free one."""
         first, second = joints
-        taken = {one.number for one in robot.couplings}
-        number = next(one for one in count(second) if one not in taken)
+        taken = {coupling.number for coupling in robot.couplings}
+        number = next(free for free in count(second) if free not in taken)
         found = Coupling(f"joints {first} and {second}", number, (first, second), (numbers["weight"], 1.0))
         return replace(robot, couplings=(*robot.couplings, found))
 
 
-def _known(quantity: Quantity) -> str:
-    """Write a quantity; an inertia that links or rotors may as well have is not a number worth reading."""
+def _significant(quantity: Quantity) -> str:
+    """Write a quantity where it differs from zero: an inertia may belong to links or rotors as well."""
     if quantity.standard_deviation > abs(quantity.value):
-        return "not to be told from zero"
-    return shown(quantity)
+        return "not distinguishable from zero"
+    return quantity_text(quantity)

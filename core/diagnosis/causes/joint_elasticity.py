@@ -1,4 +1,4 @@
-"""Suspect a compliant gear between the motor's encoder and the link."""
+"""Candidate cause: joint elasticity between the motor encoder and the link."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,14 +10,8 @@ from ...dynamics.term import Term
 from ...dynamics.terms.elasticity import Elasticity
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
-from .shared.common import (
-    OwnJointCause,
-    before_the_gear,
-    motor_inertias,
-    named,
-    shown,
-    spread,
-)
+from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias
+from .shared.text import by_name, quantity_text, rotor_text
 from .traits import SearchTraits
 
 LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
@@ -26,22 +20,22 @@ DAMPING_RATIOS = (0.05, 0.2)
 
 @dataclass(frozen=True)
 class JointElasticity(OwnJointCause):
-    """Suspect joint elasticity."""
+    """Candidate cause: joint elasticity."""
 
     id = "joint_elasticity"
-    title = "The gear is compliant"
+    title = "Joint elasticity"
     units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"), ("motor_inertia", "kg m2"))
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
     traits = SearchTraits(linearisation_error=0.15, like_position_noise=True)
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the resonance from a few times the motion's band to beyond the look's, and the damping."""
+        """Scan resonance, from a few times the motion's bandwidth to beyond the data set's, and damping."""
         ends = (LOWEST * dataset.motion_band_hz, HIGHEST * dataset.band_hz)
         return [
             {"resonance_hz": frequency, "damping_ratio": ratio, **rotor}
             for rotor in motor_inertias(dataset, operating_point, site)
-            for frequency in spread(*ends, POINTS)
+            for frequency in geometric_grid(*ends, POINTS)
             for ratio in DAMPING_RATIOS
         ]
 
@@ -53,11 +47,11 @@ class JointElasticity(OwnJointCause):
         )
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a spring that gives way."""
+        """Admit a positive compliance."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report the stiffness, of the compliance's relative deviation, the damping, and the rotor if any."""
+        """Report stiffness (with the compliance's relative deviation), damping and, if any, rotor inertia."""
         compliance, deviation = float(solved.values[0]), float(solved.covariance[0, 0] ** 0.5)
         joint, angular = solved.site[0], 2.0 * np.pi * solved.scalars["resonance_hz"]
         damping = 2.0 * solved.scalars["damping_ratio"] / (angular * compliance)
@@ -70,13 +64,13 @@ class JointElasticity(OwnJointCause):
         return (
             Quantity("stiffness", joint, solved.unit("N m/rad"), 1.0 / compliance, deviation / compliance**2),
             Quantity("damping", joint, solved.unit("N m s/rad"), damping, damping * doubt),
-            *(one for one in super().quantities(solved) if one.name == "motor_inertia"),
+            *(rotor for rotor in super().quantities(solved) if rotor.name == "motor_inertia"),
         )
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how stiff the gear is."""
-        found = named(self.quantities(solved))
+        """State the stiffness."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s gear gives way under load: stiffness {shown(found['stiffness'])} "
-            f"between the motor's encoder and the link{before_the_gear(found)}"
+            f"Joint elasticity on joint {solved.site[0]}: stiffness {quantity_text(found['stiffness'])} "
+            f"between the motor encoder and the link{rotor_text(found)}"
         )

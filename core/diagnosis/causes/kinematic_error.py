@@ -1,4 +1,4 @@
-"""Suspect that one entry of the robot's table is wrong."""
+"""Candidate cause: a wrong entry of the kinematic table."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,23 +11,24 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
-from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text, quantity_text
 from .traits import SearchTraits
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 LARGEST = 0.3
-"""In rad and in m: beyond it the table is another robot's."""
+"""In rad and in m: beyond it the table belongs to another robot."""
 
 
 @dataclass(frozen=True)
 class KinematicError(OwnJointCause, CorrectsRobot):
-    """Suspect one entry (alpha, d or r) of a link's modified DH row, by its place in `ENTRIES`."""
+    """Candidate cause: an error of alpha, d or r in a link's modified DH row (scalar: place in `ENTRIES`)."""
 
     id = "kinematic_error"
-    title = "An entry of the kinematic table is wrong"
+    title = "Kinematic table error"
     cure = "robot"
     units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
-    experiment = "quick motion of all joints at once: lengths show in products of velocities"
+    experiment = "fast motion of all joints at once: lengths appear in products of velocities"
     coordinate = "position"
     traits = SearchTraits(discrete=("entry",))
 
@@ -54,7 +55,7 @@ class KinematicError(OwnJointCause, CorrectsRobot):
         return KinematicErrorTerm(site[0], operating_point, _entry(scalars))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want an error that a first-order column can stand for."""
+        """Admit an error that a first-order column can represent."""
         return bool(abs(solved.values[0]) < LARGEST)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
@@ -66,25 +67,28 @@ class KinematicError(OwnJointCause, CorrectsRobot):
         )
 
     def statement(self, solved: FittedCause) -> str:
-        """Say which entry is off by how much."""
-        found = named(self.quantities(solved))["error"]
+        """State the entry and its error."""
+        found = by_name(self.quantities(solved))["error"]
         entry = _entry(solved.scalars)
-        way, size = ("grow" if found.value > 0.0 else "shrink"), replace(found, value=abs(found.value))
-        return f"Joint {solved.site[0]}'s {entry} in the kinematic table has to {way} by {shown(size)}"
+        way, size = ("larger" if found.value > 0.0 else "smaller"), replace(found, value=abs(found.value))
+        return (
+            f"Kinematic table error on joint {solved.site[0]}: {entry} has to be {way} by "
+            f"{quantity_text(size)}"
+        )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say what the entry becomes."""
+        """State the entry before and after."""
         entry = _reported(numbers)
         row = link_of(robot, joints[0]).row
         before = 0.0 if row is None else float(getattr(row, entry))
-        after = rounded(before + numbers["error"], 4)
+        after = number_text(before + numbers["error"], 4)
         return (
-            f"Joint {joints[0]}'s {entry} in the kinematic table goes from {rounded(before, 4)} to "
+            f"Joint {joints[0]}'s {entry} in the kinematic table goes from {number_text(before, 4)} to "
             f"{after} {ENTRY_UNITS[entry]}"
         )
 
     def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
-        """Let the entry grow by the error."""
+        """Add the error to the entry."""
         return with_entry(robot, joints[0], _reported(numbers), numbers["error"])
 
 

@@ -18,11 +18,9 @@ class Masking:
 
 _LATE_TORQUE = Masking(
     ("friction_presliding", "friction_stribeck", "joint_elasticity"),
-    "A first-order column is late where velocities reverse, which looks like friction, and it lacks the "
-    "term in "
-    "frequency squared. Of five examined logs (of 686) with Stribeck friction named beside a delay or "
-    "filter, one "
-    "had it.",
+    "A first-order column is late where velocities reverse, which looks like friction, and it lacks the term "
+    "in frequency squared. Of five examined logs (of 686) with Stribeck friction named beside a delay or "
+    "filter, one had it.",
 )
 _LARGE_ANGLE = Masking(
     ("kinematic_error",),
@@ -38,8 +36,7 @@ MASKED_BY: dict[str, Masking] = {
     "torque_saturation": Masking(
         ("external_contact",),
         "Torques near the limit are predicted with an error: beside a clipped torque, examined logs had a "
-        "contact "
-        "named at the same instants.",
+        "contact named at the same instants.",
     ),
     "time_delay": _LATE_TORQUE,
     "torque_filter_lag": _LATE_TORQUE,
@@ -47,8 +44,7 @@ MASKED_BY: dict[str, Masking] = {
     "kinematic_error": Masking(
         ("spring_compensator", "cable_force", "kinematic_error"),
         "What first-order columns leave of a large error is a torque over the angle, or resembles a small "
-        "error "
-        "of another length.",
+        "error of another length.",
     ),
     "payload_change": Masking(
         ("external_contact",), "An instant that is slightly off leaves a short wrench on the same link."

@@ -1,4 +1,4 @@
-"""Suspect that a body was fixed to a link or taken off it, at some instant or since the reference."""
+"""Candidate cause: a body attached to a link or removed from it, at an instant or since the reference."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,30 +13,31 @@ from ...robot.parameters import INERTIAL_SYMBOLS
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.bodies import MASS, body_of, is_body
-from .shared.common import NOTHING, OwnJointCause, named, rounded, shown
-from .shared.sites import end_links, links_by_joint
+from .shared.own_joint import NOTHING, OwnJointCause, end_links, links_by_joint
+from .shared.text import by_name, number_text, quantity_text
 from .traits import SearchTraits
 
 INSTANTS = 16
 TOLD_APART = 120
-"""Instants between two of these that are told apart once they come into question."""
+"""Instants between two of these that are separable in the refinement."""
 HEAVIEST = 500.0
 UNKNOWN = 1.0
-"""A coordinate of the mass centre, m, that is known worse is not told: a planar arm sees two only."""
+"""A coordinate of the centre of mass, m, with a larger deviation is not reported: a planar arm has two
+only."""
 _FIRST = INERTIAL_SYMBOLS.index("MX")
 
 
 def _instants_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
-    """Count the instants that are told apart."""
+    """Count the instants that are separable."""
     return float(len(grid) * TOLD_APART) if scalars else float(len(grid))
 
 
 @dataclass(frozen=True)
 class PayloadChange(OwnJointCause):
-    """Suspect a payload.
+    """Candidate cause: a payload.
 
-    A body that was there throughout shows only against a reference: where everything was identified anew it
-    is part of the last link.
+    A body that was there throughout shows only against a reference: otherwise it is identified as part of the
+    last link.
 
     Attributes
     ----------
@@ -48,7 +49,7 @@ class PayloadChange(OwnJointCause):
     throughout: bool = False
 
     id = "payload_change"
-    title = "A body was attached to or taken off a link"
+    title = "Payload attached or removed"
     cure = "robot"
     units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))
     experiment = "the same motion of all joints before and after the change, at least five seconds each"
@@ -79,12 +80,12 @@ class PayloadChange(OwnJointCause):
         return Payload(site[0], self._links(dataset)[site[0]], scalars.get("time", -np.inf))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a mass that an arm may carry and, where all ten parameters are well known, a body."""
+        """Admit a mass that an arm may carry and, where all ten parameters are fitted throughout, a body."""
         light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < HEAVIEST)
         return light and (not self.throughout or is_body(solved.values, solved.covariance))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report mass (negative: taken off), mass centre in the link's frame where it shows, and instant."""
+        """Report mass (negative: removed), centre of mass in the link's frame if observable, and instant."""
         body = body_of(solved.values, solved.covariance)[0] if self.throughout else solved.values
         joint, mass = solved.site[0], float(body[MASS])
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
@@ -103,25 +104,29 @@ class PayloadChange(OwnJointCause):
         return (*found, *when)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say what mass, where and since when."""
-        found = named(self.quantities(solved))
-        told = [(axis, found[f"com_{axis}"]) for axis in "xyz" if f"com_{axis}" in found]
-        centre = ", ".join(f"{axis} = {one.value:.2g}" for axis, one in told)
-        word = "carries" if found["mass"].value > 0.0 else "has lost"
+        """State mass, link, instant and centre of mass."""
+        found = by_name(self.quantities(solved))
+        observed = [(axis, found[f"com_{axis}"]) for axis in "xyz" if f"com_{axis}" in found]
+        centre = ", ".join(f"{axis} = {coordinate.value:.2g}" for axis, coordinate in observed)
+        word = "attached to" if found["mass"].value > 0.0 else "removed from"
         mass = Quantity("mass", None, "kg", abs(found["mass"].value), found["mass"].standard_deviation)
-        return f"The link of joint {solved.site[0]} {word} {shown(mass)} since {self._since(found)}" + (
-            f", centred at {centre} m in its frame" if told else ""
+        return (
+            f"Payload {word} the link of joint {solved.site[0]}: {quantity_text(mass)} since "
+            f"{self._since(found)}" + (f", centre of mass at {centre} m in its frame" if observed else "")
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say that a body is not of the description: it comes as a term, or is identified with its link."""
+        """State that the body joins as a term, or is identified with its link."""
         del robot
         if "time" in numbers:
             return (
                 "The description stays as it is: the model has the body as a term from "
-                f"{rounded(numbers['time'], 4)} s on"
+                f"{number_text(numbers['time'], 4)} s on"
             )
-        return f"The description stays as it is: identified anew, the link of joint {joints[0]} has the body"
+        return (
+            "The description stays as it is: a new identification includes the body in the link of joint "
+            f"{joints[0]}"
+        )
 
     def _links(self, dataset: Dataset) -> dict[int, int]:
         return links_by_joint(dataset.robot) if self.throughout else end_links(dataset.robot)

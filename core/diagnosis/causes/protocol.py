@@ -1,9 +1,9 @@
-"""Say what every cause must offer, so that a new cause is one file.
+"""Define what every cause offers, so that a new cause is one file.
 
-A cause is a hypothesis about the world: where it can act (`sites`), which nonlinear scalars have to be
-scanned there (`grid`), and which torque it adds per unit of its linear parameters (`term`, built on the
-*predicted* torque, never on the measured one). It also says in words what it means, what it is easily
-confused with, and which motion would separate the two.
+A cause is a physical hypothesis: where it can act (`sites`), which nonlinear scalars are scanned there
+(`grid`), which torque it adds per unit of its linear parameters (`term`, a function of the *predicted*
+torque, never of the measured one), which estimates are physically admissible, and what they mean in words.
+How the search treats it is in `traits`, what it imitates in `imitation`, what it masks in `masking`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,7 +23,7 @@ Scalars = Mapping[str, float]
 Site = tuple[int, ...]
 """Joints that a cause acts on, counted from 1; empty for the whole robot."""
 Numbers = Mapping[str, float]
-"""What a repair is done with, by name, in SI."""
+"""The numbers of a repair, by name, in SI."""
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,12 @@ class Quantity:
 
 @dataclass(frozen=True, eq=False)
 class FittedCause:
-    """Carry what a fit found for one candidate.
-
-    Linear parameters come with their covariance, scanned scalars with their deviations.
+    """Hold the estimates of one candidate: linear parameters with covariance, scalars with deviations.
 
     Attributes
     ----------
     slides
-        Whether the joint that it is about slides.
+        Whether the joint is prismatic.
     """
 
     site: Site
@@ -60,26 +58,26 @@ class FittedCause:
     slides: bool = False
 
     def unit(self, turning: str) -> str:
-        """Give the unit of a number of the joint, from what it is where joints turn."""
+        """Give the unit of a number of the joint, from its unit on a revolute joint."""
         return along_slide(turning) if self.slides else turning
 
 
 @runtime_checkable
 class Cause(Protocol):
-    """Offer one hypothesis about what a simulation misses.
+    """Define one physical hypothesis about what a simulation lacks.
 
     Attributes
     ----------
     id
-        Its name in results.
+        Its name in results; published, never changed.
     title
-        What it is, in words that fit a heading.
+        Its name in words, for a heading.
     experiment
         The motion that would show it where the present one does not.
     coordinate
-        What its figure has on the abscissa: ``velocity, position, load, time, travel`` ...
+        The abscissa of its figure: ``velocity, position, load, time, travel`` ...
     traits
-        What the search has to know of it.
+        How the search treats it.
     """
 
     id: ClassVar[str]
@@ -95,7 +93,7 @@ class Cause(Protocol):
 
     @property
     def cure(self) -> Cure:
-        """Tell whether a term, a signal or the robot's description is to be mended."""
+        """Tell whether a term, a signal or the robot's description is to be corrected."""
         ...
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
@@ -111,21 +109,21 @@ class Cause(Protocol):
         ...
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Tell whether nature allows the parameters found: signs and sizes."""
+        """Tell whether the estimates are physically admissible: signs and sizes."""
         ...
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Give the numbers a reader wants, under the names of the public enumeration."""
+        """Give the reported numbers, under the names of the public enumeration."""
         ...
 
     def statement(self, solved: FittedCause) -> str:
-        """Say in one sentence, with the numbers filled in, what is wrong and what it does."""
+        """State in one sentence what is wrong, with its numbers."""
         ...
 
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
-        """Give the numbers that a repair is done with."""
+        """Give the numbers of the repair."""
         ...
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say in one sentence, with the numbers filled in, what mends it: what goes from what to what."""
+        """State in one sentence what corrects it: what changes from which value to which."""
         ...

@@ -1,4 +1,4 @@
-"""List the causes that are suspected: adding one is one file in `causes` and one line here."""
+"""List the candidate causes: a new one is one file in `causes` and one line here."""
 
 from collections.abc import Mapping
 
@@ -72,10 +72,10 @@ CHANGES: tuple[Cause, ...] = (
     FrictionChange(),
     TorqueGain(together=True),
 )
-"""Causes that show only against a reference: without one the base parameters absorb them."""
+"""Causes that are observable only against a reference: without one the base parameters absorb them."""
 
 ONLY_CHANGES: tuple[Cause, ...] = tuple(
-    one for one in CHANGES if one.id not in {other.id for other in CAUSES}
+    change for change in CHANGES if change.id not in {cause.id for cause in CAUSES}
 )
 """Those of them that have no counterpart within a log."""
 
@@ -83,9 +83,9 @@ AGAINST_REFERENCE: tuple[Cause, ...] = (*CHANGES, *CAUSES)
 """Causes that add torque to what a reference predicts."""
 
 SAMPLE_CHECKS: tuple[SampleCheck, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
-"""Causes that show in the raw samples."""
+"""Causes that are found in the raw samples."""
 
 BY_ID: Mapping[str, Cause | SampleCheck] = {
-    **{one.id: one for one in (*CAUSES, *ONLY_CHANGES)},
-    **{one.id: one for one in SAMPLE_CHECKS},
+    **{cause.id: cause for cause in (*CAUSES, *ONLY_CHANGES)},
+    **{check.id: check for check in SAMPLE_CHECKS},
 }

@@ -1,7 +1,7 @@
-"""Say what a cause offers that can be undone: in the robot's description, or row by row in a log.
+"""Define causes that can be corrected: in the robot's description, or row by row in a log.
 
-A cause that is neither stays a term of the model. Both kinds work on plain numbers, so that a repair can be
-read from a result document and done again elsewhere.
+Any other cause remains a term of the model. Corrections work on plain numbers, so that a repair can be read
+from a result document and repeated elsewhere.
 """
 
 from collections.abc import Callable
@@ -14,14 +14,14 @@ from ...robot.model import RobotModel
 from .protocol import Numbers, Site
 
 Corrects = Literal["robot", "log", "model", "nothing"]
-"""What a repair changes: the description, the log, the model (its term is all there is), or nothing."""
+"""What a repair changes: the description, the log, the model (by its term), or nothing."""
 
 
 class CorrectsRobot:
     """Correct the robot's description."""
 
     def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
-        """Give the robot as it is."""
+        """Give the corrected description."""
         raise NotImplementedError
 
 
@@ -29,26 +29,26 @@ class CorrectsLog:
     """Correct the rows of a log."""
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
-        """Give what should have been logged; the torque is the joints', whatever the log's channel is.
+        """Give the corrected rows; the torque is the joints', whatever the log's channel is.
 
-        The rows follow each other without a gap, and none of them only repeats the one before.
+        The rows have no gap, and none of them repeats the one before.
         """
         raise NotImplementedError
 
     def reach(self, numbers: Numbers) -> float:
-        """Give how far before and after a row others have to be known, s."""
+        """Give the time before and after a row over which others have to be known, s."""
         del numbers
         return 0.0
 
 
 def corrects(cause: object) -> Corrects:
-    """Tell what the repair of a cause that joined the model changes."""
+    """Tell what the repair of a cause changes."""
     if isinstance(cause, CorrectsRobot):
         return "robot"
     return "log" if isinstance(cause, CorrectsLog) else "model"
 
 
-def with_torque(rows: LogRows, joints: Site, mend: Callable[[JointSeries], JointSeries]) -> LogRows:
+def with_torque(rows: LogRows, joints: Site, correct: Callable[[JointSeries], JointSeries]) -> LogRows:
     """Change the torque of some joints (from 1).
 
     Examples
@@ -62,5 +62,5 @@ def with_torque(rows: LogRows, joints: Site, mend: Callable[[JointSeries], Joint
         return rows
     torque = rows.torque.copy()
     own = [joint - 1 for joint in joints]
-    torque[:, own] = mend(torque[:, own])
+    torque[:, own] = correct(torque[:, own])
     return replace(rows, torque=torque)

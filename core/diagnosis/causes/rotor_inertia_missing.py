@@ -1,4 +1,4 @@
-"""Suspect that a joint has a rotor inertia which the robot's description leaves out."""
+"""Candidate cause: a rotor inertia that the robot's description does not declare."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,15 +10,16 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsRobot
-from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text, quantity_text
 
 
 @dataclass(frozen=True)
 class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
-    """Suspect a rotor that nobody declared."""
+    """Candidate cause: an undeclared rotor."""
 
     id = "rotor_inertia_missing"
-    title = "A rotor inertia is missing from the model"
+    title = "Rotor inertia missing from the model"
     cure = "robot"
     units = (("IA", "kg m2"),)
     experiment = "large accelerations of this joint in postures of different inertia beyond it"
@@ -37,27 +38,30 @@ class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
         return MissingRotor(site[0])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want an inertia."""
+        """Admit a positive inertia."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how much inertia is missing."""
-        found = named(self.quantities(solved))
-        return f"Joint {solved.site[0]}'s rotor is missing from the model: {shown(found['IA'])} at the joint"
+        """State the missing inertia."""
+        found = by_name(self.quantities(solved))
+        return (
+            f"Rotor inertia of joint {solved.site[0]} missing from the model: {quantity_text(found['IA'])} "
+            "on the joint side"
+        )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say that the rotor is declared, and what an identification will find about."""
+        """State that the rotor is declared, and about which inertia an identification will find."""
         del robot
         return (
             f"Joint {joints[0]}'s rotor_inertia goes from false to true; an identification finds about "
-            f"{rounded(numbers['IA'], 4)} kg m2"
+            f"{number_text(numbers['IA'], 4)} kg m2"
         )
 
     def corrected_robot(self, robot: RobotModel, joints: Site, numbers: Numbers) -> RobotModel:
         """Declare the rotor."""
         del numbers
         declared = (
-            replace(one, rotor_inertia=True) if number in joints else one
-            for number, one in enumerate(robot.joints, start=1)
+            replace(joint, rotor_inertia=True) if number in joints else joint
+            for number, joint in enumerate(robot.joints, start=1)
         )
         return replace(robot, joints=tuple(declared))

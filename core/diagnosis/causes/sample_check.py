@@ -1,8 +1,8 @@
-"""Look at raw samples for faults that no torque term can mend: stamps, rows and resolution.
+"""Check raw samples for faults that no torque term can correct: stamps, rows and resolution.
 
-A raw cause shows in the samples themselves. How much of the residual it accounts for is found by doing it to
-the smooth motion once more: the error goes through position filter, differences and predicted torque like the
-first one did. Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for the estimates.
+The share of the residual that a fault accounts for is simulated: the fault is applied to the smooth motion,
+and its error passes position filter, differentiation and predicted torque as the real one did.
+Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for the estimates.
 """
 
 from collections.abc import Callable
@@ -26,23 +26,23 @@ from ..regression.innovation_covariance import fitted_rows, torque_residual
 from .protocol import Cure, Quantity, Site
 
 LEVEL = 1e-5
-"""Chance with which a raw check may see something in samples that have nothing."""
+"""False alarm probability of a sample check."""
 
 SMOOTH_OVER_MOTION = 5.0
-"""Smooth motion holds this many times the motion's band."""
+"""Bandwidth of the smooth motion, over the motion's bandwidth."""
 
-Spoil = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
+Corruption = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
 """Take smooth positions and velocities at the log's rate, give the errors of position."""
 
 
 @dataclass(frozen=True, eq=False)
 class SampleFinding:
-    """State what a raw check found.
+    """Hold the result of a sample check.
 
     Attributes
     ----------
     statistic, p_value
-        What decided, and how likely chance reaches it.
+        The test statistic, and the probability that it is reached by chance.
     residual_share
         Per joint, the share of the residual's mean square that the fault accounts for.
     """
@@ -57,12 +57,12 @@ class SampleFinding:
 
 @runtime_checkable
 class SampleCheck(Protocol):
-    """Suspect a fault of the samples; the attributes are those of `Cause`.
+    """Define a candidate fault of the samples; the attributes are those of `Cause`.
 
     Attributes
     ----------
     beyond_repair
-        Why no log can be mended of it, in a sentence.
+        Why no log can be corrected for it, in a sentence.
     """
 
     id: ClassVar[str]
@@ -77,17 +77,17 @@ class SampleCheck(Protocol):
 
     @property
     def cure(self) -> Cure:
-        """Tell what is to be mended."""
+        """Tell what is to be corrected."""
         ...
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
-        """Look for it in the logs."""
+        """Search the logs for it."""
         ...
 
 
-def residual_share(dataset: Dataset, operating_point: Prediction, spoil: Spoil) -> JointVector:
-    """Spoil the smooth motion and give, per joint, the mean square of what that adds over the residual's."""
-    return share_of_residual(dataset, operating_point, disturbance(dataset, operating_point, spoil))
+def residual_share(dataset: Dataset, operating_point: Prediction, corrupt: Corruption) -> JointVector:
+    """Corrupt the smooth motion and give, per joint, the added mean square over the residual's."""
+    return share_of_residual(dataset, operating_point, disturbance(dataset, operating_point, corrupt))
 
 
 def share_of_residual(dataset: Dataset, operating_point: Prediction, gained: JointSeries) -> JointVector:
@@ -97,32 +97,34 @@ def share_of_residual(dataset: Dataset, operating_point: Prediction, gained: Joi
     return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
 
 
-def disturbance(dataset: Dataset, operating_point: Prediction, spoil: Spoil) -> JointSeries:
-    """Spoil the smooth motion and give what that adds to the torque at the look's rows, N m or N."""
+def disturbance(dataset: Dataset, operating_point: Prediction, corrupt: Corruption) -> JointSeries:
+    """Corrupt the smooth motion and give what that adds to the torque at the data set's rows, N m or N."""
     rng = np.random.default_rng(0)
     gained = np.zeros_like(dataset.torque)
     for stretch in dataset.stretches:
         state, motion = stretch.state, dataset.motions[dataset.log[stretch.rows.start]]
-        spoilt = _spoilt(state, motion, spoil, rng)
-        gained[stretch.rows] = _change(stretch, operating_point, spoilt)
+        corrupted = _corrupted(state, motion, corrupt, rng)
+        gained[stretch.rows] = _change(stretch, operating_point, corrupted)
     return gained
 
 
-def _change(stretch: Stretch, operating_point: Prediction, spoilt: MotionState) -> JointSeries:
-    change = operating_point.torque(spoilt) - operating_point.torque(stretch.state)
+def _change(stretch: Stretch, operating_point: Prediction, corrupted: MotionState) -> JointSeries:
+    change = operating_point.torque(corrupted) - operating_point.torque(stretch.state)
     return stretch.filtered(change.T).T
 
 
-def _spoilt(state: MotionState, motion: Motion, spoil: Spoil, rng: np.random.Generator) -> MotionState:
+def _corrupted(
+    state: MotionState, motion: Motion, corrupt: Corruption, rng: np.random.Generator
+) -> MotionState:
     rate_hz, recipe = motion.log.rate_hz, motion.recipe
     thin = max(1, round(step_of(state) * rate_hz))
     count = len(state.position)
     fine = np.arange((count - 1) * thin + 1) / thin
     measured = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
-    # The measured motion has its error already; what is spoilt anew must be smoother.
+    # The measured motion has its error already; the motion to be corrupted must be smoother.
     smooth = _filtered(measured, min(SMOOTH_OVER_MOTION * recipe.motion_band_hz, 0.2 * rate_hz), rate_hz)
-    spoilt = smooth + spoil(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
-    error = _without_spikes(spoilt, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
+    corrupted = smooth + corrupt(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
+    error = _without_spikes(corrupted, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
     error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
     rate = np.gradient(error, 1.0 / rate_hz, axis=0)
     second = np.gradient(rate, 1.0 / rate_hz, axis=0)

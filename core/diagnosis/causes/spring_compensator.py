@@ -1,4 +1,4 @@
-"""Suspect that a spring or counterbalance acts on a joint beside its motor."""
+"""Candidate cause: a spring or counterbalance parallel to a joint's motor."""
 
 from dataclasses import dataclass
 
@@ -7,15 +7,16 @@ from ...dynamics.term import Term
 from ...dynamics.terms.spring import Spring
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
-from .shared.common import OwnJointCause, named, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 
 
 @dataclass(frozen=True)
 class SpringCompensator(OwnJointCause):
-    """Suspect a spring beside the motor."""
+    """Candidate cause: a spring parallel to the motor."""
 
     id = "spring_compensator"
-    title = "A spring acts beside the motor"
+    title = "Spring parallel to the motor"
     units = (("stiffness", "N m/rad"),)
     experiment = "hold ten postures spread over the whole range of the joint"
     coordinate = "position"
@@ -26,10 +27,10 @@ class SpringCompensator(OwnJointCause):
         return Spring(site[0])
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how stiff the spring is, and whether it pulls back or helps on."""
-        found = named(self.quantities(solved))
-        does = "pulls back to" if solved.values[0] > 0.0 else "pushes away from"
+        """State the stiffness and its sign."""
+        found = by_name(self.quantities(solved))
+        acts = "towards" if solved.values[0] > 0.0 else "away from"
         return (
-            f"A spring of {shown(found['stiffness'])} acts on joint {solved.site[0]} beside the motor; it "
-            f"{does} its rest angle, which the torque offset hides"
+            f"Spring parallel to the motor of joint {solved.site[0]}: {quantity_text(found['stiffness'])}, "
+            f"{acts} its rest angle, which the torque offset absorbs"
         )

@@ -1,4 +1,4 @@
-"""Suspect that the torque channel lags behind or leads the positions, by the same time on all joints."""
+"""Candidate cause: a torque channel that lags or leads the positions by the same time on all joints."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +14,8 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
-from .shared.common import OwnJointCause, named, rounded
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text
 from .traits import SearchTraits
 
 LONGEST_DELAY = 0.05
@@ -23,13 +24,13 @@ STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
 @dataclass(frozen=True)
 class TimeDelay(OwnJointCause, CorrectsLog):
-    """Suspect a delay of the torque channel."""
+    """Candidate cause: a delay of the torque channel."""
 
     id = "time_delay"
-    title = "The torque channel is late"
+    title = "Torque channel delay"
     cure = "signal"
     units = (("delay", "s"),)
-    experiment = "motion with quick reversals, five times the present frequencies"
+    experiment = "motion with fast reversals, at five times the present frequencies"
     coordinate = "torque_rate"
     traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
 
@@ -49,27 +50,30 @@ class TimeDelay(OwnJointCause, CorrectsLog):
         return Delay(0, operating_point, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a delay that a first-order column can stand for."""
+        """Admit a delay that a first-order column can represent."""
         return bool(abs(solved.values[0]) < LONGEST_DELAY)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how late, in milliseconds."""
-        found = named(self.quantities(solved))["delay"]
+        """State the delay in milliseconds."""
+        found = by_name(self.quantities(solved))["delay"]
         late = "behind" if found.value > 0.0 else "ahead of"
-        size, doubt = rounded(1e3 * abs(found.value), 3), rounded(1e3 * found.standard_deviation)
-        return f"The torque channel runs {size} ± {doubt} ms {late} the positions on all joints"
+        size, doubt = number_text(1e3 * abs(found.value), 3), number_text(1e3 * found.standard_deviation)
+        return f"Torque channel delay on all joints: {size} ± {doubt} ms {late} the positions"
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say by how many milliseconds the torque moves."""
+        """State the shift in milliseconds."""
         del robot, joints
         way = "earlier" if numbers["delay"] > 0.0 else "later"
-        return f"All torques move {rounded(1e3 * abs(numbers['delay']), 4)} ms {way} in the log, interpolated"
+        return (
+            f"All torques are shifted {number_text(1e3 * abs(numbers['delay']), 4)} ms {way} in the log, by "
+            "interpolation"
+        )
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
-        """Move the torque; beyond the ends it stays as it is there."""
+        """Shift the torque; beyond the ends it is constant."""
         then = np.clip(rows.time + numbers["delay"], rows.time[0], rows.time[-1])
         return with_torque(rows, joints, lambda torque: np.asarray(CubicSpline(rows.time, torque)(then)))
 
     def reach(self, numbers: Numbers) -> float:
-        """Give the delay: so much of the torque at an end is not in the log."""
+        """Give the delay: torque over this time at one end is not in the log."""
         return abs(numbers["delay"])

@@ -1,8 +1,8 @@
-"""Suspect that samples were taken at instants that scatter about their stamps.
+"""Candidate cause: timestamp jitter, a scatter of the sampling instants about their stamps.
 
-Above the motion's band such a log's positions carry their velocity times one time error that all joints
-share; products of two joints' remainders are then on average the products of their velocities, which neither
-rounding nor noise does.
+Above the motion's bandwidth such positions carry their velocity times a time error that all joints share.
+Products of two joints' high-pass remainders are then on average proportional to products of their velocities;
+rounding and noise lack this property.
 """
 
 from collections.abc import Iterator
@@ -21,29 +21,29 @@ from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from .protocol import Cure, Quantity
-from .sample_check import LEVEL, SampleFinding, Spoil, residual_share
-from .shared.common import rounded
+from .sample_check import LEVEL, Corruption, SampleFinding, residual_share
+from .shared.text import number_text
 
 LOOK_SECONDS = 120.0
 BAND_SHARE = 0.25
-"""Remainders are what lies above this share of the log's rate."""
+"""Remainders are the content above this share of the log's rate."""
 AGREEMENT = 0.5
-"""Joints agree where their products show at least this share of what their squares show."""
+"""Joints agree where the estimate from their products is at least this share of that from their squares."""
 LEAST_SHARE = 1e-3
-"""Share of some joint's residual that it must account for: rounding of exact positions scatters too."""
+"""Share of some joint's residual that it must account for: rounding of exact positions scatters, too."""
 BLOCK = 32
 
 
 @dataclass(frozen=True)
 class TimestampJitter:
-    """Suspect jitter of the sampling instants."""
+    """Candidate cause: jitter of the sampling instants."""
 
     id: ClassVar[str] = "timestamp_jitter"
-    title: ClassVar[str] = "Sampling instants scatter about their stamps"
+    title: ClassVar[str] = "Timestamp jitter"
     cure: ClassVar[Cure] = "signal"
     units: ClassVar[tuple[tuple[str, str], ...]] = (("std", "s"),)
-    experiment: ClassVar[str] = "quick motion of at least two joints at once"
-    beyond_repair: ClassVar[str] = "At which instants the samples were really taken is not in the log"
+    experiment: ClassVar[str] = "fast motion of at least two joints at once"
+    beyond_repair: ClassVar[str] = "The instants at which samples were really taken are not in the log"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Compare the joints' remainders with their velocities."""
@@ -54,7 +54,7 @@ class TimestampJitter:
         ]
         if not parts:
             return ()
-        crosses, alone = (np.concatenate(one) for one in zip(*map(_products, parts), strict=True))
+        crosses, alone = (np.concatenate(products) for products in zip(*map(_products, parts), strict=True))
         shared = float(crosses[:, 0].sum() / max(crosses[:, 1].sum(), 1e-300))
         own = float(alone[:, 0].sum() / max(alone[:, 1].sum(), 1e-300))
         statistic = float(crosses[:, 0].sum() / np.sqrt(max(float(np.sum(crosses[:, 0] ** 2)), 1e-300)))
@@ -71,29 +71,29 @@ class TimestampJitter:
 
 
 def _by_chance(statistic: float, products: Vector) -> float:
-    """Give the chance of such a sum of products, or of so many positive ones: a few may outweigh the rest."""
+    """Give the p-value of the sum of products, or of the count of positive ones: few may dominate the sum."""
     positive, count = np.count_nonzero(products > 0.0), np.count_nonzero(products)
     return float(min(2.0 * min(norm.sf(statistic), binom.sf(positive - 1, count, 0.5)), 1.0))
 
 
 def _statement(found: Quantity) -> str:
-    doubt = rounded(1e3 * found.standard_deviation)
+    doubt = number_text(1e3 * found.standard_deviation)
     return (
-        f"Samples were taken {1e3 * found.value:.3g} ± {doubt} ms (standard "
-        "deviation) about their stamps: all joints' positions err by velocity times one time error"
+        f"Timestamp jitter, {1e3 * found.value:.3g} ± {doubt} ms RMS: the positions of all joints err by "
+        "their velocity times one time error"
     )
 
 
-def _jittered(std: float) -> Spoil:
-    def spoil(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
+def _jittered(std: float) -> Corruption:
+    def corrupt(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del position
         return velocity * rng.normal(0.0, std, (len(velocity), 1))
 
-    return spoil
+    return corrupt
 
 
 def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]:
-    """Give remainders, velocities and the share of white noise that remains, over the segment's beginning."""
+    """Give remainders, velocities and the remaining share of white noise, over the segment's beginning."""
     rate_hz = segment.rate_hz
     count = min(segment.samples, int(LOOK_SECONDS * rate_hz))
     low_pass = kernel(BAND_SHARE * rate_hz, rate_hz, 5)
@@ -108,7 +108,7 @@ def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]
 
 
 def _even(rows: LogRows, rate_hz: float) -> JointSeries:
-    """Take positions as the study takes them: real stamps honoured, repeats left out."""
+    """Take positions as the study does: at their real stamps, without repeats."""
     if is_uniform(rows.time, rate_hz) and not dropped(rows).any():
         return rows.position
     grid = np.linspace(rows.time[0], rows.time[-1], len(rows.time))
@@ -116,9 +116,9 @@ def _even(rows: LogRows, rate_hz: float) -> JointSeries:
 
 
 def _products(part: tuple[JointSeries, JointSeries, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Give, per block, products of remainders with what a unit of time error makes of them.
+    """Give, per block, products of remainders and those that a unit time error would give.
 
-    Between joints, and of joints with themselves less what does not grow with speed.
+    Between joints, and of joints with themselves less the part that does not grow with speed.
     """
     remainder, velocity, share = part
     scale = np.maximum(np.sqrt(np.mean(remainder**2, axis=0)), 1e-15)
@@ -132,4 +132,4 @@ def _products(part: tuple[JointSeries, JointSeries, float]) -> tuple[np.ndarray,
 
 def _blocks(found: np.ndarray, unit: np.ndarray) -> np.ndarray:
     whole = len(found) // BLOCK * BLOCK
-    return np.column_stack([one[:whole].reshape(-1, BLOCK).sum(axis=1) for one in (found, unit)])
+    return np.column_stack([products[:whole].reshape(-1, BLOCK).sum(axis=1) for products in (found, unit)])

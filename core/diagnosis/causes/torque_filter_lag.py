@@ -1,4 +1,4 @@
-"""Suspect that the torque channel is low-pass filtered and the positions are not."""
+"""Candidate cause: a low-pass filter in the torque channel that the positions did not pass."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,26 +17,27 @@ from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
-from .shared.common import OwnJointCause, named, rounded
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text
 from .traits import SearchTraits
 
 SHORTEST, LONGEST = 2e-4, 0.1
-"""Time constants in s: less does nothing in any log's band, more leaves no motion in the torque."""
+"""Time constants in s: less has no effect in any log's bandwidth, more leaves no motion in the torque."""
 STARTS = (0.001, 0.004, 0.016, 0.064)
 ORDER = 2
 PERIODS = 3.0
-"""Of the band's edge, beyond which less than a millionth of its filter's mass lies."""
+"""Periods of the band's edge beyond which less than a millionth of the filter's mass lies."""
 
 
 @dataclass(frozen=True)
 class TorqueFilterLag(OwnJointCause, CorrectsLog):
-    """Suspect a filter in the torque channel."""
+    """Candidate cause: a filter in the torque channel."""
 
     id = "torque_filter_lag"
-    title = "The torque channel is low-pass filtered"
+    title = "Low-pass filter in the torque channel"
     cure = "signal"
     units = (("time_constant", "s"),)
-    experiment = "motion with quick reversals, five times the present frequencies"
+    experiment = "motion with fast reversals, at five times the present frequencies"
     coordinate = "torque_rate"
     traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
 
@@ -56,29 +57,29 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
         return FilterLag(0, operating_point, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a filter that lags."""
+        """Admit a filter that lags."""
         return bool(0.0 < solved.values[0] < LONGEST)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say with which time constant."""
-        found = named(self.quantities(solved))["time_constant"]
+        """State the time constant."""
+        found = by_name(self.quantities(solved))["time_constant"]
         return (
-            f"The torque channel is low-pass filtered on all joints: time constant {1e3 * found.value:.3g} ± "
-            f"{rounded(1e3 * found.standard_deviation)} ms, the positions are not"
+            f"Low-pass filter in the torque channel of all joints: time constant {1e3 * found.value:.3g} ± "
+            f"{number_text(1e3 * found.standard_deviation)} ms, without a filter of the positions"
         )
 
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
-        """Give the reported number, and the band in which it was found."""
+        """Give the reported number, and the bandwidth in which it was found."""
         return {**super().numbers(dataset, solved), "band_hz": dataset.band_hz}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say what is added."""
+        """State what is added."""
         del robot, joints
-        size, band = rounded(1e3 * numbers["time_constant"], 4), rounded(numbers["band_hz"], 3)
-        return f"Every torque grows by {size} ms times its rate of change, taken up to {band} Hz"
+        size, band = number_text(1e3 * numbers["time_constant"], 4), number_text(numbers["band_hz"], 3)
+        return f"Every torque is increased by {size} ms times its rate of change, taken up to {band} Hz"
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
-        """Undo the filter: tau + T tau' is what went into it; above the band a rate is mostly noise."""
+        """Invert the filter: its input is tau + T tau'; above the bandwidth a rate is mostly noise."""
         samples = round(float(np.ptp(rows.time)) / float(np.median(np.diff(rows.time)))) + 1
         even, step = np.linspace(rows.time[0], rows.time[-1], samples, retstep=True)
         low_pass = kernel(numbers["band_hz"], 1.0 / float(step), ORDER)
@@ -90,7 +91,7 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
         return with_torque(rows, joints, undone)
 
     def reach(self, numbers: Numbers) -> float:
-        """Give the time over which the band's filter sees."""
+        """Give the time that the bandwidth's filter spans."""
         return PERIODS / numbers["band_hz"]
 
 

@@ -1,4 +1,4 @@
-"""Suspect that one torque channel's scale is wrong: its torque constant, its gear ratio or its sensor."""
+"""Candidate cause: a gain error of a torque channel: torque constant, gear ratio or sensor."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,26 +12,27 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
-from .shared.common import OwnJointCause, named, rounded
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text
 
 LARGEST = 0.9
 
 
 @dataclass(frozen=True)
 class TorqueGain(OwnJointCause, CorrectsLog):
-    """Suspect a wrong torque constant.
+    """Candidate cause: a wrong torque constant.
 
     Attributes
     ----------
     together
-        Whether all channels are wrong by the same share, which shows only against a reference: without one it
-        is the same as bodies and friction that are larger by that share.
+        Whether all channels have the same gain error, which shows only against a reference: without one it
+        equals bodies and friction that are larger by that share.
     """
 
     together: bool = False
 
     id = "torque_gain"
-    title = "The torque channel's scale is wrong"
+    title = "Torque gain error"
     cure = "signal"
     units = (("relative_error", "1"),)
     experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
@@ -47,24 +48,26 @@ class TorqueGain(OwnJointCause, CorrectsLog):
         return TorqueGainTerm(site[0], operating_point) if site else CommonGain(0, operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want a channel that still has most of its sense."""
+        """Admit a gain error of less than nine tenths."""
         return bool(abs(solved.values[0]) < LARGEST)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say by how many per cent the channel is wrong."""
-        found = named(self.quantities(solved))["relative_error"]
-        way = "much" if found.value > 0.0 else "little"
-        size = f"{100.0 * abs(found.value):.3g} ± {rounded(100.0 * found.standard_deviation)} % too {way}"
+        """State the gain error in per cent."""
+        found = by_name(self.quantities(solved))["relative_error"]
+        way = "high" if found.value > 0.0 else "low"
+        size = f"{100.0 * abs(found.value):.3g} ± {number_text(100.0 * found.standard_deviation)} % too {way}"
         if not solved.site:
-            return f"All torque channels read {size} against the reference"
-        return f"Joint {solved.site[0]}'s torque channel reads {size} against the other joints"
+            return f"Torque gain error of all channels: they read {size} against the reference"
+        return (
+            f"Torque gain error on joint {solved.site[0]}: the channel reads {size} against the other joints"
+        )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say what the channel is divided by."""
+        """State the divisor of the channel."""
         del robot
         which = f"joint {joints[0]}" if len(joints) == 1 else "every joint"
-        return f"The torque of {which} is divided by {rounded(1.0 + numbers['relative_error'], 4)}"
+        return f"The torque of {which} is divided by {number_text(1.0 + numbers['relative_error'], 4)}"
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
-        """Divide the channel by what it shows of the torque."""
+        """Divide the channel by its gain."""
         return with_torque(rows, joints, lambda torque: torque / (1.0 + numbers["relative_error"]))

@@ -1,4 +1,4 @@
-"""Suspect that the torque constant varies with current, so that large torques read too high or too low."""
+"""Candidate cause: a torque constant that varies with current, so that large torques read too high or low."""
 
 from dataclasses import dataclass
 
@@ -13,15 +13,16 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
-from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text, quantity_text
 
 
 @dataclass(frozen=True)
 class TorqueGainNonlinear(OwnJointCause, CorrectsLog):
-    """Suspect a torque constant that varies with current."""
+    """Candidate cause: a torque constant that varies with current."""
 
     id = "torque_gain_nonlinear"
-    title = "The torque constant varies with current"
+    title = "Nonlinear torque gain"
     cure = "signal"
     units = (("cubic_coefficient", "1/(N m)^2"),)
     experiment = "hold known payloads, up to the rated one, in the posture of the largest gravity torque"
@@ -33,29 +34,29 @@ class TorqueGainNonlinear(OwnJointCause, CorrectsLog):
         return CubicGain(site[0], operating_point)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say which way the channel bends."""
-        found = named(self.quantities(solved))
+        """State sign and size of the cubic part."""
+        found = by_name(self.quantities(solved))
         high = "too high" if solved.values[0] > 0.0 else "too low"
         return (
-            f"Joint {solved.site[0]}'s torque channel reads large torques {high}: torque plus "
-            f"{shown(found['cubic_coefficient'])} times its cube"
+            f"Nonlinear torque gain on joint {solved.site[0]}: large torques read {high}, torque plus "
+            f"{quantity_text(found['cubic_coefficient'])} times its cube"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say how the curve is straightened."""
+        """State the inverse of the gain curve."""
         del robot
         return (
             f"Every torque y of joint {joints[0]} becomes the x for which x plus "
-            f"{rounded(numbers['cubic_coefficient'], 4)} 1/(N m)^2 times its cube is y"
+            f"{number_text(numbers['cubic_coefficient'], 4)} 1/(N m)^2 times its cube is y"
         )
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:
-        """Straighten the curve."""
+        """Invert the gain curve."""
         bend = numbers["cubic_coefficient"]
-        return with_torque(rows, joints, lambda torque: straightened(torque, bend))
+        return with_torque(rows, joints, lambda torque: inverse_cubic(torque, bend))
 
 
-def straightened(torque: JointSeries, bend: float) -> JointSeries:
+def inverse_cubic(torque: JointSeries, bend: float) -> JointSeries:
     """Give the x near zero for which x + bend x^3 is the torque, or comes nearest to it.
 
     Notes
@@ -64,7 +65,7 @@ def straightened(torque: JointSeries, bend: float) -> JointSeries:
 
     Examples
     --------
-    >>> straightened(np.array([[2.0 + 0.1 * 2.0**3]]), 0.1).round(12)
+    >>> inverse_cubic(np.array([[2.0 + 0.1 * 2.0**3]]), 0.1).round(12)
     array([[2.]])
     """
     size = float(np.sqrt(3.0 * abs(bend)))

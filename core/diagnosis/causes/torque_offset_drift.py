@@ -1,4 +1,4 @@
-"""Suspect that the zero of a torque channel drifts in the course of the log."""
+"""Candidate cause: a drift of a torque channel's offset during the log."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,21 +14,22 @@ from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
-from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text, quantity_text
 
 SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
-"""Time constants of the drift, as shares of the time looked at; the last is an even drift."""
+"""Time constants of the drift, as shares of the data set's duration; the last is a linear drift."""
 
 
 @dataclass(frozen=True)
 class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
-    """Suspect a drifting torque offset."""
+    """Candidate cause: a drifting torque offset."""
 
     id = "torque_offset_drift"
-    title = "The zero of the torque channel drifts"
+    title = "Torque offset drift"
     cure = "signal"
     units = (("total_drift", "N m"), ("time_constant", "s"))
-    experiment = "hold the same posture at the start and at the end of a log as long as the work"
+    experiment = "hold the same posture at the start and at the end of a log as long as the task"
     coordinate = "time"
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
@@ -44,11 +45,11 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
         )
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how far the zero drifts, and in which time."""
-        found = named(self.quantities(solved))
+        """State total drift and time constant."""
+        found = by_name(self.quantities(solved))
         return (
-            f"The zero of joint {solved.site[0]}'s torque channel drifts by {shown(found['total_drift'])} "
-            f"over the log, with a time constant of {found['time_constant'].value:.2g} s"
+            f"Torque offset drift on joint {solved.site[0]}: {quantity_text(found['total_drift'])} over the "
+            f"log, time constant {found['time_constant'].value:.2g} s"
         )
 
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
@@ -57,13 +58,13 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
         return {**super().numbers(dataset, solved), **span}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say what is subtracted."""
-        size = f"{rounded(numbers['total_drift'], 4)} {joint_unit(robot, joints[0], 'N m')}"
+        """State the drift that is subtracted."""
+        size = f"{number_text(numbers['total_drift'], 4)} {joint_unit(robot, joints[0], 'N m')}"
         end = numbers["start"] + numbers["duration"]
         return (
-            f"From the torque of joint {joints[0]} a drift is subtracted that goes from 0 at "
-            f"{rounded(numbers['start'], 4)} s to {size} at "
-            f"{rounded(end, 4)} s, with a time constant of {rounded(numbers['time_constant'], 4)} s"
+            f"A drift is subtracted from the torque of joint {joints[0]}: from 0 at "
+            f"{number_text(numbers['start'], 4)} s to {size} at {number_text(end, 4)} s, with a time "
+            f"constant of {number_text(numbers['time_constant'], 4)} s"
         )
 
     def corrected_rows(self, rows: LogRows, joints: Site, numbers: Numbers) -> LogRows:

@@ -1,4 +1,4 @@
-"""Suspect a torque that is periodic in the angle of motor or gear."""
+"""Candidate cause: torque ripple, periodic in the angle of motor or transmission."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,30 +10,31 @@ from ...dynamics.term import Term
 from ...dynamics.terms.ripple import Ripple
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
-from .shared.common import OwnJointCause, named, shown
 from .shared.harmonics import harmonics, wave_quantities
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, quantity_text
 from .traits import SearchTraits
 
 LOWEST = 2.0
-"""One wave per turn is what gravity does."""
+"""Gravity has one cycle per revolution."""
 MOST = 120
 BAND_SHARE = 0.7
-"""At the joint's RMS speed, waves are looked for up to this share of the look's band."""
+"""At the joint's RMS speed, cycles are scanned up to this share of the data set's bandwidth."""
 
 
 @dataclass(frozen=True)
 class TorqueRipple(OwnJointCause):
-    """Suspect torque ripple."""
+    """Candidate cause: torque ripple."""
 
     id = "torque_ripple"
-    title = "The torque ripples along the angle"
+    title = "Torque ripple"
     units = (("amplitude", "N m"), ("harmonic", "1"), ("phase", "rad"))
     experiment = "slow moves at constant speed over the joint's whole range"
     coordinate = "position"
     traits = SearchTraits(discrete=("centre",))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """Scan the waves per turn from two up to what the band shows."""
+        """Scan the cycles per revolution from two to the bandwidth's limit."""
         del operating_point
         own = site[0] - 1
         highest = BAND_SHARE * 2.0 * np.pi * dataset.band_hz / max(float(dataset.speed[own]), 1e-6)
@@ -45,17 +46,17 @@ class TorqueRipple(OwnJointCause):
         return Ripple(site[0], scalars["harmonic"], scalars["centre"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want more waves per turn than gravity has."""
+        """Admit more cycles per revolution than gravity has."""
         return super().admissible(solved) and solved.scalars["harmonic"] >= LOWEST
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Give the wave: the drive has to give amplitude cos(harmonic q + phase) more."""
+        """Give the wave: the drive torque is larger by amplitude cos(harmonic q + phase)."""
         return wave_quantities(solved, "N m")
 
     def statement(self, solved: FittedCause) -> str:
-        """Say how high the wave is, and how often it comes per turn."""
-        found = named(self.quantities(solved))
+        """State amplitude and cycles per revolution."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s torque ripples by {shown(found['amplitude'])} to either side, "
-            f"{shown(found['harmonic'])} times per turn of the joint"
+            f"Torque ripple on joint {solved.site[0]}: amplitude {quantity_text(found['amplitude'])}, "
+            f"{quantity_text(found['harmonic'])} cycles per revolution"
         )

@@ -1,4 +1,4 @@
-"""Suspect that the applied torque is clipped while the log keeps the command."""
+"""Candidate cause: torque saturation, where the log keeps the command."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,20 +12,21 @@ from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
-from .shared.common import OwnJointCause, named, rounded, shown
+from .shared.own_joint import OwnJointCause
+from .shared.text import by_name, number_text, quantity_text
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
-"""Limits, as shares of the largest torque that the motion shows."""
+"""Limits, as shares of the motion's largest torque."""
 PREDICTION_ERROR = 0.03
-"""Share that large predicted torques are inexact by."""
+"""Relative error of large predicted torques."""
 
 
 @dataclass(frozen=True)
 class TorqueSaturation(OwnJointCause):
-    """Suspect a clipped torque."""
+    """Candidate cause: a clipped torque."""
 
     id = "torque_saturation"
-    title = "The applied torque is clipped, the log keeps the command"
+    title = "Torque saturation, where the log keeps the command"
     cure = "signal"
     units = (("limit", "N m"),)
     experiment = "the same motion a tenth slower, which keeps the command below the limit"
@@ -42,27 +43,27 @@ class TorqueSaturation(OwnJointCause):
         return Saturation(site[0], operating_point, scalars["limit"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Want commands that are larger than what is applied."""
+        """Admit commands that are larger than the applied torque."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Give the limit, which is known no better than the predicted torque that it clips."""
+        """Give the limit, which is no more certain than the predicted torque that it clips."""
         limit = solved.scalars["limit"]
         deviation = float(np.hypot(solved.deviations.get("limit", 0.0), PREDICTION_ERROR * limit))
         return (Quantity("limit", solved.site[0], solved.unit("N m"), limit, deviation),)
 
     def statement(self, solved: FittedCause) -> str:
-        """Say where the torque ends."""
-        found = named(self.quantities(solved))
+        """State the limit."""
+        found = by_name(self.quantities(solved))
         return (
-            f"Joint {solved.site[0]}'s applied torque ends at {shown(found['limit'])}, while the log "
-            "keeps the larger command"
+            f"Torque saturation on joint {solved.site[0]}: the applied torque is limited to "
+            f"{quantity_text(found['limit'])}, the log keeps the larger command"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say why the log stays as it is: a limit one per cent off leaves what looks like contacts."""
-        limit = f"{rounded(numbers['limit'], 4)} {joint_unit(robot, joints[0], 'N m')}"
+        """State why the log is not corrected: a limit one per cent off leaves a remainder like contacts."""
+        limit = f"{number_text(numbers['limit'], 4)} {joint_unit(robot, joints[0], 'N m')}"
         return (
-            "The model has the excess as a further term; cutting the log's torque of "
-            f"joint {joints[0]} at {limit} would be exact only with the exact limit"
+            f"The model has the excess as a further term; cutting the log's torque of joint {joints[0]} at "
+            f"{limit} would be exact only with the exact limit"
         )

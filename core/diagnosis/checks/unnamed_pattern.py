@@ -16,7 +16,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
 from ..causes.protocol import FittedCause, Quantity, Scalars, Site
-from ..causes.shared.common import OwnJointCause
+from ..causes.shared.own_joint import OwnJointCause
 from ..causes.traits import SearchTraits
 from ..dataset.dataset import Dataset
 

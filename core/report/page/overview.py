@@ -77,7 +77,7 @@ def _in_a_line(finding: Document) -> str:
     if not rivals:
         return line
     others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in rivals.items())
-    return f"{line} It may as well be that {others}; this log cannot tell."
+    return f"{line} It may as well be {others}; this log cannot tell."
 
 
 def _where_by_title(found: Sequence[Document]) -> dict[str, list[int]]:

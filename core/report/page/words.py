@@ -32,7 +32,7 @@ _COORDINATES = {
 _QUANTITIES = {
     "std": "standard deviation",
     "lsb": "resolution",
-    "harmonic": "times per turn",
+    "harmonic": "cycles per revolution",
     "com_x": "mass centre, x",
     "com_y": "mass centre, y",
     "com_z": "mass centre, z",
@@ -40,7 +40,7 @@ _QUANTITIES = {
     "Fcm": "Coulomb friction of the motor",
     "Iam": "inertia of the motor",
 }
-_NAMES = ("Coulomb",)
+_NAMES = ("Coulomb", "Stribeck")
 """Titles of causes may begin with a name."""
 _CURES = {
     "term": "a term is missing from the model",

@@ -63,7 +63,7 @@ def test_friction_that_has_grown_since_an_earlier_job_is_found_and_reported(earl
     assert abs(size["value"] - GROWN) < 3.0 * size["standard_deviation"]
     assert result.json()["diagnosis"]["reference"]["name"] == reference
     assert result.json()["provenance"]["options"]["reference"] == reference
-    assert "Friction has changed since the reference" in client.get(job["links"]["report"]).text
+    assert "Friction change since the reference" in client.get(job["links"]["report"]).text
 
 
 def test_a_diagnosis_may_be_the_reference_of_another(earlier):

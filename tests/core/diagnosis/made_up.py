@@ -8,7 +8,7 @@ import numpy as np
 from tests.core.diagnosis.scenes import Effect
 from veritorque.core.arrays import Samples
 from veritorque.core.diagnosis.causes.protocol import Cause, Scalars
-from veritorque.core.diagnosis.causes.shared.common import NOTHING, OwnJointCause
+from veritorque.core.diagnosis.causes.shared.own_joint import NOTHING, OwnJointCause
 from veritorque.core.diagnosis.causes.traits import SearchTraits
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis

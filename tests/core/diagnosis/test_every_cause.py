@@ -59,7 +59,7 @@ PUBLIC = {
     *("friction_change", "link_parameters"),
 }
 VERDICTS_NOT_CAUSES = {"none", "unexplained", "ambiguous"}
-ODD_UNITS = {"ms", "%", "N m per N m", "times per turn"}
+ODD_UNITS = {"ms", "%", "N m per N m", "cycles per revolution"}
 """How a sentence may write s, a share, a ratio and a harmonic."""
 
 BALL = from_mass_properties(1.0, np.array([0.1, 0.2, 0.3]), 0.01 * np.eye(3))
@@ -142,7 +142,7 @@ def test_a_cause_says_what_it_is_what_it_cures_and_what_would_show_it(cause):
     assert not cause.title.endswith(".")
     assert cause.cure in ("term", "signal", "robot")
     assert len(cause.experiment) > 20
-    assert inspect.getdoc(inspect.getmodule(cause)).split()[0] == "Suspect"
+    assert inspect.getdoc(inspect.getmodule(cause)).startswith("Candidate cause: ")
 
 
 @every_cause

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from veritorque.core.arrays import Samples
-from veritorque.core.diagnosis.causes.shared.common import OwnJointCause
+from veritorque.core.diagnosis.causes.shared.own_joint import OwnJointCause
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.effect import OneJointTerm
 from veritorque.core.robot.model import RobotModel

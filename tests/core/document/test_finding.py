@@ -18,7 +18,7 @@ def finding(**changes):
     bins = np.arange(3.0)
     whole = {
         "cause": "torque_ripple",
-        "title": "The torque ripples along the angle",
+        "title": "Torque ripple",
         "joints": (4,),
         "cure": "term",
         "statement": "Joint 4's torque ripples",
@@ -67,7 +67,7 @@ def test_what_is_not_finite_is_null():
 def test_rivals_are_named_in_words_with_the_experiment_that_separates_them():
     (undecided,) = row(finding())["ambiguous_with"]
     assert (undecided["title"], undecided["separating_experiment"]) == (
-        "The encoder errs once per turn",
+        "Encoder eccentricity",
         "add a payload",
     )
 

@@ -74,9 +74,9 @@ def identified(**changes):
 def finding(**changes):
     return {
         "cause": "friction_load_dependent",
-        "title": "Friction grows with the transmitted torque",
+        "title": "Load-dependent friction",
         "joints": [1],
-        "statement": "Joint 1's friction grows by 0.07 N m per N m",
+        "statement": "Load-dependent friction on joint 1: 0.07 N m per N m",
         "confidence": 0.98,
         "p_value": 1e-9,
         "cure": "term",
@@ -92,10 +92,8 @@ def finding(**changes):
         ],
         "explained_residual_fraction": 0.41,
         "evidence": [{"statement": "Rise of the likelihood", "statistic": "likelihood ratio", "value": 91.5}],
-        "ambiguous_with": [
-            rival("torque_gain", "The torque channel's scale is wrong", "run both directions")
-        ],
-        "refuted": [rival("torque_ripple", "The torque ripples along the angle", "")],
+        "ambiguous_with": [rival("torque_gain", "Torque gain error", "run both directions")],
+        "refuted": [rival("torque_ripple", "Torque ripple", "")],
         "gain": {
             "rms_residual_before": [0.3, 0.2],
             "rms_residual_after": [0.2, 0.2],
@@ -180,9 +178,7 @@ def diagnosis(**changes):
     return {
         "verdict": "causes_found",
         "findings": [finding()],
-        "not_identifiable": [
-            rival("encoder_offset", "The joint's zero is off", "turn the joint's neighbours")
-        ],
+        "not_identifiable": [rival("encoder_offset", "Encoder zero error", "turn the joint's neighbours")],
         "unexplained": {
             "joints": [],
             "predictable_residual_fraction": [0.0, 0.02],

@@ -1,1 +1,1 @@
-"""Share what several causes need: joints and links, waves, events, bodies."""
+"""Parts that several causes share: joints and links, harmonics, events, bodies, text."""

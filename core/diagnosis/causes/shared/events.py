@@ -1,8 +1,8 @@
-"""Find the spans of time in which a residual follows some columns: short events in a long log.
+"""Find the spans of time in which a residual is a combination of columns: short events in a long log.
 
-All spans of doubling length are tried, half a length apart, then the best is shifted and stretched; the next
-one is looked for beside it. A span is worth what a fit under the noise's memory would gain: against noise
-that remembers, how an event swells and fades tells more than how large it is.
+Spans of doubling length are tried, half a length apart; the best one is shifted and stretched, and the next
+one is searched beside it. The score of a span is the gain of a generalised least squares fit: under
+correlated noise the rise and fall of an event carry more information than its size.
 Source: Basseville & Nikiforov, Detection of Abrupt Changes (1993), ch. 2 and 7.
 """
 
@@ -17,16 +17,16 @@ from ....numerics.chi2_tail import log_chi2_tail
 
 SHORTEST, LONGEST = 0.2, 3.2
 """Lengths in s: shorter events are outliers, longer ones last."""
-LUCK = 1e-3
-"""Chance that noise alone is worth as much somewhere in a log as an event has to be,"""
+FALSE_ALARM = 1e-3
+"""False alarm probability of an event in a log of noise alone,"""
 TRIALS_OF_A_SPAN = 2.0
-"""where shifting and stretching the best span doubles what was tried."""
+"""where shifting and stretching the best span doubles the number of trials."""
 LEAST_SHARE = 0.2
-"""An event is worth at least this share of the best one."""
+"""An event has at least this share of the best one's score."""
 HALVINGS = 4
 ROUNDING = 1e-9
-"""Share by which a span has to be worth more than one before it: where few rows tell, many are worth the
-same, and rounding must not choose."""
+"""Relative lead over an earlier span: many spans with few rows have the same score, and rounding must not
+choose."""
 
 
 def find_events(
@@ -46,32 +46,32 @@ def find_events(
     left
         The residual in the same units.
     inverse_covariances
-        Per joint, the inverse covariance of its noise; zero where nothing may be looked at.
+        Per joint, the inverse covariance of its noise; zero on rows that are excluded.
     """
     search = _Search(time, columns, left, inverse_covariances)
     spans = search.spans()
-    worths = search.worths(spans)
-    hurdle = np.log(LUCK / max(TRIALS_OF_A_SPAN * len(spans), 1.0))
+    scores = search.scores(spans)
+    hurdle = np.log(FALSE_ALARM / max(TRIALS_OF_A_SPAN * len(spans), 1.0))
     freedom = int(np.count_nonzero(columns.any(axis=(0, 2))))
     found: list[Span] = []
     best = 0.0
     for _ in range(most):
         if not len(spans):
             break
-        first = int(np.argmax(worths >= (1.0 - ROUNDING) * worths.max()))
+        first = int(np.argmax(scores >= (1.0 - ROUNDING) * scores.max()))
         span = search.refined(spans[first], found)
-        worth = search.worth(span)
-        if worth < LEAST_SHARE * best or not log_chi2_tail(worth, freedom) < hurdle:
+        score = search.score(span)
+        if score < LEAST_SHARE * best or not log_chi2_tail(score, freedom) < hurdle:
             break
-        best = max(best, worth)
+        best = max(best, score)
         found.append(span)
-        apart = np.array([_apart(one, [span]) for one in spans])
-        spans, worths = [one for one, free in zip(spans, apart, strict=True) if free], worths[apart]
+        apart = np.array([_apart(trial, [span]) for trial in spans])
+        spans, scores = [trial for trial, free in zip(spans, apart, strict=True) if free], scores[apart]
     return found
 
 
 def _apart(span: Span, others: Sequence[Span]) -> bool:
-    return all(span[0] >= one[1] or span[1] <= one[0] for one in others)
+    return all(span[0] >= other[1] or span[1] <= other[0] for other in others)
 
 
 class _Search:
@@ -79,9 +79,9 @@ class _Search:
         self, time: Samples, columns: np.ndarray, left: JointSeries, inverse_covariances: Sequence[csr_array]
     ) -> None:
         self.time, self.ordered = time, np.maximum.accumulate(time)
-        known = np.column_stack([one @ left[:, joint] for joint, one in enumerate(inverse_covariances)])
+        known = np.column_stack([weight @ left[:, joint] for joint, weight in enumerate(inverse_covariances)])
         self.gains = np.einsum("raj,rj->ra", columns, known)
-        # What rows tell together with those 0, 1, ... rows before them, both ways at once.
+        # Information of rows together with those 0, 1, ... rows before them, in both orders.
         rows, count, _ = columns.shape
         self.grams = np.zeros((rows, 1 + _reach(inverse_covariances), count, count))
         for lag in range(self.grams.shape[1]):
@@ -96,11 +96,11 @@ class _Search:
             for start in np.arange(first, last - 0.5 * length, 0.5 * length)
         ]
 
-    def worth(self, span: Span) -> float:
+    def score(self, span: Span) -> float:
         """Give the square that the columns explain within a span."""
-        return float(self.worths([span])[0])
+        return float(self.scores([span])[0])
 
-    def worths(self, spans: Sequence[Span]) -> Vector:
+    def scores(self, spans: Sequence[Span]) -> Vector:
         """Give the same for many spans at once."""
         edges = np.reshape(spans, (-1, 2))
         begins, ends = np.searchsorted(self.ordered, edges.T)
@@ -125,11 +125,11 @@ class _Search:
         return np.asarray(np.sum(gains / scale * solved, axis=1))
 
     def refined(self, span: Span, others: Sequence[Span]) -> Span:
-        """Shift both ends by smaller and smaller steps, apart from others, as long as that explains more.
+        """Shift both ends by decreasing steps, apart from others, as long as the score rises.
 
-        The peak stays within the log: nothing tells how high one was that nobody saw.
+        The peak stays within the log: a peak outside is not observable.
         """
-        step, best = 0.25 * (span[1] - span[0]), self.worth(span)
+        step, best = 0.25 * (span[1] - span[0]), self.score(span)
         for _ in range(HALVINGS):
             improved = True
             while improved:
@@ -137,23 +137,23 @@ class _Search:
                 for change in ((-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step)):
                     trial = (span[0] + change[0], span[1] + change[1])
                     lasts = SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST
-                    seen = self.ordered[0] <= 0.5 * (trial[0] + trial[1]) <= self.ordered[-1]
-                    if not (lasts and seen and _apart(trial, others)):
+                    inside = self.ordered[0] <= 0.5 * (trial[0] + trial[1]) <= self.ordered[-1]
+                    if not (lasts and inside and _apart(trial, others)):
                         continue
-                    worth = self.worth(trial)
-                    if worth > (1.0 + ROUNDING) * best:
-                        span, best, improved = trial, worth, True
+                    score = self.score(trial)
+                    if score > (1.0 + ROUNDING) * best:
+                        span, best, improved = trial, score, True
             step /= 2.0
         return span
 
 
 def _reach(inverse_covariances: Sequence[csr_array]) -> int:
-    """Say how many rows apart the noise still ties two of them together."""
-    ties = [one.tocoo() for one in inverse_covariances]
-    return max(int(np.max(one.row - one.col, initial=0)) for one in ties)
+    """Give the largest distance in rows over which noise is correlated."""
+    entries = [weight.tocoo() for weight in inverse_covariances]
+    return max(int(np.max(entry.row - entry.col, initial=0)) for entry in entries)
 
 
 def _grams(columns: np.ndarray, inverse_covariances: Sequence[csr_array], lag: int) -> np.ndarray:
-    weights = np.column_stack([one.diagonal(-lag) for one in inverse_covariances])
+    weights = np.column_stack([weight.diagonal(-lag) for weight in inverse_covariances])
     out = (columns[lag:] * weights[:, None, :]) @ np.swapaxes(columns[: len(columns) - lag], 1, 2)
     return np.asarray(out if lag == 0 else out + np.swapaxes(out, 1, 2))

@@ -35,7 +35,7 @@ def test_friction_tells_the_rotor_that_no_fit_tells_from_its_link():
     assert abs(share.value - SHARE) < 3.0 * share.standard_deviation
     assert abs(rotor.value - ROTOR) < 3.0 * rotor.standard_deviation
     assert rotor.standard_deviation < 0.2 * ROTOR
-    assert "turns with the motor" in found.statement
+    assert "motor-side inertia" in found.statement
 
 
 def test_a_rotor_is_never_heavier_than_all_that_turns():

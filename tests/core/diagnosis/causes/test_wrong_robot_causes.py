@@ -13,8 +13,8 @@ from veritorque.core.diagnosis.causes.gravity_misalignment import GravityMisalig
 from veritorque.core.diagnosis.causes.kinematic_error import KinematicError
 from veritorque.core.diagnosis.causes.payload_change import PayloadChange
 from veritorque.core.diagnosis.causes.protocol import FittedCause
-from veritorque.core.diagnosis.causes.shared.sites import end_links, revolute_joints
-from veritorque.core.diagnosis.causes.shared.waves import amplitude_and_angle
+from veritorque.core.diagnosis.causes.shared.harmonics import amplitude_and_angle
+from veritorque.core.diagnosis.causes.shared.own_joint import end_links, revolute_joints
 from veritorque.core.dynamics.terms.contact import WRENCH
 
 SPANS = {"start_1": 3.0, "end_1": 3.5, "start_2": 8.0, "end_2": 8.4}
@@ -47,10 +47,10 @@ def test_a_body_that_is_taken_off_has_a_negative_mass_and_its_centre_where_it_wa
     quantities = PayloadChange().quantities(solved(load, {"time": 4.0}))
     found = {one.name: one.value for one in quantities}
     assert found == pytest.approx({"mass": -2.0, "com_x": 0.1, "com_y": 0.2, "com_z": -0.3, "time": 4.0})
-    assert "has lost 2" in PayloadChange().statement(solved(load, {"time": 4.0}))
+    assert "removed from the link of joint 6: 2" in PayloadChange().statement(solved(load, {"time": 4.0}))
 
 
-@pytest.mark.parametrize(("error", "told"), [(-0.02, "shrink by 0.02 "), (0.02, "grow by 0.02 ")])
+@pytest.mark.parametrize(("error", "told"), [(-0.02, "smaller by 0.02 "), (0.02, "larger by 0.02 ")])
 def test_an_entry_that_is_too_large_has_to_shrink_and_one_that_is_too_small_to_grow(error, told):
     assert told in KinematicError().statement(solved([error], {"entry": 0.0}))
 

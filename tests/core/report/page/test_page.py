@@ -106,7 +106,7 @@ def test_no_number_is_shown_that_does_not_exist(page):
 def test_the_first_sentence_names_what_is_wrong_and_where():
     text = Page(compose_page(diagnosed())).text
     verdict = (
-        "The simulation of bench arm gets one thing wrong: friction grows with the transmitted torque, or a "
+        "The simulation of bench arm gets one thing wrong: load-dependent friction, or a "
         "cause like it (joint 1)."
     )
     gain = "falls by 50 % on joint 1 (95 %: 40 to 60 %). The simulated motion strays 50 % less on joint 1."
@@ -117,11 +117,11 @@ def test_the_first_sentence_names_what_is_wrong_and_where():
 
 def test_a_name_that_is_not_sure_never_stands_alone_in_the_headline():
     text = Page(compose_page(diagnosed())).text
-    assert "wrong: friction grows with the transmitted torque, or a cause like it (joint 1)." in text
-    other = "It may as well be that the torque channel's scale is wrong (joint 1); this log cannot tell."
+    assert "wrong: load-dependent friction, or a cause like it (joint 1)." in text
+    other = "It may as well be torque gain error (joint 1); this log cannot tell."
     assert text.index(other) < text.index("What is wrong, and why")
     sure = Page(compose_page(diagnosed(findings=[finding(ambiguous_with=[])]))).text
-    assert "wrong: friction grows with the transmitted torque (joint 1)." in sure
+    assert "wrong: load-dependent friction (joint 1)." in sure
     assert "It may as well be" not in sure
 
 
@@ -129,14 +129,16 @@ def test_several_findings_are_listed_with_size_and_confidence_before_each_is_tol
     alone = finding(ambiguous_with=[])
     found = [alone, alone | {"statement": "Joint 2's gear yields", "confidence": 0.7, "joints": [2]}]
     text = Page(compose_page(diagnosed(findings=found))).text
-    listed = "Joint 1's friction grows by 0.07 N m per N m (98 % sure). Joint 2's gear yields (70 % sure)."
+    listed = (
+        "Load-dependent friction on joint 1: 0.07 N m per N m (98 % sure). Joint 2's gear yields (70 % sure)."
+    )
     assert text.index(listed) < text.index("What is wrong, and why")
     assert "% sure" not in Page(compose_page(diagnosed(findings=[alone]))).text
 
 
 def test_every_joint_is_told_what_was_found_on_it_and_in_which_band_it_was_judged():
     text = Page(compose_page(diagnosed())).text
-    assert "50 % 40 to 60 % Friction grows with the transmitted torque 2 5.00 N" in text
+    assert "50 % 40 to 60 % Load-dependent friction 2 5.00 N" in text
     assert "Torque and error up to 9.50 Hz" in text
     assert "smaller error on data that no fit has seen, up to 20.0 Hz" in text
 
@@ -159,11 +161,9 @@ def test_a_joint_that_hardly_moved_is_not_said_to_be_without_fault():
 
 def test_one_cause_on_several_joints_is_one_thing():
     alone = finding(ambiguous_with=[])
-    found = [alone, alone | {"joints": [3]}, alone | {"title": "The gear is compliant", "joints": [2]}]
+    found = [alone, alone | {"joints": [3]}, alone | {"title": "Joint elasticity", "joints": [2]}]
     text = Page(compose_page(diagnosed(findings=found))).text
-    titles = (
-        "friction grows with the transmitted torque (joints 1 and 3) and the gear is compliant (joint 2)."
-    )
+    titles = "load-dependent friction (joints 1 and 3) and joint elasticity (joint 2)."
     assert f"gets two things wrong: {titles}" in text
 
 
@@ -174,7 +174,7 @@ def test_a_joint_whose_interval_holds_zero_is_not_said_to_have_gained():
 
 def test_a_finding_is_told_with_its_size_its_reasons_and_its_rivals():
     text = Page(compose_page(diagnosed())).text
-    assert "Joint 1's friction grows by 0.07 N m per N m." in text
+    assert "Load-dependent friction on joint 1: 0.07 N m per N m." in text
     assert "load coefficient 0.0700 ± 0.0020 2.9 %" in text
     assert "the log is more likely: twice the log-likelihood rises by 91.5." in text
     undecided, refuted = text.index("This log cannot tell it apart from"), text.index("Refuted")
@@ -186,7 +186,7 @@ def test_a_finding_is_told_with_its_size_its_reasons_and_its_rivals():
 def test_a_finding_is_told_with_its_repair_where_the_document_has_one():
     one = {"cause": "friction_load_dependent", "joints": [1], "mends": "log", "what": "It is halved"}
     text = Page(compose_page(diagnosed(repairs=[one]))).text
-    assert "grows by 0.07 N m per N m. Repair: It is halved." in text
+    assert "Load-dependent friction on joint 1: 0.07 N m per N m. Repair: It is halved." in text
     assert "Repair:" not in Page(compose_page(diagnosed())).text
 
 
@@ -268,7 +268,7 @@ def test_against_a_reference_the_report_says_what_differs_from_it():
     compared = {"name": "job-7", "left_open": [], "worse_than_nothing": [], "base_parameters": []}
     sure = finding(ambiguous_with=[])
     text = Page(compose_page(diagnosed(findings=[sure], reference=compared))).text
-    grows = "friction grows with the transmitted torque (joint 1)."
+    grows = "load-dependent friction (joint 1)."
     assert f"bench arm differs from the result of job-7 in one thing: {grows}" in text
     assert "believed to be those of the result of job-7" in text
     same = Page(compose_page(diagnosed(verdict="nothing_found", findings=[], reference=compared))).text
@@ -282,7 +282,7 @@ def test_nothing_found_is_said_as_plainly_as_a_cause():
     assert "Nothing that this log can show is wrong with the simulation of bench arm." in text
     assert "What is wrong, and why" not in text
     assert "Nothing that follows the motion is left" in text
-    missing = "The reason about encoder_offset: The joint's zero is off, joint 1 . Motion that would show it:"
+    missing = "The reason about encoder_offset: Encoder zero error, joint 1 . Motion that would show it:"
     assert missing in text
     assert "1 10.0 N m 0.200 N m 2.0 % 2 5.00 N" in text  # one column of errors, as nothing was cured
 

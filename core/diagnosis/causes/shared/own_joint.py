@@ -1,6 +1,9 @@
-"""Share what most causes have in common, so that a cause's file holds only what is its own."""
+"""Define what causes of one joint have in common: sites, grids, admissibility, quantities.
 
-from collections.abc import Mapping, Sequence
+A cause's own file holds only what differs.
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -13,17 +16,14 @@ from ..protocol import Cure, FittedCause, Numbers, Quantity, Scalars, Site
 from ..traits import SearchTraits
 
 NOTHING: tuple[Scalars, ...] = ({},)
-"""The grid of a cause that has nothing to scan."""
+"""The grid of a cause without nonlinear scalars."""
 MOTOR_SHARES = (0.0, 0.45, 0.9, 0.94)
-"""Of the least inertia that a joint has in the motion, what may turn with its motor.
-
-One that is refined ends a step farther, at 0.98.
-"""
+"""Motor-side shares of the least inertia that a joint has in the motion; refined, up to 0.98."""
 
 
 @dataclass(frozen=True)
 class OwnJointCause:
-    """Share the habits of causes that act on one joint each, and take its linear parameters as they come."""
+    """Define the defaults of causes that act on one joint each."""
 
     id: ClassVar[str]
     title: ClassVar[str]
@@ -45,11 +45,11 @@ class OwnJointCause:
         return NOTHING
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Allow any finite value, and a rotor, if any, that is heavy."""
+        """Admit any finite value, and no negative rotor inertia."""
         return bool(np.isfinite(solved.values).all()) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report the linear parameters in order, then those scalars that were scanned."""
+        """Report the linear parameters in order, then the scanned scalars."""
         joint = solved.site[0] if solved.site else None
         names = [name for name, _ in self.units if name not in solved.scalars][: len(solved.values)]
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
@@ -66,52 +66,44 @@ class OwnJointCause:
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the reported numbers."""
         del dataset
-        return {one.name: one.value for one in self.quantities(solved)}
+        return {quantity.name: quantity.value for quantity in self.quantities(solved)}
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
-        """Say that its term is all the repair there is."""
+        """State that the term is the repair."""
         del robot, joints, numbers
-        return "The model has its torque as a further term; the description and the log stay as they are"
+        return "The model has the torque as a further term; description and log stay as they are"
 
 
 def motor_inertias(dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-    """Scan the inertia that turns with a joint's motor, where the fit cannot tell it from the link's."""
+    """Scan the motor-side inertia of a joint, where the fit cannot separate it from the link's."""
     if operating_point.rotor(site[0]) != 0.0:
         return NOTHING
     least = float(operating_point.slopes(dataset.state, site[0] - 1)[2][:, site[0] - 1].min())
     return [{"motor_inertia": share * least} for share in MOTOR_SHARES] if least > 0.0 else NOTHING
 
 
-def spread(low: float, high: float, count: int) -> list[float]:
-    """Give values in equal ratios from low to high."""
+def geometric_grid(low: float, high: float, count: int) -> list[float]:
+    """List values in equal ratios from low to high."""
     return [float(value) for value in np.geomspace(low, high, count)]
 
 
-def named(quantities: Sequence[Quantity]) -> dict[str, Quantity]:
-    """Look quantities up by name."""
-    return {one.name: one for one in quantities}
+def revolute_joints(robot: RobotModel) -> tuple[int, ...]:
+    """List the revolute joints (from 1); where a joint moves several links, its first one decides."""
+    kinds = {link.joint: link.kind for link in reversed(robot.links)}
+    return tuple(joint for joint in sorted(kinds) if kinds[joint] == "revolute")
 
 
-def before_the_gear(found: Mapping[str, Quantity]) -> str:
-    """Say what turns with a joint's motor, where that was searched for and is more than nothing."""
-    rotor = found.get("motor_inertia")
-    if rotor is None or rotor.value <= 2.0 * rotor.standard_deviation:
-        return ""
-    return f"; of its inertia {shown(rotor)} turns with the motor, before the gear"
+def end_links(robot: RobotModel) -> dict[int, int]:
+    """Give the links (from 1) that carry no other and follow their joint one to one, by their joint."""
+    carriers = {link.antecedent for link in robot.links}
+    return {
+        link.joint: number
+        for number, link in enumerate(robot.links, start=1)
+        if number not in carriers and link.ratio == 1.0
+    }
 
 
-def shown(quantity: Quantity) -> str:
-    """Write a quantity with its unit and uncertainty."""
-    unit = "" if quantity.unit == "1" else f" {quantity.unit}"
-    return f"{rounded(quantity.value, 3)} ± {rounded(quantity.standard_deviation)}{unit}"
-
-
-def rounded(value: float, digits: int = 1) -> str:
-    """Write a number with so many digits that count, as people write it.
-
-    Examples
-    --------
-    >>> rounded(0.0123), rounded(12.3), rounded(1234.5, 3)
-    ('0.01', '10', '1230')
-    """
-    return f"{float(f'{value:.{digits}g}'):g}"
+def links_by_joint(robot: RobotModel) -> dict[int, int]:
+    """Give the first link (from 1) of every joint that it follows one to one, by the joint."""
+    numbered = list(enumerate(robot.links, start=1))
+    return {link.joint: number for number, link in reversed(numbered) if link.ratio == 1.0}
