@@ -4,14 +4,16 @@ Kept beside `study` because it names the options of several chapters and belongs
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from itertools import starmap
-from typing import cast
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+import numpy as np
 
 from ..dynamics.model import STANDARD_TERMS
 from ..errors import OptionError
 from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid
-from ..estimate.options import PULL, EstimateOptions
+from ..estimate.options import EstimateOptions
+from ..fields import Fields, scalar_meanings
 from ..signals.recipe import FilterOptions
 from ..validation.holdout import HoldOut
 
@@ -25,6 +27,15 @@ class BootstrapOptions:
 
     draws: int = 100
     seed: int = 0
+
+    def __post_init__(self) -> None:
+        """Refuse what no generator can draw."""
+        if not 0 <= self.draws <= 2000 or not 0 <= self.seed < 2**32:
+            raise OptionError(
+                "the bootstrap options make no sense",
+                evidence={"draws": self.draws, "seed": self.seed},
+                remedy="ask for 0 to 2000 draws and a seed from 0 to 4294967295",
+            )
 
 
 @dataclass(frozen=True)
@@ -54,6 +65,42 @@ class IdentifyOptions:
     given: Mapping[str, object] = field(default_factory=dict)
 
 
+class OptionFields(Fields):
+    """Read the fields of an object of options; null stands for the default."""
+
+    error = OptionError
+    largest = 1e12
+    longest = 200
+
+
+PRIOR_FIELDS = {"pull": "a finite number", "entropy": "a finite number"}
+BOUND_FIELDS = {
+    "margin": "a finite number",
+    "mass": "a list of rows of a link's number, its least and its largest mass in kg",
+    "total_mass": "the least and the largest mass of all links together, kg",
+    "centre_box": "a list of rows of a link's number and two corners, m: 7 numbers each",
+    "centre_ellipsoid": "a list of rows of a link's number, a centre and three semi-axes, m: 7 numbers each",
+}
+VALIDATION_FIELDS = scalar_meanings(HoldOut) | {"logs": "a list of log numbers, counted from 1"}
+_SECTIONS = {
+    "filter": scalar_meanings(FilterOptions),
+    "validation": VALIDATION_FIELDS,
+    "bootstrap": scalar_meanings(BootstrapOptions),
+    "prior": PRIOR_FIELDS,
+    "bounds": BOUND_FIELDS,
+}
+OPTION_FIELDS = {
+    "estimator": "the name of an estimator",
+    "solver": "the name of a solver",
+    "robust": "true or false",
+    "terms": "null or a list of at least one torque term, each named once",
+    "smooth_coulomb": "true or false",
+    "essential": "true or false",
+    **{name: f"an object with {', '.join(fields)}" for name, fields in _SECTIONS.items()},
+}
+REFERENCE_FIELD = {"reference": 'null, the id of a finished job, or "prior"'}
+
+
 def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     """Read options from plain data.
 
@@ -69,10 +116,7 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     >>> parse_options({"validation": {"fraction": 0.3}}).validation.fraction
     0.3
     """
-    reader = _Reader("", dict(options or {}))
-    parsed = _parsed(reader, options, HoldOut())
-    reader.done()
-    return parsed
+    return _options(options, OPTION_FIELDS, HoldOut())
 
 
 def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOptions:
@@ -88,9 +132,7 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     >>> parse_diagnose_options({}).validation.blocks
     40
     """
-    reader = _Reader("", dict(options or {}))
-    parsed = replace(_parsed(reader, options, DIAGNOSIS_HOLD_OUT), reference=_reference(reader))
-    reader.done()
+    parsed = _options(options, OPTION_FIELDS | REFERENCE_FIELD, DIAGNOSIS_HOLD_OUT)
     held = parsed.validation
     if not held.logs and not round(held.fraction * held.blocks):
         raise OptionError(
@@ -101,199 +143,66 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     return parsed
 
 
-def _reference(reader: "_Reader") -> str | None:
-    named, value = reader.values.get("reference") is not None, reader.text("reference", "")
-    if named and not 0 < len(value) <= 200:
-        raise reader.wrong("reference", value, 'null, the id of a finished job, or "prior"')
-    return value or None
-
-
-def _parsed(reader: "_Reader", options: Mapping[str, object] | None, hold_out: HoldOut) -> IdentifyOptions:
-    return IdentifyOptions(
-        filter=_filter(reader.section("filter")),
-        estimate=_estimate(reader),
-        validation=_validation(reader.section("validation"), hold_out),
-        bootstrap=_bootstrap(reader.section("bootstrap")),
-        terms=_terms(reader),
-        smooth_coulomb=reader.flag("smooth_coulomb", default=False),
-        essential=reader.flag("essential", default=False),
-        given=dict(options or {}),
-    )
-
-
-class _Reader:
-    """Take known entries out of a mapping and refuse the rest."""
-
-    def __init__(self, path: str, values: dict[str, object]) -> None:
-        self.path = path
-        self.values = values
-        self.known: list[str] = []
-
-    def take(self, name: str) -> object:
-        self.known.append(name)
-        return self.values.pop(name, None)
-
-    def section(self, name: str) -> "_Reader":
-        value = self.take(name)
-        if value is not None and not isinstance(value, Mapping):
-            raise self.wrong(name, value, "an object")
-        return _Reader(f"{self.path}/{name}", dict(cast("Mapping[str, object]", value or {})))
-
-    def number(self, name: str, default: float) -> float:
-        value = self.optional(name)
-        return default if value is None else value
-
-    def optional(self, name: str) -> float | None:
-        value = self.take(name)
-        if value is None:
-            return None
-        if not _is_finite(value):
-            raise self.wrong(name, value, "a finite number")
-        return float(cast("float", value))
-
-    def whole(self, name: str, default: int) -> int:
-        value = self.optional_whole(name)
-        return default if value is None else value
-
-    def optional_whole(self, name: str) -> int | None:
-        value = self.take(name)
-        if value is not None and (isinstance(value, bool) or not isinstance(value, int)):
-            raise self.wrong(name, value, "a whole number")
-        return value
-
-    def flag(self, name: str, *, default: bool) -> bool:
-        value = self.take(name)
-        if value is not None and not isinstance(value, bool):
-            raise self.wrong(name, value, "true or false")
-        return default if value is None else value
-
-    def text(self, name: str, default: str) -> str:
-        value = self.take(name)
-        if value is not None and not isinstance(value, str):
-            raise self.wrong(name, value, "a text")
-        return default if value is None else value
-
-    def done(self) -> None:
-        unknown = [f"{self.path}/{name}".lstrip("/") for name in sorted(self.values)]
-        if unknown:
-            raise OptionError(
-                "an option is not known",
-                evidence={"unknown": unknown, "known": sorted(self.known)},
-                remedy="use the known options only",
-            )
-
-    def wrong(self, name: str, value: object, wanted: str) -> OptionError:
-        return OptionError(
-            f"the option {self.path}/{name} is not {wanted}".replace("option /", "option "),
-            evidence={"pointer": f"/options{self.path}/{name}", "value": repr(value)[:100]},
-            remedy=f"give {wanted}",
+def _options(
+    options: Mapping[str, object] | None, meanings: Mapping[str, str], hold_out: HoldOut
+) -> IdentifyOptions:
+    top = OptionFields(options or {}, "the options object", "/options", meanings)
+    inner = {name: top.inner(name, fields, f"the option {name}") for name, fields in _SECTIONS.items()}
+    prior = {name: inner["prior"].number(name) for name in PRIOR_FIELDS if inner["prior"].has(name)}
+    return top.record(
+        IdentifyOptions(
+            filter=inner["filter"].record(FilterOptions()),
+            estimate=top.record(EstimateOptions(), bounds=_bounds(inner["bounds"]), **prior),
+            validation=_validation(inner["validation"], hold_out),
+            bootstrap=inner["bootstrap"].record(BootstrapOptions()),
+            terms=_terms(top),
+            given=dict(options or {}),
         )
-
-
-def _is_finite(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e12
-
-
-def _filter(reader: _Reader) -> FilterOptions:
-    parsed = FilterOptions(
-        median_order=reader.whole("median_order", 5),
-        cutoff_hz=reader.optional("cutoff_hz"),
-        position_cutoff_hz=reader.optional("position_cutoff_hz"),
-        order=reader.whole("order", 5),
-        decimation=reader.optional_whole("decimation"),
     )
-    reader.done()
-    return parsed
 
 
-def _estimate(reader: _Reader) -> EstimateOptions:
-    prior = reader.section("prior")
-    parsed = EstimateOptions(
-        estimator=reader.text("estimator", "sdp"),
-        solver=reader.text("solver", "clarabel"),
-        robust=reader.flag("robust", default=False),
-        pull=prior.number("pull", PULL),
-        entropy=prior.number("entropy", 0.0),
-        bounds=_bounds(reader.section("bounds")),
+def _bounds(fields: Fields) -> Bounds:
+    mass = tuple((int(link), low, high) for link, low, high in _rows_of_links(fields, "mass", 3))
+    centres = tuple(
+        kind(int(link), (a, b, c), (d, e, f))
+        for name, kind in (("centre_box", CentreBox), ("centre_ellipsoid", CentreEllipsoid))
+        for link, a, b, c, d, e, f in _rows_of_links(fields, name, 7)
     )
-    prior.done()
-    return parsed
+    total = tuple(fields.numbers("total_mass", 2).tolist()) if fields.has("total_mass") else None
+    return fields.record(Bounds(), mass=mass, total_mass=total, centres=centres)
 
 
-def _bounds(reader: _Reader) -> Bounds:
-    mass = tuple((int(link), low, high) for link, low, high in _rows(reader, "mass", 3))
-    total = _rows(reader, "total_mass", 0)
-    boxes, balls = (
-        [(int(k), (a, b, c), (d, e, f)) for k, a, b, c, d, e, f in _rows(reader, name, 7)]
-        for name in ("centre_box", "centre_ellipsoid")
-    )
-    parsed = Bounds(
-        mass=mass,
-        total_mass=(total[0][0], total[0][1]) if total else None,
-        centres=(*starmap(CentreBox, boxes), *starmap(CentreEllipsoid, balls)),
-        margin=reader.number("margin", Bounds().margin),
-    )
-    reader.done()
-    return parsed
-
-
-def _rows(reader: _Reader, name: str, width: int) -> list[list[float]]:
-    """Read a list of rows of numbers; width 0 stands for one pair."""
-    value = reader.take(name)
-    if value is None:
+def _rows_of_links(fields: Fields, name: str, width: int) -> list[list[float]]:
+    """Read rows of a link's number and further numbers."""
+    if not fields.has(name):
         return []
-    rows = [value] if width == 0 else value
-    wide = width or 2
-    good = isinstance(rows, list) and all(
-        isinstance(row, list)
-        and len(row) == wide
-        and all(_is_finite(one) for one in row)
-        and (width == 0 or float(row[0]).is_integer())
-        for row in rows
-    )
-    if not good:
-        wanted = f"a list of rows of a link's number and {wide - 1} numbers" if width else "a pair of numbers"
-        raise reader.wrong(name, value, f"{wanted}, all finite")
-    return [[float(one) for one in row] for row in cast("list[list[float]]", rows)]
+    rows = fields.rows(name, width)
+    if np.any(rows[:, 0] % 1.0):
+        fields.refuse(name, "holds a link number that is not whole")
+    listed: list[list[float]] = rows.tolist()
+    return listed
 
 
-def _validation(reader: _Reader, default: HoldOut) -> HoldOut:
-    logs = reader.take("logs")
-    if logs is not None and not (isinstance(logs, list) and all(type(one) is int for one in logs)):
-        raise reader.wrong("logs", logs, "a list of log numbers, counted from 1")
-    parsed = HoldOut(
-        fraction=reader.number("fraction", default.fraction),
-        blocks=reader.whole("blocks", default.blocks),
-        logs=tuple(cast("list[int]", logs or [])),
-    )
-    reader.done()
-    return parsed
+def _validation(fields: Fields, default: HoldOut) -> HoldOut:
+    logs = fields.integers("logs") if fields.has("logs") else default.logs
+    return fields.record(default, logs=logs)
 
 
-def _bootstrap(reader: _Reader) -> BootstrapOptions:
-    parsed = BootstrapOptions(reader.whole("draws", 100), reader.whole("seed", 0))
-    reader.done()
-    if not 0 <= parsed.draws <= 2000 or not 0 <= parsed.seed < 2**32:
-        raise OptionError(
-            "the bootstrap options make no sense",
-            evidence={"draws": parsed.draws, "seed": parsed.seed},
-            remedy="ask for 0 to 2000 draws and a seed from 0 to 4294967295",
-        )
-    return parsed
-
-
-def _terms(reader: _Reader) -> tuple[str, ...] | None:
-    value = reader.take("terms")
-    if value is None:
+def _terms(fields: Fields) -> tuple[str, ...] | None:
+    if not fields.has("terms"):
         return None
-    if value == [] or (isinstance(value, list) and len(set(map(str, value))) < len(value)):
-        raise reader.wrong("terms", value, "a list of at least one term, each named once")
-    known = tuple(STANDARD_TERMS)
-    unknown = [one for one in value if one not in known] if isinstance(value, list) else [value]
+    names = fields.items("terms", least=1)
+    unknown = [name for name in names if name not in tuple(STANDARD_TERMS)]
     if unknown:
         raise OptionError(
             "a torque term is not known",
-            evidence={"unknown": [str(one)[:50] for one in unknown[:10]], "known": sorted(STANDARD_TERMS)},
+            evidence={
+                "unknown": [str(name)[:50] for name in unknown[:10]],
+                "known": sorted(STANDARD_TERMS),
+                "nearest": get_close_matches(str(unknown[0]), STANDARD_TERMS),
+            },
             remedy="give a list of known terms",
         )
-    return tuple(cast("list[str]", value))
+    if len(set(names)) < len(names):
+        fields.refuse("terms", "names a term twice")
+    return tuple(map(str, names))

@@ -13,15 +13,44 @@ there.
 """
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from ..errors import LogError
-from .channels import TIME, UNITS
+from ..fields import Fields
+from .channels import CHANNELS, TIME, UNITS
 
 RATE = "rate_hz"
 MAX_MAPPED_COLUMNS = 64
+
+
+class MappingFields(Fields):
+    """Read the fields of an object of a mapping."""
+
+    error = LogError
+    largest = math.inf
+
+
+MAPPING_FIELDS = {
+    **{
+        channel.name: f"null, or an object with {'columns' if channel.per_joint else 'column'} and unit"
+        for channel in CHANNELS.values()
+    },
+    RATE: "the rate of uniform samples in Hz, above 0",
+}
+_CHANNEL_FIELDS = {
+    channel: (
+        {"column": "a name"}
+        if channel == TIME
+        else {
+            "columns": f"a list of 1 to {MAX_MAPPED_COLUMNS} names",
+            "scale": "a number other than 0, or a list with one per column (of counts: one count in SI)",
+            "offset": "a number, or a list with one per column",
+        }
+    )
+    | {"unit": f"one of {', '.join(units)}, or a list with one per column"}
+    for channel, units in UNITS.items()
+}
 
 
 @dataclass(frozen=True)
@@ -62,125 +91,55 @@ def parse_mapping(document: object) -> LogMapping:
     """
     if document is None:
         return LogMapping()
-    entries = _object("the mapping", document)
-    _known_keys("the mapping", entries, (*UNITS, RATE))
-    rate = entries.get(RATE)
+    top = MappingFields(document, "the mapping", "/mapping", MAPPING_FIELDS)
     channels = {
-        channel: None if entries[channel] is None else _channel(channel, entries[channel])
-        for channel in UNITS
-        if channel in entries
+        name: _channel(top, name) if top.has(name) else None for name in CHANNELS if name in top.value
     }
     _each_column_once(channels)
-    return LogMapping(channels, None if rate is None else _rate(rate))
+    return LogMapping(channels, top.optional_number(RATE, positive=True))
 
 
-def _channel(channel: str, entry: object) -> ChannelRequest:
-    fields = _object(channel, entry)
-    listed = "column" if channel == TIME else "columns"
-    _known_keys(channel, fields, (listed, "unit") if channel == TIME else (listed, "unit", "scale", "offset"))
-    columns = _texts(channel, listed, fields.get(listed))
-    units = _units(channel, fields.get("unit"), len(columns))
-    scales = _numbers(channel, "scale", fields.get("scale", 1.0), len(columns))
-    if any(unit and UNITS[channel][unit].needs_scale for unit in units) and "scale" not in fields:
-        raise _refused(
-            f"{channel} in counts needs its scale", {"channel": channel}, "add what one count is in SI"
-        )
+def _channel(top: Fields, channel: str) -> ChannelRequest:
+    fields = top.inner(channel, _CHANNEL_FIELDS[channel])
+    columns = _columns(fields)
+    units = _units(fields, UNITS[channel], len(columns))
+    if any(unit and UNITS[channel][unit].needs_scale for unit in units):
+        fields.required("scale")
+    scales = _numbers(fields, "scale", 1.0, len(columns))
     if 0.0 in scales:
-        raise _refused(
-            f"the scale of {channel} is zero", {"channel": channel, "scale": scales}, "give a scale"
-        )
-    return ChannelRequest(
-        columns, units, scales, _numbers(channel, "offset", fields.get("offset", 0.0), len(columns))
-    )
+        fields.refuse("scale", "is zero")
+    return ChannelRequest(columns, units, scales, _numbers(fields, "offset", 0.0, len(columns)))
 
 
-def _object(where: str, value: object) -> Mapping[str, object]:
-    if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
-        raise _refused(
-            f"{where} is not a JSON object", {"found": type(value).__name__}, "give an object of named fields"
-        )
-    return value
+def _columns(fields: Fields) -> tuple[str, ...]:
+    name = next(iter(fields.meanings))
+    value = fields.required(name)
+    columns = [value] if name == "column" else fields.items(name, least=1, most=MAX_MAPPED_COLUMNS)
+    if not all(isinstance(column, str) for column in columns):
+        fields.refuse(name, "holds something else than names")
+    return tuple(map(str, columns))
 
 
-def _known_keys(where: str, entries: Mapping[str, object], known: Iterable[str]) -> None:
-    unknown = [key for key in entries if key not in set(known)]
-    if unknown:
-        raise _refused(
-            f"{where} has a field that is not known: {unknown[0]!r}",
-            {
-                "unknown": unknown[:20],
-                "known": list(known),
-                "nearest": get_close_matches(unknown[0], list(known)),
-            },
-            "use the known fields only",
-        )
-
-
-def _texts(channel: str, key: str, value: object) -> tuple[str, ...]:
-    values = [value] if key == "column" else value
-    if (
-        not isinstance(values, list | tuple)
-        or not 0 < len(values) <= MAX_MAPPED_COLUMNS
-        or not all(isinstance(name, str) for name in values)
-    ):
-        raise _refused(
-            f"{channel} does not name its columns",
-            {"channel": channel, "field": key, "found": repr(value)[:100]},
-            'give {"column": "..."}'
-            if key == "column"
-            else f'give {{"columns": [...]}}, 1 to {MAX_MAPPED_COLUMNS} names',
-        )
-    return tuple(values)
-
-
-def _units(channel: str, value: object, count: int) -> tuple[str, ...]:
-    if value is None:
+def _units(fields: Fields, known: Collection[str], count: int) -> tuple[str, ...]:
+    if not fields.has("unit"):
         return ("",) * count
-    values = tuple(value) if isinstance(value, list | tuple) else (value,) * count
-    unknown = [unit for unit in values if not isinstance(unit, str) or unit not in UNITS[channel]]
-    if unknown or len(values) != count:
-        raise _refused(
-            f"the unit of {channel} is not one that is known, or not one per column",
-            {"channel": channel, "found": repr(value)[:100], "known": list(UNITS[channel]), "columns": count},
-            f"declare one of {', '.join(UNITS[channel])}",
-        )
-    return tuple(str(unit) for unit in values)
+    value = fields.value["unit"]
+    units = tuple(value) if isinstance(value, list | tuple) else (value,) * count
+    if len(units) != count or not all(isinstance(unit, str) and unit in known for unit in units):
+        fields.refuse("unit", "is not one that is known, or not one per column", known=list(known))
+    return units
 
 
-def _numbers(channel: str, key: str, value: object, count: int) -> tuple[float, ...]:
-    values = tuple(value) if isinstance(value, list | tuple) else (value,) * count
-    numbers = tuple(float(item) for item in values if isinstance(item, int | float) and _is_number(item))
-    if len(numbers) != count or len(values) != count:
-        raise _refused(
-            f"the {key} of {channel} is not one finite number, or one per column",
-            {"channel": channel, "found": repr(value)[:100], "columns": count},
-            f"give {key} as a number or a list of {count}",
-        )
-    return numbers
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _rate(value: object) -> float:
-    if not isinstance(value, int | float) or not _is_number(value) or value <= 0:
-        raise _refused(
-            "rate_hz is not a positive number", {"found": repr(value)[:100]}, "give the sample rate in Hz"
-        )
-    return float(value)
+def _numbers(fields: Fields, name: str, default: float, count: int) -> tuple[float, ...]:
+    if isinstance(fields.value.get(name), list | tuple):
+        return tuple(fields.numbers(name, count).tolist())
+    return (fields.number(name, default),) * count
 
 
 def _each_column_once(channels: Mapping[str, ChannelRequest | None]) -> None:
-    seen: set[str] = set()
-    for request in channels.values():
-        for column in request.columns if request else ():
-            if column in seen:
-                raise _refused(
-                    f"the mapping names the column {column!r} twice", {"column": column}, "name it once"
-                )
-            seen.add(column)
-
-
-def _refused(cause: str, evidence: Mapping[str, object], remedy: str) -> LogError:
-    return LogError(cause, evidence=evidence, remedy=remedy)
+    columns = [column for request in channels.values() if request for column in request.columns]
+    twice = next((column for column in columns if columns.count(column) > 1), None)
+    if twice is not None:
+        raise LogError(
+            f"the mapping names the column {twice!r} twice", evidence={"column": twice}, remedy="name it once"
+        )

@@ -5,14 +5,14 @@ placement given as rotation and translation; joints that mimic another one), in 
 be written (`core.robot.writing`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 import numpy as np
 
 from ..arrays import LinkParameters, LinkTable
 from ..errors import RobotError
-from .fields import Fields
+from ..fields import Fields
 from .inertia import from_mass_properties
 from .model import FRICTION_KINDS, Coupling, Joint, JointKind, Limits, Link, RobotModel
 from .modified_dh import ModifiedDHRow
@@ -27,8 +27,8 @@ ROBOT_FIELDS = {
     "convention": f"{MODIFIED_DH} (the default) or {FRAMES}",
     "joints": f"a list of 1 to {MOST_JOINTS} joints",
     "gravity": "the acceleration of gravity in the base frame, m/s2, by default [0, 0, -9.81]",
-    "couplings": "a list of motors that turn with a weighted sum of joints",
-    "prior": "null, or one entry per joint with the inertial parameters believed beforehand",
+    "couplings": "a list of motors whose angle is a weighted sum of joint positions",
+    "prior": "null, or one entry per joint with the inertial parameters of a prior",
 }
 JOINT_FIELDS = {
     "name": "a text (default joint_<number>)",
@@ -39,7 +39,7 @@ JOINT_FIELDS = {
     "rotor_inertia": "true (default) or false",
     "friction": f"a list taken from {', '.join(FRICTION_KINDS)} (default: all)",
     "torque_constant": "null or a number in N m/A, motor side",
-    "gear_ratio": "null or motor turns per joint turn",
+    "gear_ratio": "null or motor turns per joint turn (prismatic: rad per m)",
 }
 ROW_FIELDS = {
     "alpha": "an angle in rad about x, from the antecedent's z axis to this one",
@@ -52,7 +52,7 @@ ROW_FIELDS = {
 FRAME_FIELDS = {
     "rotation": "three rows of three numbers: a rotation matrix from this frame into the antecedent's",
     "translation": "three numbers in m: this frame's origin in the antecedent's frame",
-    "ratio": "a number: the joint turns by ratio times its coordinate plus offset (default 1)",
+    "ratio": "a number: the joint moves by ratio times its coordinate plus offset (default 1)",
     "offset": "a number in rad or m (default 0)",
     "mimics": "null or the name of the joint whose coordinate moves this one too",
 }
@@ -77,6 +77,12 @@ PRIOR_FIELDS = {
 SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
 
 
+class RobotFields(Fields):
+    """Read the fields of an object of a robot description."""
+
+    error = RobotError
+
+
 def robot_from_description(description: object) -> RobotModel:
     """Read a robot description.
 
@@ -93,10 +99,10 @@ def robot_from_description(description: object) -> RobotModel:
     >>> robot.links[0].translation
     array([0. , 0. , 0.3])
     """
-    top = Fields(description, "the description", "", ROBOT_FIELDS)
-    convention = top.choice("convention", (MODIFIED_DH, FRAMES), default=MODIFIED_DH)
+    top = RobotFields(description, "the description", "", ROBOT_FIELDS)
+    convention = top.choice("convention", (MODIFIED_DH, FRAMES)) if "convention" in top.value else MODIFIED_DH
     rows = [
-        Fields(row, f"joint {number}", f"/joints/{number - 1}", JOINT_FIELDS_OF[convention])
+        RobotFields(row, f"joint {number}", f"/joints/{number - 1}", JOINT_FIELDS_OF[convention])
         for number, row in enumerate(top.items("joints", least=1, most=MOST_JOINTS), start=1)
     ]
     owners = [(number, row) for number, row in enumerate(rows, start=1) if not row.has("mimics")]
@@ -114,12 +120,12 @@ def robot_from_description(description: object) -> RobotModel:
     )
 
 
-def _numbers(joints: tuple[Joint, ...], owners: list[tuple[int, Fields]]) -> dict[str, int]:
+def _numbers(joints: tuple[Joint, ...], owners: Sequence[tuple[int, Fields]]) -> dict[str, int]:
     _refuse_twins([joint.name for joint in joints], "name", [row for _, row in owners])
     return {joint.name: number for number, joint in enumerate(joints, start=1)}
 
 
-def _refuse_twins(names: list[str], field: str, rows: list[Fields]) -> None:
+def _refuse_twins(names: list[str], field: str, rows: Sequence[Fields]) -> None:
     for position, name in enumerate(names):
         if name in names[:position]:
             rows[position].refuse(field, f"repeats {name}, which is taken")
@@ -130,9 +136,9 @@ def _joint(row: Fields, number: int) -> Joint:
     if any(kind not in FRICTION_KINDS for kind in friction):
         row.refuse("friction", "names a kind that does not exist")
     return Joint(
-        name=row.text("name", default=f"joint_{number}"),
+        name=_name(row, number),
         limits=_limits(row),
-        rotor_inertia=row.flag("rotor_inertia", default=True),
+        rotor_inertia=row.flag("rotor_inertia") if "rotor_inertia" in row.value else True,
         friction=tuple(kind for kind in FRICTION_KINDS if kind in friction),
         torque_constant=row.optional_number("torque_constant"),
         gear_ratio=row.optional_number("gear_ratio"),
@@ -142,7 +148,7 @@ def _joint(row: Fields, number: int) -> Joint:
 def _limits(row: Fields) -> Limits:
     if not row.has("limits"):
         return Limits()
-    limits = Fields(row.value["limits"], f"{row.where}: limits", f"{row.pointer}/limits", LIMIT_FIELDS)
+    limits = row.inner("limits", LIMIT_FIELDS, f"{row.where}: limits")
     position = None
     if limits.has("position"):
         lower, upper = (float(limit) for limit in limits.numbers("position", 2))
@@ -158,9 +164,10 @@ def _limits(row: Fields) -> Limits:
 
 def _link(row: Fields, number: int, numbers: Mapping[str, int]) -> Link:
     kind = cast("JointKind", row.choice("type", ("revolute", "prismatic")))
-    antecedent = row.integer("antecedent", (0, number - 1), default=number - 1)
-    own = row.text("name", default=f"joint_{number}")
-    name = row.text("link", default=own)
+    before = number - 1
+    antecedent = row.integer("antecedent", (0, before)) if "antecedent" in row.value else before
+    own = _name(row, number)
+    name = row.text("link") if "link" in row.value else own
     if "rotation" not in row.meanings:
         modified = ModifiedDHRow(
             alpha=row.number("alpha"),
@@ -176,6 +183,10 @@ def _link(row: Fields, number: int, numbers: Mapping[str, int]) -> Link:
     return Link(name, kind, antecedent, joint, _rotation(row), row.numbers("translation", 3), ratio, offset)
 
 
+def _name(row: Fields, number: int) -> str:
+    return row.text("name") if "name" in row.value else f"joint_{number}"
+
+
 def _mimicked(row: Fields, numbers: Mapping[str, int]) -> int:
     master = row.text("mimics")
     if master not in numbers:
@@ -187,9 +198,7 @@ def _mimicked(row: Fields, numbers: Mapping[str, int]) -> int:
 
 
 def _rotation(row: Fields) -> np.ndarray:
-    lines = row.items("rotation", least=3, most=3)
-    axes = [Fields({"rotation": line}, row.where, row.pointer, row.meanings) for line in lines]
-    rotation = np.array([line.numbers("rotation", 3) for line in axes])
+    rotation = row.rows("rotation", 3, least=3, most=3)
     # Six written digits are enough; more than that is not a rotation.
     if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-5 or np.linalg.det(rotation) < 0.0:
         row.refuse("rotation", "is not a rotation: its rows are not orthonormal and right-handed")
@@ -200,20 +209,14 @@ def _couplings(top: Fields, joints: int) -> tuple[Coupling, ...]:
     listed = top.items("couplings", most=joints) if top.has("couplings") else ()
     couplings: list[Coupling] = []
     for position, value in enumerate(listed):
-        one = Fields(value, f"coupling {position + 1}", f"/couplings/{position}", COUPLING_FIELDS)
-        count = len(one.items("joints", least=2, most=joints))
-        members = [
-            Fields({"joints": member}, one.where, one.pointer, COUPLING_FIELDS).integer("joints", (1, joints))
-            for member in one.items("joints", least=2, most=joints)
-        ]
-        number = one.integer("number", (1, 1000), default=members[-1])
-        weights = tuple(float(weight) for weight in one.numbers("weights", count))
+        entry = RobotFields(value, f"coupling {position + 1}", f"/couplings/{position}", COUPLING_FIELDS)
+        members = entry.integers("joints", (1, joints), least=2, most=joints)
+        numbered = "number" in entry.value
+        number = entry.integer("number", (1, 1000)) if numbered else members[-1]
+        weights = tuple(float(weight) for weight in entry.numbers("weights", len(members)))
         if number in {earlier.number for earlier in couplings}:
-            one.refuse(
-                "joints" if "number" not in one.value else "number",
-                f"gives it the number {number}, which is taken",
-            )
-        couplings.append(Coupling(one.text("name"), number, tuple(members), weights))
+            entry.refuse("number" if numbered else "joints", f"gives it the number {number}, which is taken")
+        couplings.append(Coupling(entry.text("name"), number, members, weights))
     return tuple(couplings)
 
 
@@ -225,7 +228,7 @@ def _prior(top: Fields, links: int) -> LinkTable | None:
 
 
 def _body(value: object, number: int) -> LinkParameters:
-    body = Fields(value, f"the prior of joint {number}", f"/prior/{number - 1}", PRIOR_FIELDS)
+    body = RobotFields(value, f"the prior of joint {number}", f"/prior/{number - 1}", PRIOR_FIELDS)
     if "standard" in body.value:
         if len(body.value) > 1:
             raise RobotError(
@@ -233,7 +236,7 @@ def _body(value: object, number: int) -> LinkParameters:
                 evidence={"pointer": body.pointer, "fields": list(body.value)},
                 remedy="give either standard, or mass, center_of_mass and inertia_at_com",
             )
-        table = Fields(body.value["standard"], body.where, f"{body.pointer}/standard", SYMBOL_FIELDS)
+        table = RobotFields(body.value["standard"], body.where, f"{body.pointer}/standard", SYMBOL_FIELDS)
         return np.array([table.number(symbol) for symbol in INERTIAL_SYMBOLS])
     xx, xy, xz, yy, yz, zz = body.numbers("inertia_at_com", 6)
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

@@ -15,8 +15,8 @@ import numpy as np
 
 from ..arrays import LinkParameters, Rotation, Vector3
 from ..errors import RobotError
+from ..fields import LARGEST_NUMBER
 from .description import LEVEL_GRAVITY, MOST_JOINTS
-from .fields import LARGEST_NUMBER
 from .frames import rotation_to
 from .inertia import moved
 from .model import Joint, JointKind, Link, RobotModel

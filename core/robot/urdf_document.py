@@ -16,7 +16,7 @@ from defusedxml.ElementTree import fromstring
 
 from ..arrays import LinkParameters, Rotation, Vector, Vector3
 from ..errors import RobotError
-from .fields import LARGEST_NUMBER, LONGEST_NAME
+from ..fields import LARGEST_NUMBER, LONGEST_NAME
 from .frames import rotation_rpy
 from .inertia import from_mass_properties
 from .model import Limits
