@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers hidden battery hostile fuzz contract chaos life image-test bench lock openapi reference docs
+.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery hostile fuzz contract chaos life image-test bench lock openapi reference docs
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -66,6 +66,9 @@ containers: $(READY)
 	.venv/bin/check-jsonschema --builtin-schema vendor.compose-spec docker/compose.yaml
 	.venv/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yml
 	.venv/bin/check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+
+answers: $(READY) ## keep what the product answers before a change, or compare after it (DO=record|compare KEPT=dir ARGS=..)
+	$(RUN) -m tests.answers $(or $(DO),compare) $(if $(KEPT),--kept $(KEPT)) $(ARGS)
 
 hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis (SEED=n CASES=m STRENGTH=.. CAUSE=.. KIND=..)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --cases $(or $(CASES),60) \

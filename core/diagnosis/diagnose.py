@@ -1,11 +1,11 @@
-"""Decide what a simulation gets wrong, and say how sure that is.
+"""Diagnose what a simulation gets wrong: the algorithm from the data set to the verdict, on one page.
 
-The search names causes; every one of them then meets its rivals, is measured on rows that no fit has seen,
-and is shown over the coordinate that explains it. A generic learner says what is left to explain.
+The search names causes. Each is then compared with its alternatives, measured on held-out rows, and shown
+over the coordinate that explains it. A generic learner predicts how much is left to explain.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -28,11 +28,13 @@ from .dataset.dataset import Dataset, build_dataset
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share, refuse_too_little
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
-from .search.fitter import HypothesisFitter
+from .search.fitter import HypothesisFitter, hypothesis_fitter
 from .search.hypothesis import Candidate
 from .search.likelihood_ratio import likelihood_ratio, log_p
+from .search.residuals import residual, stiction_share
 from .search.restarts import restart_at_operating_point, restart_from_common_cause
-from .search.stepwise import Selection, confirm, continue_search, search_stepwise
+from .search.state import SearchState
+from .search.stepwise import confirm, continue_search, search_stepwise
 
 Progress = Callable[[str, float], None]
 OPEN = 1e-3
@@ -67,7 +69,7 @@ class DiagnosisProblem:
         return self.plan.model
 
 
-def diagnose(question: DiagnosisProblem, progress: Progress | None = None) -> Diagnosis:
+def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Diagnosis:
     """Name what the model does not explain.
 
     Raises
@@ -76,145 +78,137 @@ def diagnose(question: DiagnosisProblem, progress: Progress | None = None) -> Di
         If the logs are too short to hold anything out.
     """
     tell = progress or _say_nothing
-    raw, dataset = _looked(question)
+    faults, dataset = _checked_samples(problem)
     refuse_too_little(dataset.clear)
-    fitter, searched = _searched(question, dataset, tell)
-    dataset = fitter.dataset
+    found = _searched(_fitter(problem, dataset), tell)
     tell("compare alternatives", 0.6)
-    selection, comparisons = _weighed(fitter, searched)
-    chosen, everyone = selection.chosen, range(len(selection.chosen.members))
-    after = fitter.residual(chosen)
-    before = fitter.residual(selection.none) if fitter.prior is None else fitter.residual(chosen, everyone)
-    unnamed_pattern = _stranger(fitter, selection, after)
-    unnamed = 0.0 if unnamed_pattern is None else unnamed_pattern.statistic
-    unnamed_pattern = _clearer(unnamed_pattern, burst(dataset, after))
-    found = [
-        finding(fitter, chosen, place, one, after, unnamed) for place, one in enumerate(comparisons)
-    ] + raw
-    most = max((one.statistic for one in comparisons), default=0.0)
+    found, comparisons = _compared(found)
+    fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
+    after = residual(fitter, chosen)
+    unnamed = _unnamed_pattern(found, after)
+    statistic = 0.0 if unnamed is None else unnamed.statistic
+    unnamed = _clearest(unnamed, burst(dataset, after))
+    findings = [finding(found, own, after, statistic) for own in comparisons] + faults
     tell("predict the residual", 0.8)
-    noise = tuple(one.noise for one in chosen.fit.joints)
+    noise = tuple(joint.noise for joint in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)
     tell("prepare figures", 0.95)
+    most = max((own.statistic for own in comparisons), default=0.0)
     return Diagnosis(
-        verdict=_verdict(found, predictable, unnamed_pattern, most),
-        findings=tuple(sorted(found, key=lambda one: one.p_value)),
-        not_identifiable=_not_identifiable(fitter, selection),
+        verdict=_verdict(findings, predictable, unnamed, most),
+        findings=tuple(sorted(findings, key=lambda finding: finding.p_value)),
+        not_identifiable=_not_identifiable(found),
         predictable=predictable,
-        unnamed_pattern=unnamed_pattern,
+        unnamed_pattern=unnamed,
         atlas=atlas(dataset, after, fitter.operating_point, noise),
         dataset=dataset,
         operating_point=fitter.operating_point,
-        selection=selection,
-        residual_before=before,
+        none=found.none,
+        chosen=chosen,
+        steps=found.steps,
+        residual_before=_residual_before(found),
         residual_after=after,
-        at_rest=fitter.at_rest(chosen),
+        at_rest=stiction_share(fitter, chosen),
     )
 
 
-def _searched(
-    question: DiagnosisProblem, dataset: Dataset, tell: Progress
-) -> tuple[HypothesisFitter, Selection]:
-    """Search for causes, and on with other blocks held out where one hides what no other shows."""
+def _fitter(problem: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
+    """Prepare the fitter with all candidate causes, and the prior that a reference gives."""
+    reference = problem.reference
+    causes, prior = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.prior)
+    return hypothesis_fitter(dataset, problem.plan, causes, prior)
+
+
+def _searched(fitter: HypothesisFitter, tell: Progress) -> SearchState:
+    """Search for causes, and on with other blocks held out where one holds what no other shows."""
 
     def progress(done: float) -> None:
         tell("search", 0.1 + 0.5 * done)
 
     progress(0.0)
-    fitter, found = _found(_bench(question, dataset), progress)
-    other_look = with_other_holdout(dataset) if has_holdout_outliers(fitter, found.chosen) else None
-    if other_look is not None:
-        other, more = _found(fitter.with_look(other_look), progress, found.chosen.members)
-        if more.chosen.members and not has_holdout_outliers(other, more.chosen):
-            return other, more
-    return fitter, found
+    found = _search(fitter, progress)
+    if has_holdout_outliers(found.fitter, found.chosen):
+        other = with_other_holdout(fitter.dataset)
+        if other is not None:
+            more = _search(found.fitter.with_dataset(other), progress, found.chosen.members)
+            if more.chosen.members and not has_holdout_outliers(more.fitter, more.chosen):
+                return more
+    return found
 
 
-def _found(
+def _search(
     fitter: HypothesisFitter, progress: Callable[[float], None], start: Sequence[Candidate] = ()
-) -> tuple[HypothesisFitter, Selection]:
-    """Search; and once more with noise learned from ordinary fits where the noise is left too much."""
+) -> SearchState:
+    """Search; and again under noise of ordinary residuals where too much is left to the noise."""
     found = search_stepwise(fitter, progress, start)
-    if not fitter.needs_ordinary_noise(found.chosen):
-        found = restart_from_common_cause(fitter, found)
-    if fitter.needs_ordinary_noise(found.chosen):
-        fitter, found = _found_anew(fitter, found, progress, start)
-    return fitter, restart_at_operating_point(fitter, found)
+    if not found.fitter.needs_ordinary_noise(found.chosen):
+        found = restart_from_common_cause(found)
+    if found.fitter.needs_ordinary_noise(found.chosen):
+        ordinary = found.fitter.with_ordinary_noise()
+        again = confirm(ordinary, found, progress) or search_stepwise(ordinary, progress, start)
+        found = restart_from_common_cause(again)
+    return restart_at_operating_point(found)
 
 
-def _found_anew(
-    fitter: HypothesisFitter, before: Selection, progress: Callable[[float], None], start: Sequence[Candidate]
-) -> tuple[HypothesisFitter, Selection]:
-    """Search under ordinary noise: on from what was found where all of that stays, or from the beginning."""
-    ordinary = fitter.with_ordinary_noise()
-    found = confirm(ordinary, before, progress)
-    if found is None:
-        # What was ranked meanwhile is of beliefs that did not hold.
-        ordinary = fitter.with_ordinary_noise()
-        found = search_stepwise(ordinary, progress, start)
-    return ordinary, restart_from_common_cause(ordinary, found)
-
-
-def _weighed(fitter: HypothesisFitter, found: Selection) -> tuple[Selection, list[Comparison]]:
-    """Keep the causes that stand up to their rivals, and look for what the others kept out."""
-    kept, comparisons = compare_alternatives(fitter, found)
-    lost = {key: np.inf for key in found.chosen.by_key if key not in kept.chosen.by_key}
-    if lost:
-        more = continue_search(fitter, kept, lost)
+def _compared(found: SearchState) -> tuple[SearchState, list[Comparison]]:
+    """Keep the causes that hold against their alternatives, and search for what the others kept out."""
+    kept, comparisons = compare_alternatives(replace(found, excluded={}))
+    if kept.excluded:
+        more = continue_search(kept)
         if len(more.chosen.members) > len(kept.chosen.members):
-            return compare_alternatives(fitter, more, lost)
+            return compare_alternatives(more)
     return kept, comparisons
 
 
-def _bench(question: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
-    """Lay out what is suspected, and what is believed beforehand."""
-    reference = question.reference
-    causes, prior = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.prior)
-    return HypothesisFitter(dataset, question.plan, causes, prior)
+def _residual_before(found: SearchState) -> JointSeries:
+    """Give the residual without the findings: fitted anew, or, against a reference, as the reference is."""
+    if found.fitter.prior is None:
+        return residual(found.fitter, found.none)
+    return residual(found.fitter, found.chosen, range(len(found.chosen.members)))
 
 
-def _looked(question: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
-    """Examine the raw samples in a wide look, then narrow it to where positions are not all noise."""
-    datasets: list[Fitted] = []
+def _checked_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
+    """Check the samples at a wide band, then limit the band to where positions are not all noise."""
+    fits: list[Fitted] = []
     plain: list[Explained] = []
 
-    def dataset_at(width: float) -> Fitted:
+    def fit_at(width: float) -> Fitted:
         dataset = build_dataset(
-            question.model, question.logs, held_out=question.held_out, blocks=question.blocks, width=width
+            problem.model, problem.logs, held_out=problem.held_out, blocks=problem.blocks, width=width
         )
-        fitter, found = _bare(question, dataset)
-        fitter.believe(found)
+        fitter, found = _plain_fit(problem, dataset)
         plain.append((fitter, found))
-        datasets.append((dataset, fitter.operating_point, tuple(one.noise for one in found.fit.joints)))
-        return datasets[-1]
+        noise = tuple(joint.noise for joint in found.fit.joints)
+        fits.append((dataset, fitter.linearised_at(found).operating_point, noise))
+        return fits[-1]
 
-    dataset, _, _ = limit_bandwidth(dataset_at)
-    wide, operating_point, _ = datasets[0]
-    raw = [
-        sample_finding(cause, one, wide)
-        for cause in SAMPLE_CHECKS
-        for one in cause.examine(wide, operating_point)
+    dataset, _, _ = limit_bandwidth(fit_at)
+    wide, operating_point, _ = fits[0]
+    faults = [
+        sample_finding(check, fault, wide)
+        for check in SAMPLE_CHECKS
+        for fault in check.examine(wide, operating_point)
     ]
-    return raw, with_typical_holdout(dataset, plain[-1], partial(_bare, question))
+    return faults, with_typical_holdout(dataset, plain[-1], partial(_plain_fit, problem))
 
 
-def _bare(question: DiagnosisProblem, dataset: Dataset) -> Explained:
-    """Fit the model with nothing suspected, under ordinary noise where that is left too much."""
-    fitter = HypothesisFitter(dataset, question.plan, ())
-    found = fitter.tried(())
+def _plain_fit(problem: DiagnosisProblem, dataset: Dataset) -> Explained:
+    """Fit the model without any cause, under ordinary noise where too much is left to the noise."""
+    fitter = hypothesis_fitter(dataset, problem.plan, ())
+    found = fitter.fit(())
     if fitter.needs_ordinary_noise(found):
         fitter = fitter.with_ordinary_noise()
-        found = fitter.tried(())
+        found = fitter.fit(())
     return fitter, found
 
 
-def _not_identifiable(fitter: HypothesisFitter, selection: Selection) -> tuple[NotIdentifiable, ...]:
+def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
     """List the kinds whose columns the fitted model spans, cause by cause with all such joints."""
     open_sites: dict[str, list[int]] = {}
-    by_id = {cause.id: cause for cause in fitter.causes}
-    for one in fitter.scanned(selection.none):
-        if one.clear_share < OPEN:
-            open_sites.setdefault(one.candidate.cause.id, []).extend(one.candidate.site)
+    by_id = {cause.id: cause for cause in found.fitter.causes}
+    for scored in found.fitter.scan(found.none):
+        if scored.clear_share < OPEN:
+            open_sites.setdefault(scored.candidate.cause.id, []).extend(scored.candidate.site)
     return tuple(
         NotIdentifiable(
             name,
@@ -226,64 +220,56 @@ def _not_identifiable(fitter: HypothesisFitter, selection: Selection) -> tuple[N
     )
 
 
-def _stranger(fitter: HypothesisFitter, selection: Selection, left: JointSeries) -> UnnamedPattern | None:
-    """Give the clearest of what the residual follows though no listed cause would."""
-    ways = (unnamed_candidates(fitter), switching_candidates(fitter, selection.chosen, left))
-    return _clearer(
-        *(_pattern(fitter, selection, one) for one in ways), bounded_residual(fitter.dataset, left)
-    )
+def _unnamed_pattern(found: SearchState, left: JointSeries) -> UnnamedPattern | None:
+    """Give the clearest pattern that the residual follows and no listed cause has."""
+    patterns = (unnamed_candidates(found.fitter), switching_candidates(found.fitter, found.chosen, left))
+    fitted = [_fitted_pattern(found, candidates) for candidates in patterns]
+    return _clearest(*fitted, bounded_residual(found.fitter.dataset, left))
 
 
-def _clearer(*with_deviations: UnnamedPattern | None) -> UnnamedPattern | None:
-    return max(
-        (one for one in with_deviations if one is not None), key=lambda one: one.statistic, default=None
-    )
+def _clearest(*patterns: UnnamedPattern | None) -> UnnamedPattern | None:
+    present = (pattern for pattern in patterns if pattern is not None)
+    return max(present, key=lambda pattern: pattern.statistic, default=None)
 
 
-def _pattern(
-    fitter: HypothesisFitter, selection: Selection, unnamed: tuple[Candidate, ...]
-) -> UnnamedPattern | None:
-    found = best_unnamed_pattern(fitter, selection.chosen, unnamed)
-    if found is None:
+def _fitted_pattern(found: SearchState, candidates: tuple[Candidate, ...]) -> UnnamedPattern | None:
+    larger = best_unnamed_pattern(found.fitter, found.chosen, candidates)
+    if larger is None:
         return None
-    last = found.members[-1]
-    chance = log_p(selection.chosen, found) + float(np.log(fitter.dataset.joints))
+    last, dataset = larger.members[-1], found.fitter.dataset
+    log_p_value = log_p(found.chosen, larger) + float(np.log(dataset.joints))
     return UnnamedPattern(
         joint=last.site[0],
-        statement=last.cause.statement(found.with_deviations(len(found.members) - 1, fitter.dataset.robot)),
-        statistic=likelihood_ratio(selection.chosen, found),
-        log10_p=chance / float(np.log(10.0)),
+        statement=last.cause.statement(larger.in_joint_units(len(larger.members) - 1, dataset.robot)),
+        statistic=likelihood_ratio(found.chosen, larger),
+        log10_p=log_p_value / float(np.log(10.0)),
     )
 
 
 def _verdict(
-    found: Sequence[Finding],
+    findings: Sequence[Finding],
     predictable: Sequence[Predictable],
-    unnamed_pattern: UnnamedPattern | None,
+    unnamed: UnnamedPattern | None,
     most: float,
 ) -> Verdict:
     """Say `unexplained` where what no cause explains is more than what the causes found do.
 
-    What spoilt samples leave follows patterns, too: on joints where a raw check explains a part, it does.
+    What faulty samples leave follows patterns, too: not on joints where a sample check explains a part.
     """
-    spoilt = {joint for one in found if one.member is None for joint in _spoilt(one)}
-    if (
-        unnamed_pattern is not None
-        and unnamed_pattern.statistic > most
-        and unnamed_pattern.joint not in spoilt
-    ):
+    faulty = {joint for finding in findings if finding.member is None for joint in _spoilt(finding)}
+    if unnamed is not None and unnamed.statistic > most and unnamed.joint not in faulty:
         return "unexplained"
-    left = [one for one in predictable if one.interval[0] > UNEXPLAINED_SHARE]
-    if not found:
+    left = [joint for joint in predictable if joint.interval[0] > UNEXPLAINED_SHARE]
+    if not findings:
         return "unexplained" if left else "nothing_found"
-    explained = {joint: one.explained_fraction for one in found for joint in one.joints}
-    if any(one.share > explained.get(one.joint, 0.0) for one in left):
+    explained = {joint: finding.explained_fraction for finding in findings for joint in finding.joints}
+    if any(joint.share > explained.get(joint.joint, 0.0) for joint in left):
         return "unexplained"
     return "causes_found"
 
 
-def _spoilt(found: Finding) -> tuple[int, ...]:
-    return found.joints if found.explained_fraction > UNEXPLAINED_SHARE else ()
+def _spoilt(finding: Finding) -> tuple[int, ...]:
+    return finding.joints if finding.explained_fraction > UNEXPLAINED_SHARE else ()
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

@@ -11,8 +11,8 @@ from .causes.protocol import Cure, Quantity, Site
 from .dataset.dataset import Dataset
 from .residual.atlas import Atlas
 from .residual.learner import Predictable
-from .search.hypothesis import Candidate
-from .search.stepwise import Selection
+from .search.hypothesis import Candidate, Hypothesis
+from .search.state import Step
 
 Verdict = Literal["causes_found", "nothing_found", "unexplained"]
 
@@ -154,6 +154,8 @@ class Diagnosis:
     ----------
     unnamed_pattern
         A pattern that what is left still follows; None where none is found.
+    none, chosen, steps
+        The hypotheses without and with the causes, and the decisions of the search.
     operating_point
         The model whose prediction the causes' columns were built on.
     residual_before, residual_after
@@ -171,7 +173,9 @@ class Diagnosis:
     atlas: Atlas
     dataset: Dataset
     operating_point: Prediction
-    selection: Selection
+    none: Hypothesis
+    chosen: Hypothesis
+    steps: tuple[Step, ...]
     residual_before: np.ndarray
     residual_after: np.ndarray
     at_rest: JointVector

@@ -55,7 +55,7 @@ def _diagnosis(found: Extension) -> dict[str, object]:
                 "joints": step.candidate.site,
                 "statistic": step.statistic,
             }
-            for step in diagnosis.selection.steps
+            for step in diagnosis.steps
         ],
         "band_hz": diagnosis.dataset.band_hz,
         "held_out": held_out_spans(found.before, diagnosis.dataset.held_out_blocks),

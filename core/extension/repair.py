@@ -75,5 +75,5 @@ def _repair(finding: Finding, diagnosis: Diagnosis, robot: RobotModel) -> Repair
 
 
 def _solved(diagnosis: Diagnosis, member: Candidate) -> FittedCause:
-    chosen = diagnosis.selection.chosen
+    chosen = diagnosis.chosen
     return chosen.solved(chosen.members.index(member))

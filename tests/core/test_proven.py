@@ -7,6 +7,7 @@ import pytest
 
 from tests.core.diagnosis.scenes import measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import diagnosed, hidden
+from veritorque.core import study
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.errors import SolverError
 from veritorque.core.extension.result import Extension
@@ -23,7 +24,7 @@ def in_doubt(found: Diagnosis) -> Diagnosis:
 
 def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Extension:
     """Diagnose a scene where the search doubts that friction of joint 2 differs between the directions."""
-    monkeypatch.setattr(core.study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
+    monkeypatch.setattr(study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
     logs = (scene.dataset.motions[0].log,)
     return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}), progress)
 
@@ -46,7 +47,7 @@ def test_what_proved_itself_is_not_identified_once_more(monkeypatch):
         fits.append(core.fitting.fitted(*asked))
         return fits[-1]
 
-    monkeypatch.setattr(core.study, "fitted", fitted)
+    monkeypatch.setattr(study, "fitted", fitted)
     found = studied(monkeypatch, HIDDEN)
     assert len(fits) == 2
     assert found.after.observation is fits[-1].observation
@@ -73,7 +74,7 @@ def test_a_cause_in_doubt_with_which_there_is_no_answer_joins_no_model(monkeypat
     def unsolved(*_):
         raise SolverError("it has no answer", evidence={}, remedy="none")
 
-    monkeypatch.setattr(core.study, "fitted", unsolved)
+    monkeypatch.setattr(study, "fitted", unsolved)
     found = studied(monkeypatch, HIDDEN)
     assert found.after is None
     assert not found.diagnosis.findings[0].proven

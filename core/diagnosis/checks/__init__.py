@@ -1,1 +1,1 @@
-"""Check what the search found: in comes a `Selection`, out come findings, alternatives and lack of fit."""
+"""Check what the search found: in comes a `SearchState`, out come findings, alternatives and lack of fit."""

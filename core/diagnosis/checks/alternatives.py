@@ -5,7 +5,6 @@ anew. Two explanations whose criteria differ by less than six are not told apart
 & Anderson, Model Selection (2002), ch. 2.
 """
 
-from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,16 +13,17 @@ from ..causes.imitation import imitations
 from ..causes.masking import excludes
 from ..result import Alternative, Gain
 from ..search.confounding import keeps_beside, masked_by_last
-from ..search.entry_test import Key, passes_holdout, with_candidate
+from ..search.entry_test import passes_holdout, with_candidate
 from ..search.fitter import HypothesisFitter
 from ..search.holdout import holdout_share
 from ..search.hypothesis import Candidate, Hypothesis
 from ..search.likelihood_ratio import bic_gain, likelihood_ratio
-from ..search.stepwise import Selection, Step
+from ..search.residuals import residual
+from ..search.state import SearchState
+from ..thresholds import UNDECIDED
 from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 
-UNDECIDED = 6.0
 OTHER_SHARE = 0.03
 """Share of a finding's rise below which its lead over a rival not known to be confused with it is nothing."""
 UNNAMED_SHARE = 0.25
@@ -34,7 +34,7 @@ LEAST_SEEN = 4.0
 """Rise to be expected on unseen rows below which these say nothing of a cause."""
 LEAST_GAIN = 0.5
 """Per cent of the error on unseen rows that a cause beside a clearer one has to gain, or gain for sure."""
-WEIGHED = 6
+COMPARED = 6
 WORTH_NAMING = 0.1
 """A rival that reaches less than this share of the finding's own rise is not worth a line."""
 
@@ -45,8 +45,8 @@ class Comparison:
 
     Attributes
     ----------
-    member
-        What is judged.
+    place, member
+        What is judged, and its place in the hypothesis.
     statistic
         Rise of twice the log-likelihood that it brings itself.
     bic_gain
@@ -57,6 +57,7 @@ class Comparison:
         The same over the best pattern without a name on its joints; infinite where none explains anything.
     """
 
+    place: int
     member: Candidate
     statistic: float
     bic_gain: float
@@ -67,41 +68,42 @@ class Comparison:
     over_unnamed: float = np.inf
 
 
-def compare_alternatives(
-    fitter: HypothesisFitter, selection: Selection, excluded_kinds: Collection[Key] = ()
-) -> tuple[Selection, list[Comparison]]:
-    """Weigh every member, and give up those that only make up for what is not known.
+def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparison]]:
+    """Compare every member with its alternatives, and drop those that are surrogates.
 
-    Beside a strong effect whose columns are not exact, much fits what is left a little; a member that another
-    candidate would beat in its place, and that was not swapped for it, is such a stopgap. So is one that a
-    pattern without a name beats by far, and one whose size nature does not allow once another was given up.
-    What was given up is nobody's rival. Gives what remains, with its
-    members' standings.
+    Beside a strong effect whose columns are not exact, much fits what is left a little. A member that another
+    candidate would beat in its place, and that was not swapped for it, is such a surrogate. So is one that an
+    unnamed pattern beats by far, and one that is inadmissible once another was dropped. What was dropped is
+    no alternative. Gives what remains, with its members' comparisons.
     """
-    unnamed, lost = unnamed_candidates(fitter), set(excluded_kinds)
+    state, unnamed = found, unnamed_candidates(found.fitter)
     while True:
-        everyone = range(len(selection.chosen.members))
-        alone = [compare_member(fitter, selection.chosen, index, lost) for index in everyone]
-        found = [replace(one, over_unnamed=_over_nameless(fitter, one, unnamed)) for one in alone]
-        most = max((one.statistic for one in found), default=0.0)
-        weak = [
-            index
-            for index, one in enumerate(found)
-            if not selection.chosen.allows(index)
-            or _stopgap(fitter, selection.chosen, one, alone=one.statistic >= most)
-            or _beaten(one)
-        ]
+        comparisons = [_comparison(state, index, unnamed) for index in range(len(state.chosen.members))]
+        most = max((own.statistic for own in comparisons), default=0.0)
+        weak = [own for own in comparisons if _falls(state, own, alone=own.statistic >= most)]
         if not weak:
-            return selection, found
-        least = min(weak, key=lambda index: found[index].statistic)
-        lost.add(found[least].member.key)
-        step = Step("dropped", found[least].member, -found[least].statistic)
-        fitter.believe(found[least].without)
-        kept = fitter.tried(found[least].without.members, found[least].without)
-        selection = replace(selection, chosen=kept, steps=(*selection.steps, step))
+            return state, comparisons
+        least = min(weak, key=lambda own: own.statistic)
+        fitter = state.fitter.linearised_at(least.without)
+        state = state.at(fitter, fitter.fit(least.without.members, least.without))
+        state = state.recorded("dropped", least.member, -least.statistic).excluding(least.member.key)
 
 
-def _stopgap(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, alone: bool) -> bool:
+def _comparison(state: SearchState, index: int, unnamed: tuple[Candidate, ...]) -> Comparison:
+    own = compare_member(state, index)
+    return replace(own, over_unnamed=_over_unnamed(state.fitter, own, unnamed))
+
+
+def _falls(state: SearchState, own: Comparison, *, alone: bool) -> bool:
+    """Tell whether a member is inadmissible or a surrogate."""
+    return (
+        not state.chosen.allows(own.place)
+        or _is_surrogate(state.fitter, state.chosen, own, alone=alone)
+        or _beaten_by_unnamed(own)
+    )
+
+
+def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, alone: bool) -> bool:
     """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows.
 
     Of the clearest, of one that stands alone, and of one that hardly acts there, it is only asked whether it
@@ -112,7 +114,7 @@ def _stopgap(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, a
     if own.member.cause.traits.transient or fitter.prior is not None:
         return False
     expected = holdout_share(fitter, chosen, chosen.by_key[own.member.key]) * own.statistic
-    dataset, left = fitter.dataset, (fitter.residual(own.without), fitter.residual(chosen))
+    dataset, left = fitter.dataset, (residual(fitter, own.without), residual(fitter, chosen))
     holdout, fitted = (dataset.usable & (dataset.held_out == held)[:, None] for held in (True, False))
     # What shared parameters take up where a cause acts, they spoil on the other joints.
     places = (tuple(sorted(fitter.columns([own.member])[0])), tuple(range(dataset.joints)))
@@ -132,7 +134,7 @@ def _refuted_unseen(there: Gain, here: Gain) -> bool:
     return none or (low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent)
 
 
-def _over_nameless(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
+def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
     """Give by how much a member beats the best pattern without a name in its place, on its joints."""
     joints = own.member.site or range(1, fitter.dataset.joints + 1)
     here = tuple(one for one in unnamed if one.site[0] in joints)
@@ -140,51 +142,51 @@ def _over_nameless(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Can
     return np.inf if unnamed_pattern is None else own.bic_gain - bic_gain(own.without, unnamed_pattern)
 
 
-def _beaten(own: Comparison) -> bool:
+def _beaten_by_unnamed(own: Comparison) -> bool:
     """Tell whether a pattern without a name explains much more than a member in its place."""
     if own.member.cause.traits.transient:
         return own.over_unnamed < EVENT_SHARE * own.statistic
     return own.over_unnamed < -max(UNDECIDED, UNNAMED_SHARE * own.statistic)
 
 
-def compare_member(
-    fitter: HypothesisFitter, chosen: Hypothesis, index: int, excluded_kinds: Collection[Key] = ()
-) -> Comparison:
-    """Weigh a member against the best of all other candidates in its place, but for what was given up."""
-    member = chosen.members[index]
-    without = fitter.less(chosen)[index]
-    own = fitter.tried((*without.members, member), without)
-    taken = {*chosen.by_key, *excluded_kinds}
-    excluded = {name for one in without.members for name in excludes(one.cause.id)}
-    others = [
-        one
-        for one in fitter.scanned(without)
-        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
-    ][:WEIGHED]
-    trials = [
-        fitter.tried(trial.members, trial)
-        for one in others
-        for trial in [with_candidate(fitter, without, one)]
-    ]
+def compare_member(state: SearchState, index: int) -> Comparison:
+    """Compare a member with the best of all other candidates in its place, but for excluded ones."""
+    fitter, chosen = state.fitter, state.chosen
+    member, without = chosen.members[index], fitter.fit_without_each(chosen)[index]
+    own = fitter.fit((*without.members, member), without)
     ambiguous, refuted, margin = [], [], np.inf
-    own_merit, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
-    for trial in sorted(trials, key=lambda one: -bic_gain(without, one)):
-        rival = trial.members[-1]
-        if keeps_beside(fitter, own, rival, likelihood_ratio(without, trial)) or masked_by_last(
-            fitter, own, rival
-        ):
+    own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
+    for trial in _trials(state, without):
+        other, ratio = trial.members[-1], likelihood_ratio(without, trial)
+        if keeps_beside(fitter, own, other, ratio) or masked_by_last(fitter, own, other):
             continue
-        behind = own_merit - bic_gain(without, trial)
-        why = _impossible(fitter, without, trial)
+        behind = own_gain - bic_gain(without, trial)
+        why = _inadmissible(fitter, without, trial)
         if not why:
             margin = min(margin, behind)
-        # One that explains no more besides than noise of the positions might refutes nobody.
-        like = _by_position_noise(fitter, own, (member, rival))
-        if not why and behind < max(like, _indifference(member, rival, own_ratio)):
-            ambiguous.append(_undecided(member, rival, likelihood_ratio(without, trial), behind, like))
-        elif likelihood_ratio(without, trial) > WORTH_NAMING * own_ratio:
-            refuted.append(_refuted(rival, likelihood_ratio(without, trial), own_ratio, why))
-    return Comparison(member, own_ratio, own_merit, float(margin), tuple(ambiguous), tuple(refuted), without)
+        # One that explains no more besides than position noise might refutes nobody.
+        like = _by_position_noise(fitter, own, (member, other))
+        if not why and behind < max(like, _indifference(member, other, own_ratio)):
+            ambiguous.append(_undecided(member, other, ratio, behind, like))
+        elif ratio > WORTH_NAMING * own_ratio:
+            refuted.append(_refuted(other, ratio, own_ratio, why))
+    return Comparison(
+        index, member, own_ratio, own_gain, float(margin), tuple(ambiguous), tuple(refuted), without
+    )
+
+
+def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
+    """Fit the best candidates in a member's place, the best first."""
+    fitter, taken = state.fitter, {*state.keys, *state.excluded}
+    closed = {name for member in without.members for name in excludes(member.cause.id)}
+    others = [
+        scored
+        for scored in fitter.scan(without)
+        if scored.candidate.key not in taken and scored.candidate.cause.id not in closed
+    ]
+    trials = [with_candidate(fitter, without, scored) for scored in others[:COMPARED]]
+    whole = [fitter.fit(trial.members, trial) for trial in trials]
+    return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 
 
 def _indifference(member: Candidate, rival: Candidate, own_ratio: float) -> float:
@@ -197,7 +199,7 @@ def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Ca
     if not all(one.cause.traits.like_position_noise for one in both):
         return 0.0
     torque, worth = fitter.dataset.position_torque, []
-    for rows, part, made in zip(fitter.base, own.fit.joints, torque.T, strict=True):
+    for rows, part, made in zip(fitter.rows.fitted, own.fit.joints, torque.T, strict=True):
         worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.place) ** 2)))
     return min(max(worth[joint - 1] for joint in one.site or range(1, len(worth) + 1)) for one in both)
 
@@ -218,7 +220,7 @@ def _undecided(
     )
 
 
-def _impossible(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis) -> str:
+def _inadmissible(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis) -> str:
     """Say why a rival cannot take a finding's place, however well it fits; nothing where it can."""
     if not trial.possible:
         return "fits only with a sign or size that nature does not allow"

@@ -49,7 +49,7 @@ def switching_candidates(
                 ways.append(Candidate(_UNLISTED, (joint,), scalars, float(np.exp(trials))))
         chances = [
             log_chi2_tail(scored.statistic, scored.freedom) + np.log(way.trials)
-            for scored, way in zip(fitter.scored(now, ways), ways, strict=True)
+            for scored, way in zip(fitter.score(now, ways), ways, strict=True)
         ]
         if ways:
             found.append(ways[int(np.argmin(chances))])

@@ -12,36 +12,30 @@ from ..search.fitter import HypothesisFitter
 from ..search.holdout import expected_holdout_likelihood_ratio, holdout_likelihood_ratio
 from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
+from ..search.residuals import residual
+from ..search.state import SearchState
 from .alternatives import Comparison
 from .confidence import confidence
 from .figure import curve
 from .gain import gain
 
 
-def finding(
-    fitter: HypothesisFitter,
-    chosen: Hypothesis,
-    place: int,
-    own: Comparison,
-    after: JointSeries,
-    unnamed: float,
-) -> Finding:
-    """Tell of one member of a hypothesis.
+def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: float) -> Finding:
+    """Compose the finding of one member of the chosen hypothesis.
 
     Parameters
     ----------
-    place
-        Of the member.
     own
-        How it stands among its rivals.
+        Its comparison with its alternatives.
     after
         What the whole hypothesis leaves of the torque, N m or N.
     unnamed
-        Rise of twice the log-likelihood by a pattern without a name in what is left: where it brings more
-        than the finding does, this may be no more than its trace.
+        Likelihood ratio statistic of an unnamed pattern in what is left: where it is larger than the
+        finding's, the finding may be no more than its trace.
     """
+    fitter, chosen, place = found.fitter, found.chosen, own.place
     dataset, left = fitter.dataset, (_without(fitter, chosen, place, own), after)
-    member, solved = chosen.members[place], chosen.with_deviations(place, fitter.dataset.robot)
+    member, solved = chosen.members[place], chosen.in_joint_units(place, fitter.dataset.robot)
     cause = member.cause
     columns = fitter.columns([member])[0]
     joints = tuple(sorted(columns))
@@ -148,4 +142,4 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
 
 def _without(fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison) -> JointSeries:
     """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
-    return fitter.residual(own.without) if fitter.prior is None else fitter.residual(chosen, (place,))
+    return residual(fitter, own.without) if fitter.prior is None else residual(fitter, chosen, (place,))

@@ -30,8 +30,8 @@ AS_MANY = 0.5
 
 def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
     """Tell whether a block that was held out is missed far worse than any that was fitted."""
-    holdout = extended(fitter.holdout, fitter.columns(found.members))
-    for part, fitted, seen in zip(holdout, found.fit.joints, fitter.base, strict=True):
+    holdout = extended(fitter.rows.held_out, fitter.columns(found.members))
+    for part, fitted, seen in zip(holdout, found.fit.joints, fitter.rows.fitted, strict=True):
         missed = (part.torque - part.columns @ found.fit.values)[:, None]
         left = prewhitened_residual(part, fitted.noise, missed)[:, 0]
         known = fitted.left(found.fit.values)

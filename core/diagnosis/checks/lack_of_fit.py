@@ -30,10 +30,10 @@ def best_unnamed_pattern(
     fitter: HypothesisFitter, now: Hypothesis, unnamed: tuple[Candidate, ...]
 ) -> Hypothesis | None:
     """Give a hypothesis with the pattern that explains most of what another leaves; None where none does."""
-    scans = fitter.scanned(now, unnamed)[:TRIED]
-    trials = [fitter.added(now, _finest(fitter, now, one.candidate)) for one in scans]
+    scans = fitter.scan(now, unnamed)[:TRIED]
+    trials = [fitter.fit_with(now, _finest(fitter, now, one.candidate)) for one in scans]
     clear = [trial for trial in trials if is_significant(fitter, now, trial, fitter.dataset.joints)]
-    whole = [fitter.tried(trial.members, trial) for trial in clear]
+    whole = [fitter.fit(trial.members, trial) for trial in clear]
     ranked = sorted(whole, key=lambda trial: -bic_gain(now, trial))
     return next((trial for trial in ranked if passes_holdout(fitter, now, trial)), None)
 
@@ -41,5 +41,5 @@ def best_unnamed_pattern(
 def _finest(fitter: HypothesisFitter, now: Hypothesis, found: Candidate) -> Candidate:
     """Give the likeliest of the patterns around one."""
     around = [replace(found, scalars=scalars) for scalars in _UNLISTED.finer(fitter.dataset, found.scalars)]
-    best = max(zip(fitter.scored(now, around), around, strict=True), key=lambda one: one[0].statistic)[1]
+    best = max(zip(fitter.score(now, around), around, strict=True), key=lambda one: one[0].statistic)[1]
     return replace(best, trials=found.trials * len(around))

@@ -1,1 +1,1 @@
-"""Search for causes: in come rows and candidate causes, out goes the `Selection` of a stepwise search."""
+"""Search for causes: in come rows and candidate causes, out goes the `SearchState` that it ends in."""

@@ -18,7 +18,7 @@ from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause, Site
 from ..dataset.dataset import Dataset
 from ..regression.rows import Columns
-from .hypothesis import Candidate, Hypothesis, Place, ScoredCandidate
+from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,10 +43,12 @@ class Candidates:
     dataset: Dataset
     left: Dataset
     operating_point: Prediction
-    columns: dict[Place, Columns] = field(default_factory=dict)
+    columns: dict[ColumnKey, Columns] = field(default_factory=dict)
     scans: WeakKeyDictionary[Hypothesis, list[ScoredCandidate]] = field(default_factory=WeakKeyDictionary)
     less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
-    trials: WeakKeyDictionary[Hypothesis, dict[Place, Hypothesis]] = field(default_factory=WeakKeyDictionary)
+    trials: WeakKeyDictionary[Hypothesis, dict[ColumnKey, Hypothesis]] = field(
+        default_factory=WeakKeyDictionary
+    )
     _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
 
     @property

@@ -36,7 +36,7 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
         leaves = own.id in masks(other.cause.id)
         if place == index or not (leaves or own.traits.transient):
             continue
-        without = fitter.tried((*whole.members[:place], *whole.members[place + 1 :]), whole)
+        without = fitter.fit((*whole.members[:place], *whole.members[place + 1 :]), whole)
         if own.traits.transient:
             within = leaves and _acts_within(whole, index, place)
             least = likelihood_ratio(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
@@ -51,14 +51,14 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
 
 def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate, alone: float) -> bool:
     """Tell whether a candidate keeps its rise beside a hypothesis: then it is no rival."""
-    return fitter.scanned(own, [rival])[0].statistic > BESIDE_SHARE * alone
+    return fitter.scan(own, [rival])[0].statistic > BESIDE_SHARE * alone
 
 
 def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate) -> bool:
     """Tell whether a candidate is an event that the last member leaves, as by its own torque at its limit."""
     if not rival.cause.traits.transient or rival.cause.id not in masks(own.members[-1].cause.id):
         return False
-    both = fitter.added(own, rival)
+    both = fitter.fit_with(own, rival)
     return _acts_within(both, len(own.members), len(own.members) - 1)
 
 

@@ -4,12 +4,11 @@ A scan says which candidates come into question; each of them is fitted with the
 acts before it is judged, because noise that was learned without it has learned it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..causes.masking import excludes
-from ..causes.protocol import Site
 from .confounding import is_masked
 from .fitter import HypothesisFitter
 from .holdout import holdout_likelihood_ratio, holdout_share
@@ -17,10 +16,8 @@ from .hypothesis import Candidate, Hypothesis, ScoredCandidate
 from .likelihood_ratio import bic_gain, bounded_likelihood_ratio, likelihood_ratio, log_p, wald_statistic
 from .lr_bound import predicted_likelihood_ratios
 from .profile_likelihood import refine_scalars
+from .state import Excluded
 
-Key = tuple[str, Site]
-Excluded = Mapping[Key, float]
-"""Kinds that were chosen once, and the rise that brings each back: none (inf) what did not stand out."""
 NOTHING: Excluded = {}
 Ranked = Sequence[tuple[ScoredCandidate, float]]
 """Candidates, and the most that each may bring."""
@@ -68,7 +65,7 @@ def best_entry(
     taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
     scans = [
         one
-        for one in fitter.scanned(now)
+        for one in fitter.scan(now)
         if one.candidate.key not in taken and one.candidate.cause.id not in excluded
     ]
     tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.traits.transient]
@@ -113,8 +110,8 @@ def _first_to_hold(
 ) -> Hypothesis | None:
     """Give the best of some trials that holds on unseen rows and is not what others leave."""
     # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
-    whole = [fitter.tried(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
-    # What acts at picked instants only explains a little of anything, and comes after what acts all the time.
+    whole = [fitter.fit(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
+    # A transient cause explains a little of anything, and comes after those that act all the time.
     ranked = sorted(
         whole, key=lambda trial: (trial.members[-1].cause.traits.transient, -bic_gain(now, trial))
     )
@@ -155,8 +152,8 @@ def _apart(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: 
         return False
     if not member.site or not is_significant(fitter, now, trial, kinds, LEVEL, index):
         return False
-    none = fitter.tried(())
-    alone, beside = likelihood_ratio(none, fitter.added(none, member)), likelihood_ratio(now, trial)
+    none = fitter.fit(())
+    alone, beside = likelihood_ratio(none, fitter.fit_with(none, member)), likelihood_ratio(now, trial)
     return min(alone, beside) > UNCHANGED * max(alone, beside)
 
 
@@ -207,9 +204,9 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
 
     What was fitted in a member's place to challenge it is not fitted again to weigh it.
     """
-    kept, place = fitter.suspicion.trials.get(now, {}), scored.candidate.place
+    kept, place = fitter.at.trials.get(now, {}), scored.candidate.place
     if place not in kept:
-        kept[place] = fitter.added(now, refine_scalars(fitter, now, scored.candidate, on_trial=True))
+        kept[place] = fitter.fit_with(now, refine_scalars(fitter, now, scored.candidate, on_trial=True))
     return kept[place]
 
 

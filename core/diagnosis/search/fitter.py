@@ -1,17 +1,18 @@
-"""Keep the rows, the causes and what is believed on one bench, and try hypotheses on it.
+"""Fit hypotheses to the rows of a data set, with all columns linearised at one operating point.
 
-Columns are computed once per candidate and belief; a scan over all causes, joints and scalars is then a few
-matrix products.
+A fitter is a value. Moving the operating point gives another fitter, and the first is as good as before.
+Columns are kept by the operating point that they are linearised at, so that a scan over all causes, joints
+and scalars is a few matrix products.
 """
 
-from collections.abc import Callable, Iterable, Sequence
-from copy import copy
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ...arrays import Indices, JointSeries, JointVector
+from ...arrays import Indices
 from ...dynamics.prediction import Prediction
 from ...estimate.gaussian_prior import GaussianPrior
 from ...regressor.columns import ColumnPlan
@@ -19,285 +20,261 @@ from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause
 from ..dataset.dataset import Dataset
 from ..regression.gls import TRIAL_ROUNDS, Fit, fit, noise_absorbs_effect, refit
-from ..regression.rows import Columns, extended, rows_of_joints
+from ..regression.rows import Columns, JointRows, extended, rows_of_joints
 from ..regression.score_test import Panel, Score, score, score_onsets
 from .candidate_cache import CandidateCache, cache_at
 from .candidates import Candidates, extended_prediction, no_candidates
-from .hypothesis import Candidate, Hypothesis, Place, ScoredCandidate, best_of_kinds
+from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate, best_of_kinds
 
 SCORED_ANEW = 24
-"""Best kinds of a scan that are scored anew where columns are of an earlier belief; fewer are ever fitted."""
-TELLING = 3
-"""Joints that are asked when something began."""
-MOST_AT_REST = 0.9
-"""A joint whose friction at rest may be anything on more than this share of the rows hardly moves."""
+"""Best kinds of a scan that are scored again where columns are of an earlier operating point."""
+ONSET_JOINTS = 3
+"""Joints that decide when something began."""
 
 
+@dataclass(frozen=True, eq=False)
+class FitRows:
+    """Hold the rows of every joint: those that are fitted, those that are held out, and all of them."""
+
+    fitted: tuple[JointRows, ...]
+    held_out: tuple[JointRows, ...]
+    everywhere: tuple[JointRows, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class HypothesisFitter:
-    """Try hypotheses on the rows of a look.
+    """Fit hypotheses at one operating point.
 
-    Parameters
+    Attributes
     ----------
-    dataset
-        The rows; a fit may use those that are usable and not held out.
+    dataset, rows
+        The data set and its rows per joint; a fit uses those that are usable and not held out.
     plan
         The model's base columns.
     causes
-        What is suspected.
+        The candidate causes.
     prior
-        Normal prior of the base parameters; None where the rows alone determine them.
+        Prior of the base parameters; None where the rows alone determine them.
+    at
+        The candidates, with their columns, at the operating point.
+    ordinary_noise
+        Whether noise is estimated from the residual of ordinary least squares.
+    earlier
+        The candidate cache of an earlier operating point, if one was made.
     """
 
-    def __init__(
-        self,
-        dataset: Dataset,
-        plan: ColumnPlan,
-        causes: Sequence[Cause],
-        prior: GaussianPrior | None = None,
-    ) -> None:
-        self.dataset = dataset
-        self.plan = plan
-        self.causes = tuple(causes)
-        self.prior = prior
-        columns = dataset.observed(plan)
-        self.base = rows_of_joints(dataset, columns, dataset.usable & ~dataset.held_out[:, None])
-        self.holdout = rows_of_joints(dataset, columns, dataset.usable & dataset.held_out[:, None])
-        self.everywhere = rows_of_joints(dataset, columns, np.ones_like(dataset.usable))
-        self._lasting: dict[Place, Columns] = {}
-        self._panels: WeakKeyDictionary[CandidateCache, Panel] = WeakKeyDictionary()
-        self._ordinary = False
-        self._ranking: CandidateCache | None = None
-        self._now = no_candidates(dataset, plan.model)
+    dataset: Dataset
+    rows: FitRows
+    plan: ColumnPlan
+    causes: tuple[Cause, ...]
+    prior: GaussianPrior | None
+    at: Candidates
+    ordinary_noise: bool = False
+    earlier: CandidateCache | None = None
+    _fixed_columns: dict[ColumnKey, Columns] = field(default_factory=dict)
+    _panels: WeakKeyDictionary[CandidateCache, Panel] = field(default_factory=WeakKeyDictionary)
 
-    def believe(self, found: Hypothesis) -> None:
-        """Take a fit's base parameters for what is believed, and forget what was built on others.
+    def linearised_at(self, found: Hypothesis) -> "HypothesisFitter":
+        """Give a fitter whose operating point is what a hypothesis predicts.
 
-        What may have happened is then looked for in what the hypothesis leaves of the torque.
+        Transient causes are then searched in what the hypothesis leaves of the torque.
         """
         standard = np.zeros(len(self.plan.model.parameters))
         standard[list(self.plan.columns)] = found.fit.values[: len(self.plan.columns)]
-        operating_point = extended_prediction(
-            self.dataset, found, Prediction(self.plan.model, standard, inverse_dynamics)
+        plain = Prediction(self.plan.model, standard, inverse_dynamics)
+        point = extended_prediction(self.dataset, found, plain)
+        left = self._without_lasting_causes(found)
+        return replace(
+            self, at=Candidates(self.causes, self.dataset, left, point), earlier=self._latest_cache
         )
-        self._now = Candidates(self.causes, self.dataset, self._without_lasting(found), operating_point)
 
-    def remembered(self) -> Callable[[], None]:
-        """Give what brings back what is believed now, after something else was."""
-        now, ranking = self._now, self._ranking
+    def with_ordinary_noise(self) -> "HypothesisFitter":
+        """Give a fitter of the same rows that estimates noise from ordinary residuals, without candidates."""
+        nothing = no_candidates(self.dataset, self.plan.model)
+        return replace(self, at=nothing, ordinary_noise=True, earlier=self._latest_cache)
 
-        def believe_again() -> None:
-            self._now, self._ranking = now, ranking
-
-        return believe_again
-
-    def _without_lasting(self, found: Hypothesis) -> Dataset:
-        """Take from the torque what a hypothesis's members explain of it, all but events."""
-        torque = self.dataset.torque.copy()
-        for index, columns in enumerate(self.columns(found.members)):
-            if not found.members[index].cause.traits.transient:
-                for joint, one in columns.items():
-                    torque[:, joint] -= one @ found.fit.values[found.columns_of(index)]
-        return replace(self.dataset, torque=torque)
-
-    @property
-    def candidates(self) -> tuple[Candidate, ...]:
-        """Give everything that is suspected, as it was under earlier beliefs that rank it alike."""
-        return (*self._ranked_like_now.candidates, *self._now.events)
-
-    @property
-    def _ranked_like_now(self) -> CandidateCache:
-        """Give what no other belief since it was ranked would rank otherwise."""
-        before, now = self._ranking, self._now
-        self._ranking = cache_at(now) if before is None else before.under(now)
-        return self._ranking
-
-    @property
-    def suspicion(self) -> Candidates:
-        """Give what is suspected under the present belief."""
-        return self._now
+    def with_dataset(self, dataset: Dataset) -> "HypothesisFitter":
+        """Give a fitter of a data set that holds other rows out; columns and candidate cache stay of use."""
+        return replace(
+            hypothesis_fitter(dataset, self.plan, self.causes, self.prior),
+            earlier=self._latest_cache,
+            _fixed_columns=self._fixed_columns,
+        )
 
     @property
     def operating_point(self) -> Prediction:
-        """Give what is believed: the columns of candidates are built on it."""
-        return self._now.operating_point
+        """Give the prediction that the columns of candidates are linearised at."""
+        return self.at.operating_point
 
-    def scored(self, under: Hypothesis, candidates: Sequence[Candidate]) -> list[Score]:
-        """Score candidates on top of a hypothesis."""
-        return score(under.fit, self.base, self.columns(candidates))
+    @property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """Give all candidates, those that act all the time as the candidate cache has them."""
+        return (*self.cache.candidates, *self.at.events)
 
-    def scored_from(
-        self, under: Hypothesis, candidate: Candidate, some: slice, starts: Indices
-    ) -> list[Score]:
-        """Score some columns of a candidate as if they acted from some row of the look on, for many rows.
+    @cached_property
+    def cache(self) -> CandidateCache:
+        """Give the candidates whose columns at an earlier operating point are still near enough."""
+        return cache_at(self.at) if self.earlier is None else self.earlier.under(self.at)
 
-        Nearly: on the joints that tell most.
-        """
-        (columns,) = self.columns([candidate])
-        part = {joint: one[:, some] for joint, one in columns.items()}
-        with_deviations = {
-            joint: float(np.sum((under.fit.joints[joint].whitening @ one[self.base[joint].rows]) ** 2))
-            for joint, one in part.items()
-        }
-        most = sorted(with_deviations, key=lambda joint: -with_deviations[joint])[:TELLING]
-        return score_onsets(under.fit, self.base, {joint: part[joint] for joint in most}, starts)
+    @property
+    def _latest_cache(self) -> CandidateCache | None:
+        """Give the cache, or the earlier one where nothing was scanned here: then none is made."""
+        return self.__dict__.get("cache", self.earlier)
 
     @property
     def kinds(self) -> int:
-        """Count the pairs of cause and site that are suspected."""
-        return max(len({one.key for one in self.candidates}), 1)
+        """Count the pairs of cause and site among the candidates."""
+        return max(len({candidate.key for candidate in self.candidates}), 1)
 
     def columns(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """Give the candidates' filtered columns, computing those that are new."""
-        return self._columns(candidates, self._now)
+        return self._columns(candidates, self.at)
 
-    def _columns(self, candidates: Sequence[Candidate], suspicion: Candidates) -> list[Columns]:
-        known = (self._lasting, suspicion.columns)
-        new = [one for one in candidates if not any(one.place in kept for kept in known)]
-        terms = [
-            one.cause.term(self.dataset, suspicion.operating_point, one.site, one.scalars) for one in new
-        ]
-        for one, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
-            known[hasattr(term, "believed")][one.place] = columns
-        return [next(kept[one.place] for kept in known if one.place in kept) for one in candidates]
+    def _columns(self, candidates: Sequence[Candidate], at: Candidates) -> list[Columns]:
+        known = (self._fixed_columns, at.columns)
+        new = [each for each in candidates if not any(each.place in kept for kept in known)]
+        terms = [each.cause.term(self.dataset, at.operating_point, each.site, each.scalars) for each in new]
+        for candidate, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
+            known[hasattr(term, "believed")][candidate.place] = columns
+        return [next(kept[each.place] for kept in known if each.place in kept) for each in candidates]
 
-    def tried(self, members: tuple[Candidate, ...], start: Hypothesis | None = None) -> Hypothesis:
-        """Fit a hypothesis, learning its noise anew, from where another's fit left it if one is given.
+    def _without_lasting_causes(self, found: Hypothesis) -> Dataset:
+        """Take from the torque what a hypothesis's members explain of it, all but transient ones."""
+        torque = self.dataset.torque.copy()
+        for index, columns in enumerate(self.columns(found.members)):
+            if not found.members[index].cause.traits.transient:
+                for joint, own in columns.items():
+                    torque[:, joint] -= own @ found.fit.values[found.columns_of(index)]
+        return replace(self.dataset, torque=torque)
 
-        Noise that has learned a large effect can lead to where nature does not allow it; then all noise is
-        learned from the beginning.
+    def score(self, under: Hypothesis, candidates: Sequence[Candidate]) -> list[Score]:
+        """Score candidates on top of a hypothesis."""
+        return score(under.fit, self.rows.fitted, self.columns(candidates))
+
+    def score_onsets(
+        self, under: Hypothesis, candidate: Candidate, some: slice, starts: Indices
+    ) -> list[Score]:
+        """Score some columns of a candidate that act from one of many rows on.
+
+        Only the joints on which they are largest are used.
         """
-        columns = self.columns(members)
-        rows = extended(self.base, columns)
-        if start is not None:
-            found = self._hypothesis(members, columns, refit(rows, start.fit, self.base[0].columns.shape[1]))
-            if found.possible or start.members == members:
-                return found
-        return self._hypothesis(members, columns, fit(rows, prior=self.prior, ordinary=self._ordinary))
+        (columns,) = self.columns([candidate])
+        part = {joint: own[:, some] for joint, own in columns.items()}
+        size = {
+            joint: float(np.sum((under.fit.joints[joint].whitening @ own[self.rows.fitted[joint].rows]) ** 2))
+            for joint, own in part.items()
+        }
+        largest = sorted(size, key=lambda joint: -size[joint])[:ONSET_JOINTS]
+        return score_onsets(under.fit, self.rows.fitted, {joint: part[joint] for joint in largest}, starts)
 
-    def less(self, now: Hypothesis) -> tuple[Hypothesis, ...]:
-        """Fit a hypothesis without each of its members in turn; kept until another's are asked for."""
-        kept = self._now.less
-        if now not in kept:
-            kept.clear()
-            rest = ((*now.members[:one], *now.members[one + 1 :]) for one in range(len(now.members)))
-            kept[now] = tuple(self.tried(members, now) for members in rest)
-            self._now.trials.update({one: {} for one in kept[now]})
-        return kept[now]
-
-    def added(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
-        """Fit a hypothesis with one more member, learning its noise anew where the member acts.
-
-        Where it leaves the others what nature does not allow, all noise is learned from the beginning (see
-        `tried`). Where nature does not allow the new one itself, other noise hardly ever mends that.
-        """
-        members = (*start.members, candidate)
-        columns = self.columns(members)
-        rows = extended(self.base, columns)
-        kept, touched = len(start.fit.values), frozenset(columns[-1])
-        found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
-        if found.possible or not candidate.cause.admissible(found.solved(len(start.members))):
-            return found
-        return self.tried(members)
-
-    def beneath(self, trial: Hypothesis, index: int) -> Hypothesis:
-        """Fit a hypothesis without one member, at the noise that it has with it.
-
-        Scalars are settled on top of this: noise that has learned the effect hardly cares what they are.
-        """
-        members = (*trial.members[:index], *trial.members[index + 1 :])
-        kept = trial.columns_of(index).start
-        columns = self.columns(members)
-        found = refit(extended(self.base, columns), trial.fit, kept, rounds=0)
-        return self._hypothesis(members, columns, found)
-
-    def _hypothesis(
-        self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit
-    ) -> Hypothesis:
-        return Hypothesis(
-            members,
-            found,
-            tuple(next(iter(one.values())).shape[1] for one in columns),
-            self.base[0].columns.shape[1],
-        )
-
-    def scanned(
-        self, under: Hypothesis, candidates: Sequence[Candidate] | None = None
-    ) -> list[ScoredCandidate]:
+    def scan(self, under: Hypothesis, candidates: Sequence[Candidate] | None = None) -> list[ScoredCandidate]:
         """Score candidates (all by default) on top of a hypothesis; the best scalars of each kind only.
 
-        Scalars at which nature allows what is found go before those at which it does not. What all of them
-        score is kept as long as the hypothesis and the belief are.
+        Scalars at which the result is admissible go before those at which it is not.
         """
         if candidates is not None:
-            return best_of_kinds(candidates, self.scored(under, candidates))
-        scans = self._now.scans
+            return best_of_kinds(candidates, self.score(under, candidates))
+        scans = self.at.scans
         if under not in scans:
             scans[under] = self._scan(under)
         return scans[under]
 
     def _scan(self, under: Hypothesis) -> list[ScoredCandidate]:
-        """Score everything that is suspected, the best anew where columns may be of an earlier belief."""
-        ranking, events = self._ranked_like_now, self._now.events
-        asked = (*ranking.candidates, *events)
-        scores = [*self._panel(ranking).scores(under.fit), *self.scored(under, events)]
+        """Score all candidates, the best again where columns may be of an earlier operating point."""
+        asked = (*self.cache.candidates, *self.at.events)
+        scores = [*self._panel.scores(under.fit), *self.score(under, self.at.events)]
         found = best_of_kinds(asked, scores)
-        if ranking.of(self._now):
+        if self.cache.of(self.at):
             return found
-        again = self.scanned(under, [one.candidate for one in found[:SCORED_ANEW]])
-        return sorted([*again, *found[SCORED_ANEW:]], key=lambda one: one.log_p)
+        again = self.scan(under, [scored.candidate for scored in found[:SCORED_ANEW]])
+        return sorted([*again, *found[SCORED_ANEW:]], key=lambda scored: scored.log_p)
 
-    def _panel(self, ranking: CandidateCache) -> Panel:
-        """Give what scores all that is suspected all along the motion."""
-        if ranking not in self._panels:
-            self._panels[ranking] = Panel(self.base, ranking.columns(self._columns))
-        return self._panels[ranking]
+    @property
+    def _panel(self) -> Panel:
+        """Give what scores all candidates that act all the time."""
+        if self.cache not in self._panels:
+            self._panels[self.cache] = Panel(self.rows.fitted, self.cache.columns(self._columns))
+        return self._panels[self.cache]
+
+    def fit(self, members: tuple[Candidate, ...], start: Hypothesis | None = None) -> Hypothesis:
+        """Fit a hypothesis and its noise, from where another's fit left it if one is given.
+
+        Noise that has absorbed a large effect can lead to an inadmissible result; then all noise is estimated
+        from the beginning.
+        """
+        columns = self.columns(members)
+        rows = extended(self.rows.fitted, columns)
+        if start is not None:
+            found = self._hypothesis(members, columns, refit(rows, start.fit, self._base_columns))
+            if found.possible or start.members == members:
+                return found
+        return self._hypothesis(members, columns, fit(rows, prior=self.prior, ordinary=self.ordinary_noise))
+
+    def fit_without_each(self, now: Hypothesis) -> tuple[Hypothesis, ...]:
+        """Fit a hypothesis without each of its members in turn; kept until another's are asked for."""
+        kept = self.at.less
+        if now not in kept:
+            kept.clear()
+            rest = ((*now.members[:place], *now.members[place + 1 :]) for place in range(len(now.members)))
+            kept[now] = tuple(self.fit(members, now) for members in rest)
+            self.at.trials.update({smaller: {} for smaller in kept[now]})
+        return kept[now]
+
+    def fit_with(self, start: Hypothesis, candidate: Candidate) -> Hypothesis:
+        """Fit a hypothesis with one more member, and the noise anew where the member acts.
+
+        Where it makes the others inadmissible, all noise is estimated from the beginning (see `fit`). Where
+        the new one itself is inadmissible, other noise hardly ever changes that.
+        """
+        members = (*start.members, candidate)
+        columns = self.columns(members)
+        rows = extended(self.rows.fitted, columns)
+        kept, touched = len(start.fit.values), frozenset(columns[-1])
+        found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
+        if found.possible or not candidate.cause.admissible(found.solved(len(start.members))):
+            return found
+        return self.fit(members)
+
+    def fit_beneath(self, trial: Hypothesis, index: int) -> Hypothesis:
+        """Fit a hypothesis without one member, at the noise that it has with it.
+
+        Scalars are refined on top of this: noise that has absorbed the effect hardly depends on them.
+        """
+        members = (*trial.members[:index], *trial.members[index + 1 :])
+        kept = trial.columns_of(index).start
+        columns = self.columns(members)
+        return self._hypothesis(
+            members, columns, refit(extended(self.rows.fitted, columns), trial.fit, kept, rounds=0)
+        )
+
+    @property
+    def _base_columns(self) -> int:
+        return int(self.rows.fitted[0].columns.shape[1])
+
+    def _hypothesis(
+        self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit
+    ) -> Hypothesis:
+        widths = tuple(next(iter(own.values())).shape[1] for own in columns)
+        return Hypothesis(members, found, widths, self._base_columns)
 
     def needs_ordinary_noise(self, under: Hypothesis) -> bool:
         """Tell whether a hypothesis leaves some joint's noise much more than an ordinary fit would.
 
-        Never where noise is learned from ordinary fits already.
+        Never where noise is estimated from ordinary residuals already.
         """
-        rows = extended(self.base, self.columns(under.members))
-        return not self._ordinary and noise_absorbs_effect(rows, under.fit)
+        rows = extended(self.rows.fitted, self.columns(under.members))
+        return not self.ordinary_noise and noise_absorbs_effect(rows, under.fit)
 
-    def with_ordinary_noise(self) -> "HypothesisFitter":
-        """Give a bench of the same rows with ordinary noise; what ranked candidates may rank them still."""
-        other = copy(self)
-        other._ordinary = True  # noqa: SLF001 - of the same class
-        other._now = no_candidates(self.dataset, self.plan.model)  # noqa: SLF001 - of the same class
-        return other
 
-    def with_look(self, dataset: Dataset) -> "HypothesisFitter":
-        """Give a bench of a look that holds other rows out; what ranked candidates may rank them still."""
-        other = HypothesisFitter(dataset, self.plan, self.causes, self.prior)
-        other._lasting, other._ranking = self._lasting, self._ranking
-        return other
-
-    def residual(self, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
-        """Give measured minus predicted torque at all rows, stuck friction taken out, N m or N.
-
-        Parameters
-        ----------
-        without
-            Places of members whose torque is left out of the prediction, all else kept as it is.
-        """
-        rows = extended(self.everywhere, self.columns(under.members))
-        values = under.fit.values.copy()
-        for place in without:
-            values[under.columns_of(place)] = 0.0
-        return np.column_stack([one.missed(values) for one in rows])
-
-    def at_rest(self, under: Hypothesis) -> JointVector:
-        """Give, per joint, the share of the residual's mean square that friction at rest accounts for.
-
-        As far as it is more than any columns as many would take; not a number where a joint hardly moves.
-        """
-        shares = []
-        for part in extended(self.everywhere, self.columns(under.members)):
-            count, taken = len(part.torque), part.free.count
-            whole = part.torque - part.columns @ under.fit.values
-            left = part.missed(under.fit.values)
-            ratio = float(left @ left) / max(float(whole @ whole), 1e-300)
-            moves = taken < MOST_AT_REST * count
-            shares.append(max(1.0 - ratio * count / (count - taken), 0.0) if moves else np.nan)
-        return np.array(shares)
+def hypothesis_fitter(
+    dataset: Dataset, plan: ColumnPlan, causes: Sequence[Cause], prior: GaussianPrior | None = None
+) -> HypothesisFitter:
+    """Prepare the rows of a data set, with no operating point and no candidates yet."""
+    columns = dataset.observed(plan)
+    usable, held_out = dataset.usable, dataset.held_out[:, None]
+    rows = FitRows(
+        rows_of_joints(dataset, columns, usable & ~held_out),
+        rows_of_joints(dataset, columns, usable & held_out),
+        rows_of_joints(dataset, columns, np.ones_like(usable)),
+    )
+    return HypothesisFitter(dataset, rows, plan, tuple(causes), prior, no_candidates(dataset, plan.model))

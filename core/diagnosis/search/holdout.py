@@ -20,14 +20,14 @@ def holdout_likelihood_ratio(
     from it counts like rows, in proportion to those that are held out.
     """
     share = holdout_share(fitter, trial, index) if fitter.prior else 0.0
-    return _rise_at(fitter, fitter.holdout, now, trial, share)
+    return _rise_at(fitter, fitter.rows.held_out, now, trial, share)
 
 
 def expected_holdout_likelihood_ratio(
     fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int
 ) -> float:
     """Give what `holdout_likelihood_ratio` would be if a member did there what it does on the fitted rows."""
-    return holdout_share(fitter, trial, index) * _rise_at(fitter, fitter.base, now, trial, 1.0)
+    return holdout_share(fitter, trial, index) * _rise_at(fitter, fitter.rows.fitted, now, trial, 1.0)
 
 
 def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) -> float:
@@ -35,7 +35,7 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
     columns = fitter.columns(trial.members)[index]
     values = trial.fit.values[trial.columns_of(index % len(trial.members))]
     squares = []
-    for part in (fitter.holdout, fitter.base):
+    for part in (fitter.rows.held_out, fitter.rows.fitted):
         total = 0.0
         for joint, one in columns.items():
             torque = (one[part[joint].rows] @ values)[:, None]

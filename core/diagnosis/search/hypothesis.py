@@ -14,7 +14,7 @@ from ..causes.protocol import Cause, FittedCause, Scalars, Site
 from ..regression.gls import OPEN_SHARE, Fit
 from ..regression.score_test import Score
 
-Place = tuple[str, Site, tuple[tuple[str, float], ...]]
+ColumnKey = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: what columns are kept under."""
 
 
@@ -49,7 +49,7 @@ class Candidate:
         return len(set(self.scalars) - set(self.cause.traits.self_consistent))
 
     @cached_property
-    def place(self) -> Place:
+    def place(self) -> ColumnKey:
         """Name it with its scalars."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
 
@@ -111,7 +111,7 @@ class Hypothesis:
                 covariance += np.outer(slope, slope) * member.deviations[name] ** 2
         return FittedCause(member.site, values, covariance, member.scalars, dict(member.deviations))
 
-    def with_deviations(self, index: int, robot: RobotModel) -> FittedCause:
+    def in_joint_units(self, index: int, robot: RobotModel) -> FittedCause:
         """Give what was found for a member as a reader is told it: in the units of its joint."""
         found = self.solved(index)
         return replace(found, slides=bool(found.site) and slides(robot, found.site[0]))

@@ -1,8 +1,8 @@
-"""Settle a hypothesis: what is believed, the scalars of all members, and their sizes, each on the others.
+"""Refine a hypothesis: operating point, scalars of all members and their sizes, by block coordinate descent.
 
-A cause that joins changes what the others look like: the torque at which another joint's amplifier clips is
-another one once a scale is known to be wrong, and a lag moves an elasticity found beside it, and is moved by
-it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on settling nonlinear parameters by turns.
+A cause that enters changes the others: the torque at which another joint's amplifier saturates is another
+one once a torque gain is known to be wrong, and a lag moves a joint elasticity found beside it, and is moved
+by it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on refining nonlinear parameters by turns.
 """
 
 from dataclasses import replace
@@ -11,60 +11,59 @@ from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import likelihood_ratio
 from .profile_likelihood import refine_scalars, with_deviations
+from .state import SearchState
 
 REFINEMENTS = 8
-"""Times that what is believed and what is found are settled on each other at most,"""
+"""Times that operating point and members are refined at most,"""
 WORTH_REFINING = 6.0
 """as long as that raises twice the log-likelihood by as much."""
 KEPT = 0.5
-"""Share of what an effect brings that has to be left of it where it is believed."""
+"""Share of an effect's likelihood ratio statistic that has to remain where the model is linearised at it."""
 
 
-def refine_jointly(fitter: HypothesisFitter, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found and settle it under that, again and again as long as that helps.
+def refine_jointly(state: SearchState) -> SearchState:
+    """Linearise at the chosen hypothesis and refine it there, again and again as long as that helps.
 
-    Columns are of first order, and what is believed may be wrong in what the rows do not tell: where
-    believing an effect makes it larger than nature allows, or takes most of what it brings, it is left alone.
+    Columns are of first order, and the operating point may be wrong in what the rows do not determine. Where
+    linearising at an effect makes it inadmissible, or takes most of what it brings, only the last member's
+    scalars are refined, at the operating point as it is.
     """
-    believe_first = fitter.remembered()
-    now = _settled_once(fitter, better)
-    impossible, believe_now = better.possible and not now.allows(-1), fitter.remembered()
-    believe_first()
-    if impossible or _costs_too_much(fitter, better, now):
-        return _with_settled(fitter, better, len(better.members) - 1)
-    believe_now()
+    chosen = state.chosen
+    now = _refined_once(state)
+    inadmissible = chosen.possible and not now.chosen.allows(-1)
+    if inadmissible or _costs_too_much(state.fitter, chosen, now.chosen):
+        return state.at(state.fitter, _with_refined(state.fitter, chosen, len(chosen.members) - 1))
     for _ in range(REFINEMENTS - 1):
-        believe_before = fitter.remembered()
-        again = _settled_once(fitter, now)
-        if likelihood_ratio(now, again) < WORTH_REFINING or (now.possible and not again.possible):
-            believe_before()
+        again = _refined_once(now)
+        gained = likelihood_ratio(now.chosen, again.chosen)
+        if gained < WORTH_REFINING or (now.chosen.possible and not again.chosen.possible):
             break
         now = again
     return now
 
 
-def _costs_too_much(fitter: HypothesisFitter, better: Hypothesis, now: Hypothesis) -> bool:
-    """Tell whether most of what a hypothesis's last member brings is lost where it is believed."""
-    if likelihood_ratio(better, now) > -WORTH_REFINING:
+def _costs_too_much(fitter: HypothesisFitter, before: Hypothesis, after: Hypothesis) -> bool:
+    """Tell whether linearising at a hypothesis loses most of what its last member brings."""
+    if likelihood_ratio(before, after) > -WORTH_REFINING:
         return False
-    without = fitter.tried(better.members[:-1], better)
-    return likelihood_ratio(without, now) < KEPT * likelihood_ratio(without, better)
+    without = fitter.fit(before.members[:-1], before)
+    return likelihood_ratio(without, after) < KEPT * likelihood_ratio(without, before)
 
 
-def _settled_once(fitter: HypothesisFitter, better: Hypothesis) -> Hypothesis:
-    """Believe what a hypothesis found, and settle all scalars anew under that, the last member's first."""
-    fitter.believe(better)
-    now, last = fitter.tried(better.members, better), len(better.members) - 1
+def _refined_once(state: SearchState) -> SearchState:
+    """Linearise at the chosen hypothesis, and refine all members' scalars there, the last one's first."""
+    fitter = state.fitter.linearised_at(state.chosen)
+    now, last = fitter.fit(state.chosen.members, state.chosen), len(state.chosen.members) - 1
     for index in (last, *range(last)):
-        now = _with_settled(fitter, now, index)
-    return now
+        now = _with_refined(fitter, now, index)
+    return state.at(fitter, now)
 
 
-def _with_settled(fitter: HypothesisFitter, now: Hypothesis, index: int) -> Hypothesis:
-    """Settle one member; where nature would not allow that, leave it and tell how well it is known."""
-    member, beneath = now.members[index], fitter.beneath(now, index)
-    found = fitter.scanned(beneath, [*fitter.suspicion.of(member.cause, member.site), member])[0]
-    moved = fitter.tried(_put(now.members, index, refine_scalars(fitter, beneath, found.candidate)), now)
+def _with_refined(fitter: HypothesisFitter, now: Hypothesis, index: int) -> Hypothesis:
+    """Refine one member; where that would be inadmissible, leave it and only give its deviations."""
+    member, beneath = now.members[index], fitter.fit_beneath(now, index)
+    found = fitter.scan(beneath, [*fitter.at.of(member.cause, member.site), member])[0]
+    moved = fitter.fit(_put(now.members, index, refine_scalars(fitter, beneath, found.candidate)), now)
     if moved.possible or not now.possible:
         return moved
     return replace(now, members=_put(now.members, index, with_deviations(fitter, beneath, member)))

@@ -25,7 +25,7 @@ def predicted_likelihood_ratios(
     fitter: HypothesisFitter, now: Hypothesis, scans: Sequence[ScoredCandidate]
 ) -> list[float]:
     """Give by how much each candidate of a scan may raise twice the log-likelihood."""
-    rows = extended(fitter.base, fitter.columns(now.members))
+    rows = extended(fitter.rows.fitted, fitter.columns(now.members))
     columns = fitter.columns([one.candidate for one in scans])
     effects = (
         {joint: own[rows[joint].rows] @ one.values for joint, own in kind.items()}

@@ -56,7 +56,7 @@ def with_deviations(fitter: HypothesisFitter, under: Hypothesis, candidate: Cand
         if name not in (*candidate.cause.traits.self_consistent, *candidate.cause.traits.discrete):
             points, _ = _grid(fitter, candidate, name)
             trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
-            found = fitter.scored(under, trials)
+            found = fitter.score(under, trials)
             seen = {trial.scalars[name]: one.statistic for trial, one in zip(trials, found, strict=True)}
             candidate = _told(fitter, under, candidate, name, seen)
     return candidate
@@ -67,7 +67,7 @@ def _yielding(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate,
 
     @cache
     def off(size: float) -> float:
-        (found,) = fitter.scored(under, [_at(candidate, name, size)])
+        (found,) = fitter.score(under, [_at(candidate, name, size)])
         return float(found.values[0]) - size
 
     here = candidate.scalars[name]
@@ -93,7 +93,7 @@ def _refined(
     for _ in range(2):
         values = between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
-        found = fitter.scored(under, trials)
+        found = fitter.score(under, trials)
         ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
         best = ranks.index(max(ranks))
         here = trials[best].scalars[name]
@@ -108,18 +108,18 @@ def _begun(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, na
     The likelihood of an instant has narrow peaks: under noise that remembers for long a step shows where it
     is, and hardly later. No grid that is scanned with all else is as fine.
     """
-    (alone,) = fitter.scored(under, [candidate])
+    (alone,) = fitter.score(under, [candidate])
     if log_chi2_tail(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
         return candidate
     time, rows = fitter.dataset.time, np.arange(1, len(fitter.dataset.time))
     throughout, some = _at(candidate, name, -np.inf), candidate.cause.traits.onset[name]
-    worth = np.array([one.statistic for one in fitter.scored_from(under, throughout, some, rows)])
+    worth = np.array([one.statistic for one in fitter.score_onsets(under, throughout, some, rows)])
     peaks: list[int] = []
     for place in np.argsort(-worth, kind="stable"):
         if len(peaks) < LIKELY and all(abs(time[rows[place]] - time[rows[one]]) > APART for one in peaks):
             peaks.append(int(place))
     trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
-    found = fitter.scored(under, trials)
+    found = fitter.score(under, trials)
     ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
     return trials[ranks.index(max(ranks))]
 
@@ -149,7 +149,7 @@ def _farther(
 ) -> dict[float, float]:
     """Give what a settled instant and others before and after it are worth."""
     values = (candidate.scalars[name] + AROUND).tolist()
-    found = fitter.scored(under, [_at(candidate, name, value) for value in values])
+    found = fitter.score(under, [_at(candidate, name, value) for value in values])
     return {value: one.statistic for value, one in zip(values, found, strict=True)}
 
 
@@ -162,7 +162,7 @@ def _grid(
     """
     here = candidate.scalars[name]
     # What is believed may have changed since it was chosen, and the grid with it.
-    scanned = [one.scalars.get(name, here) for one in fitter.suspicion.of(candidate.cause, candidate.site)]
+    scanned = [one.scalars.get(name, here) for one in fitter.at.of(candidate.cause, candidate.site)]
     points = sorted({*scanned} or {here})
     return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 
@@ -192,7 +192,7 @@ def _beside(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, step: float
 ) -> list[Score]:
     here = candidate.scalars[name]
-    return fitter.scored(under, [_at(candidate, name, here + shift) for shift in (-step, 0.0, step)])
+    return fitter.score(under, [_at(candidate, name, here + shift) for shift in (-step, 0.0, step)])
 
 
 def _at(candidate: Candidate, name: str, value: float) -> Candidate:

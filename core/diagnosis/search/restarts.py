@@ -1,67 +1,73 @@
-"""Ask whether one cause that acts on the whole robot stands behind several that were found joint by joint.
+"""Restart a search where its greedy order may have led to a local optimum.
 
 A search adds one cause at a time. Where every torque is late, the first joint's share of that may pass for a
-spring and the next one's for bristles, until nothing is left for the delay to explain; no single swap leads
-back. So the search is made again from the whole robot's cause, until it comes to where the first one went on
-from, and the better of the two ends is kept.
+joint elasticity and the next one's for presliding, until nothing is left for the delay to explain; no single
+swap leads back. So the search starts again from the cause of the whole robot, until it comes to a set of
+causes that the first one came through, and the better of the two ends is kept.
 Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 """
 
 import numpy as np
 
 from ..causes.masking import excludes, masks
-from ..checks.alternatives import UNDECIDED
-from .fitter import HypothesisFitter
+from ..thresholds import UNDECIDED
 from .hypothesis import Hypothesis
 from .joint_refinement import WORTH_REFINING
 from .likelihood_ratio import likelihood_ratio
-from .stepwise import Selection, Step, continue_search, start_with
+from .state import SearchState
+from .stepwise import continue_search, start_with
 
 SEVERAL = 2
-"""Findings that may be one."""
+"""Findings that may have one common cause."""
 
 
-def restart_from_common_cause(fitter: HypothesisFitter, found: Selection) -> Selection:
-    """Give the better of what was found and what a search finds that begins with one cause for several."""
-    best, members, believe_best = found, found.chosen.members, fitter.remembered()
-    for cause in fitter.causes:
-        several = [one for one in members if one.cause.id in masks(cause.id)]
-        if len(several) < SEVERAL or cause.id in {one.cause.id for one in members}:
+def restart_from_common_cause(found: SearchState) -> SearchState:
+    """Give the better of a search and its restarts from one cause of the whole robot in place of several."""
+    best = found
+    for cause in found.fitter.causes:
+        several = [member for member in found.chosen.members if member.cause.id in masks(cause.id)]
+        if len(several) < SEVERAL or cause.id in {member.cause.id for member in found.chosen.members}:
             continue
-        fitter.believe(found.chosen)
-        gone = {*masks(cause.id), *excludes(cause.id)}
-        without = fitter.tried(tuple(one for one in members if one.cause.id not in gone))
-        start = start_with(fitter, without, cause.id)
+        start = _started_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
         if start is None:
             continue
-        steps = (*found.steps, Step("swapped", start.members[-1], likelihood_ratio(without, start)))
-        other = continue_search(fitter, Selection(found.none, start, steps), {}, known=found.through)
-        met = other.chosen is not start and frozenset(other.chosen.by_key) in found.through
+        other = continue_search(start, known=found.through)
+        met = other.chosen is not start.chosen and other.keys in found.through
         if not met and bic(other.chosen) > bic(best.chosen) + UNDECIDED:
-            best, believe_best = other, fitter.remembered()
-    believe_best()
+            best = other
     return best
 
 
-def restart_at_operating_point(fitter: HypothesisFitter, found: Selection) -> Selection:
-    """Search on from what was found where it explains much less once it is believed, and keep the better end.
+def _started_from(found: SearchState, cause: str, replaced: set[str]) -> SearchState | None:
+    """Put one cause of the whole robot in the place of others; None where it is not significant."""
+    fitter = found.fitter.linearised_at(found.chosen)
+    kept = tuple(member for member in found.chosen.members if member.cause.id not in replaced)
+    without = fitter.fit(kept)
+    before = SearchState(fitter, found.none, without, found.steps)
+    start = start_with(before, cause)
+    if start is None:
+        return None
+    return start.recorded("swapped", start.chosen.members[-1], likelihood_ratio(without, start.chosen))
 
-    Columns that were built while something else was believed may explain what they should leave to a cause
-    that then is never seen.
+
+def restart_at_operating_point(found: SearchState) -> SearchState:
+    """Search on from a hypothesis that explains much less where it is linearised at, and keep the better end.
+
+    Columns that were linearised elsewhere may explain what they should leave to another cause.
     """
-    believe_before = fitter.remembered()
-    fitter.believe(found.chosen)
-    now = fitter.tried(found.chosen.members, found.chosen)
+    fitter = found.fitter.linearised_at(found.chosen)
+    now = fitter.fit(found.chosen.members, found.chosen)
     if likelihood_ratio(found.chosen, now) < -WORTH_REFINING:
-        other = continue_search(fitter, Selection(found.none, now, found.steps), {})
+        other = continue_search(SearchState(fitter, found.none, now, found.steps))
         if bic(other.chosen) > bic(found.chosen) + UNDECIDED:
             return other
-    believe_before()
     return found
 
 
 def bic(hypothesis: Hypothesis) -> float:
-    """Give twice the log-likelihood less what as many parameters would gain by themselves (Bayesian)."""
-    rows = max(len(one.torque) for one in hypothesis.fit.joints)
-    freedom = sum(hypothesis.freedom(index) + one.searched for index, one in enumerate(hypothesis.members))
+    """Give twice the log-likelihood less the Bayesian information criterion's penalty."""
+    rows = max(len(joint.torque) for joint in hypothesis.fit.joints)
+    freedom = sum(
+        hypothesis.freedom(index) + member.searched for index, member in enumerate(hypothesis.members)
+    )
     return 2.0 * hypothesis.fit.log_likelihood - freedom * float(np.log(rows))

@@ -1,181 +1,157 @@
-"""Choose the causes: forward, with backward elimination and swaps, each step judged under its own noise.
+"""Select causes stepwise: forward, with exits and swaps, each step judged under its own noise.
 
-Greedy order is the weak point of forward selection, because the first cause chosen may stand in for two
-others; so after every step each chosen cause has to defend its place against being dropped and against every
-rival. Source: Miller, Subset Selection in Regression (2002), ch. 3.
+Greedy order is the weak point of forward selection, because the first cause chosen may stand for two others.
+So after every step each member is tested for exit and against a swap with every other candidate.
+Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from .confounding import BESIDE_SHARE, is_masked
-from .entry_test import Key, best_entry, is_significant, passes_exit_test, with_candidate
+from .entry_test import best_entry, is_significant, passes_exit_test, with_candidate
 from .fitter import HypothesisFitter
-from .hypothesis import Candidate, Hypothesis
+from .hypothesis import Candidate
 from .joint_refinement import refine_jointly
 from .likelihood_ratio import bic_gain, likelihood_ratio
+from .state import Keys, SearchState, Step
 
-Keys = frozenset[Key]
-"""The kinds of a hypothesis's members."""
-RIVALS, BETTER = 6, 6.0
-"""Candidates fitted where one is to take a member's place, and by how much its criterion has to be better."""
+SWAPS, BETTER = 6, 6.0
+"""Candidates fitted in a member's place, and by how much the criterion of a swap has to be better."""
 MOST = 5
-"""Causes looked for at most."""
-
-
-@dataclass(frozen=True, eq=False)
-class Step:
-    """Record one decision of the search, for the report."""
-
-    action: str
-    candidate: Candidate
-    statistic: float
-
-
-@dataclass(frozen=True, eq=False)
-class Selection:
-    """Hold the hypothesis that was settled on, the empty one, and the way there.
-
-    Attributes
-    ----------
-    steps, through
-        What was decided on the way, and the sets of causes that it came through.
-    """
-
-    none: Hypothesis
-    chosen: Hypothesis
-    steps: tuple[Step, ...]
-    through: frozenset[Keys] = frozenset()
+"""Causes searched for at most."""
 
 
 def search_stepwise(
     fitter: HypothesisFitter, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
-) -> Selection:
-    """Search for the causes that explain the rows, from those that other rows have shown if there are any."""
-    return continue_search(fitter, _begun(fitter, start), {}, progress)
+) -> SearchState:
+    """Search for the causes that explain the rows, from known ones if there are any."""
+    return continue_search(_started(fitter, start), progress)
 
 
 def confirm(
-    fitter: HypothesisFitter, found: Selection, progress: Callable[[float], None] | None = None
-) -> Selection | None:
-    """Search on from what was found under another noise; None where not all of that holds its place."""
+    fitter: HypothesisFitter, found: SearchState, progress: Callable[[float], None] | None = None
+) -> SearchState | None:
+    """Search on from what was found under another noise; None where not all of that stays."""
     if not found.chosen.members:
         return None
-    begun, kept = _begun(fitter, found.chosen.members), frozenset(found.chosen.by_key)
-    if _challenged(fitter, begun.chosen, [], {}) is not None:
+    begun = _started(fitter, found.chosen.members)
+    if _exit_or_swap(begun) is not None:
         return None
-    begun = replace(begun, steps=(*found.steps, *begun.steps), through=frozenset({kept}))
-    more = continue_search(fitter, begun, {}, progress)
-    return more if kept <= more.chosen.by_key.keys() else None
+    begun = replace(begun, steps=(*found.steps, *begun.steps), through=frozenset({found.keys}))
+    more = continue_search(begun, progress)
+    return more if found.keys <= more.keys else None
 
 
 def continue_search(
-    fitter: HypothesisFitter,
-    so_far: Selection,
-    excluded_kinds: dict[Key, float],
+    so_far: SearchState,
     progress: Callable[[float], None] | None = None,
     *,
     known: Collection[Keys] = (),
-) -> Selection:
-    """Search for more causes than those found so far, until no more are found.
+) -> SearchState:
+    """Search for more causes than those found so far, until no more enter.
 
     Parameters
     ----------
     known
         Sets of causes from which another search went on: one that comes to them would go the same way.
     """
-    now, steps, through = so_far.chosen, list(so_far.steps), set(so_far.through)
-    for number in range(len(now.members), MOST):
+    state = so_far
+    for number in range(len(so_far.chosen.members), MOST):
         if progress is not None:
             progress(number / MOST)
-        better = best_entry(fitter, now, excluded_kinds)
+        better = best_entry(state.fitter, state.chosen, state.excluded)
         if better is None:
             break
-        steps.append(Step("added", better.members[-1], likelihood_ratio(now, better)))
-        larger = refine_jointly(fitter, better)
-        if now.members and now.possible and not larger.possible:
-            # Beside it nature would not allow what was found before.
-            steps.append(Step("dropped", better.members[-1], likelihood_ratio(now, better)))
-            excluded_kinds[better.members[-1].key] = np.inf
-            fitter.believe(now)
+        entered, statistic = better.members[-1], likelihood_ratio(state.chosen, better)
+        before = state.recorded("added", entered, statistic)
+        larger = refine_jointly(before.at(state.fitter, better))
+        if before.chosen.members and before.chosen.possible and not larger.chosen.possible:
+            # Beside it what was found before would be inadmissible.
+            before = before.at(state.fitter.linearised_at(before.chosen), before.chosen)
+            state = before.recorded("dropped", entered, statistic).excluding(entered.key)
             continue
-        for now in _defended(fitter, larger, steps, excluded_kinds):
-            through.add(frozenset(now.by_key))
-            if frozenset(now.by_key) in known:
-                return Selection(so_far.none, now, tuple(steps), frozenset(through))
-    return Selection(so_far.none, now, tuple(steps), frozenset(through))
+        through = state.through
+        for changed in _exits_and_swaps(larger):
+            through |= {changed.keys}
+            state = replace(changed, through=through)
+            if state.keys in known:
+                return state
+    return state
 
 
-def _begun(fitter: HypothesisFitter, start: Sequence[Candidate]) -> Selection:
-    """Begin a search with causes that are known; with none, from the standard model."""
-    none = fitter.tried(())
-    fitter.believe(none)
-    now = refine_jointly(fitter, fitter.tried(tuple(start))) if start else none
-    return Selection(none, now, tuple(Step("kept", one, 0.0) for one in start))
+def _started(fitter: HypothesisFitter, start: Sequence[Candidate]) -> SearchState:
+    """Start a search with causes that are known; with none, from the standard model."""
+    none = fitter.fit(())
+    state = SearchState(fitter.linearised_at(none), none, none)
+    if start:
+        state = refine_jointly(state.at(state.fitter, state.fitter.fit(tuple(start))))
+    return replace(state, steps=tuple(Step("kept", candidate, 0.0) for candidate in start))
 
 
-def start_with(fitter: HypothesisFitter, now: Hypothesis, cause: str) -> Hypothesis | None:
-    """Give a hypothesis with one cause of the whole robot besides; None where it is not clear enough."""
-    scans = fitter.scanned(now, fitter.suspicion.of_kind((cause, ())))
-    trials = [with_candidate(fitter, now, one) for one in scans]
-    clear = (one for one in trials if one.possible and is_significant(fitter, now, one, fitter.kinds))
+def start_with(state: SearchState, cause: str) -> SearchState | None:
+    """Add one cause of the whole robot to a hypothesis; None where it is not significant."""
+    fitter, now = state.fitter, state.chosen
+    scans = fitter.scan(now, fitter.at.of_kind((cause, ())))
+    trials = [with_candidate(fitter, now, scored) for scored in scans]
+    clear = (trial for trial in trials if trial.possible and is_significant(fitter, now, trial, fitter.kinds))
     first = next(clear, None)
-    return None if first is None else refine_jointly(fitter, first)
+    return None if first is None else refine_jointly(state.at(fitter, first))
 
 
-def _defended(
-    fitter: HypothesisFitter, now: Hypothesis, steps: list[Step], excluded_kinds: dict[Key, float]
-) -> Iterator[Hypothesis]:
-    """Let every member defend its place against being dropped and against its rivals; give what that leaves.
+def _exits_and_swaps(state: SearchState) -> Iterator[SearchState]:
+    """Test every member for exit and for a swap, and give each state that this leads through.
 
-    Two causes can each look better than the other where the other is believed: a swap that leads back to
-    what was settled before ends the matter.
+    Two causes can each look better than the other where the model is linearised at the other. A swap that
+    leads back to an earlier set of causes ends the matter.
     """
-    yield now
-    settled_before = [now.by_key.keys()]
+    yield state
+    earlier = [state.keys]
     for _ in range(2 * MOST):
-        changed = _challenged(fitter, now, steps, excluded_kinds)
+        changed = _exit_or_swap(state)
         if changed is None:
             return
-        if len(changed.members) == len(now.members):
-            # What was swapped out is not believed any more, even where the new one is left alone.
-            fitter.believe(fitter.tried(changed.members[:-1], changed))
-            now = refine_jointly(fitter, changed)
+        fitter, chosen = state.fitter, changed.chosen
+        if len(chosen.members) == len(state.chosen.members):
+            # The operating point is without what was swapped out, even where the new one is not refined.
+            fitter = fitter.linearised_at(fitter.fit(chosen.members[:-1], chosen))
+            state = refine_jointly(changed.at(fitter, chosen))
         else:
-            fitter.believe(changed)
-            now = fitter.tried(changed.members, changed)
-        yield now
-        if now.by_key.keys() in settled_before:
+            fitter = fitter.linearised_at(chosen)
+            state = changed.at(fitter, fitter.fit(chosen.members, chosen))
+        yield state
+        if state.keys in earlier:
             return
-        settled_before.append(now.by_key.keys())
+        earlier.append(state.keys)
 
 
-def _challenged(
-    fitter: HypothesisFitter, now: Hypothesis, steps: list[Step], excluded_kinds: dict[Key, float]
-) -> Hypothesis | None:
-    less = fitter.less(now)
-    brings = [likelihood_ratio(without, now) for without in less]
+def _exit_or_swap(state: SearchState) -> SearchState | None:
+    """Give the state after one exit or one swap, not yet refined; None where all members stay."""
+    fitter, now = state.fitter, state.chosen
+    smaller = fitter.fit_without_each(now)
+    brings = [likelihood_ratio(without, now) for without in smaller]
     weak = [
         index
-        for index, without in enumerate(less)
+        for index, without in enumerate(smaller)
         if not passes_exit_test(fitter, without, now, index) or is_masked(fitter, now, index, without)
     ]
     if weak:
         least = min(weak, key=lambda index: brings[index])
-        steps.append(Step("dropped", now.members[least], brings[least]))
-        excluded_kinds[now.members[least].key] = np.inf
-        return less[least]
+        member = now.members[least]
+        return (
+            state.at(fitter, smaller[least]).recorded("dropped", member, brings[least]).excluding(member.key)
+        )
     for index, member in enumerate(now.members):
-        closed = {**excluded_kinds, member.key: np.inf}
+        closed = {**state.excluded, member.key: np.inf}
         if not member.cause.traits.transient:
-            # What acts at picked instants only does not take the place of what acts all the time.
-            closed |= {one.key: np.inf for one in fitter.candidates if one.cause.traits.transient}
-        hurdle = bic_gain(less[index], now, index) + BETTER
-        rival = best_entry(fitter, less[index], closed, RIVALS, hurdle)
-        if rival is not None:
-            steps.append(Step("swapped", rival.members[-1], likelihood_ratio(now, rival)))
-            excluded_kinds[member.key] = BESIDE_SHARE * brings[index]
-            return rival
+            # A transient cause does not take the place of one that acts all the time.
+            closed |= {other.key: np.inf for other in fitter.candidates if other.cause.traits.transient}
+        hurdle = bic_gain(smaller[index], now, index) + BETTER
+        swapped = best_entry(fitter, smaller[index], closed, SWAPS, hurdle)
+        if swapped is not None:
+            after = state.at(fitter, swapped)
+            after = after.recorded("swapped", swapped.members[-1], likelihood_ratio(now, swapped))
+            return after.excluding(member.key, BESIDE_SHARE * brings[index])
     return None

@@ -99,7 +99,5 @@ def candidate(cause: Cause, scalars: Scalars | None = None) -> Candidate:
 
 
 def nothing_found(fitter: HypothesisFitter) -> Hypothesis:
-    """Fit the model alone, and believe what it finds."""
-    none = fitter.tried(())
-    fitter.believe(none)
-    return none
+    """Fit the model alone."""
+    return fitter.fit(())

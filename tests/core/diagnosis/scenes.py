@@ -12,7 +12,7 @@ from tests.core.estimate.worlds import true_parameters
 from tests.tools import Motion, pinocchio_torque, random_bodies
 from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, Site
 from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
-from veritorque.core.diagnosis.search.fitter import HypothesisFitter
+from veritorque.core.diagnosis.search.fitter import HypothesisFitter, hypothesis_fitter
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.estimate.gaussian_prior import GaussianPrior
@@ -150,8 +150,13 @@ def look_at_arm(position: np.ndarray, torque: np.ndarray) -> Scene:
     return Scene(dataset, Prediction(model, truth))
 
 
-def bench_of(scene: Scene, causes: Sequence[Cause], prior: GaussianPrior | None = None) -> HypothesisFitter:
-    """Put a scene, what is suspected and what is believed beforehand on a bench."""
+def fitter_of(scene: Scene, causes: Sequence[Cause], prior: GaussianPrior | None = None) -> HypothesisFitter:
+    """Give the fitter of a scene with its candidate causes, linearised at the model alone."""
     model = scene.operating_point.model
     plan = ColumnPlan(model, base_model(model).kept)
-    return HypothesisFitter(scene.dataset, plan, causes, prior)
+    return linearised(hypothesis_fitter(scene.dataset, plan, causes, prior))
+
+
+def linearised(fitter: HypothesisFitter) -> HypothesisFitter:
+    """Linearise at the model alone."""
+    return fitter.linearised_at(fitter.fit(()))

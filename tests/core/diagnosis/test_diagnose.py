@@ -83,7 +83,7 @@ def test_other_blocks_are_held_out_from_the_search_where_one_of_them_hides_what_
     found, asked_for = diagnosed(sprung_and_jerked_where_held_out), asked(measured_arm()).held_out
     assert found.dataset.held_out_blocks.isdisjoint(asked_for)
     assert len(found.dataset.held_out_blocks) == len(asked_for)
-    assert {step.action for step in found.selection.steps} == {"added"}
+    assert {step.action for step in found.steps} == {"added"}
 
 
 def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.core.diagnosis.scenes import Scene, bench_of, eventful_scene, measured_arm
+from tests.core.diagnosis.scenes import Scene, eventful_scene, fitter_of, measured_arm
 from veritorque.core.diagnosis.causes.protocol import Cause
 from veritorque.core.diagnosis.causes.registry import CAUSES
 from veritorque.core.diagnosis.regression.gls import Fit
@@ -19,7 +19,7 @@ def with_garbage(scene: Scene) -> Scene:
 
 
 def fitted(scene: Scene) -> Fit:
-    return bench_of(scene, ()).tried(()).fit
+    return fitter_of(scene, ()).tried(()).fit
 
 
 def test_some_rows_are_held_out():

@@ -118,13 +118,13 @@ def test_a_noise_model_that_was_learned_with_the_effect_in_it_is_seen(monkeypatc
 def test_a_fit_that_sees_what_is_held_out_is_seen(monkeypatch):
     law = test_held_out.test_a_fit_does_not_see_what_is_held_out
     law()
-    honest = test_held_out.bench_of
+    honest = test_held_out.fitter_of
 
     def all_rows(scene, causes):
         seen = replace(scene.dataset, held_out=np.zeros_like(scene.dataset.held_out))
         return honest(replace(scene, dataset=seen), causes)
 
-    monkeypatch.setattr(test_held_out, "bench_of", all_rows)
+    monkeypatch.setattr(test_held_out, "fitter_of", all_rows)
     with pytest.raises(AssertionError):
         law()
 
@@ -143,6 +143,6 @@ def test_a_search_that_never_looks_back_is_seen(monkeypatch):
     law = test_stepwise.test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found
     law()
     monkeypatch.setattr(test_stepwise, "misled", test_stepwise.misled.__wrapped__)
-    monkeypatch.setattr(selection, "_defended", lambda fitter, now, *rest: [now])
+    monkeypatch.setattr(selection, "_exits_and_swaps", lambda state: [state])
     with pytest.raises(AssertionError):
         law()

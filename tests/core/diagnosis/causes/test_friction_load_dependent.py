@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import nothing_found
-from tests.core.diagnosis.scenes import bench_of, measured_arm, skew_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
@@ -50,7 +50,7 @@ def test_a_rotor_is_never_heavier_than_all_that_turns():
 
 
 def test_a_rotor_that_was_searched_for_once_is_settled_where_no_grid_has_it_any_more():
-    fitter = bench_of(measured_arm(), (FrictionLoadDependent(),))
+    fitter = fitter_of(measured_arm(), (FrictionLoadDependent(),))
     none = nothing_found(fitter)
     found = refine_scalars(
         fitter, none, Candidate(FrictionLoadDependent(), (3,), {"motor_inertia": 0.1}, 1.0)

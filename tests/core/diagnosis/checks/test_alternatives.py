@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.masking import MASKED_BY, Masking
 from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
-from veritorque.core.diagnosis.search.stepwise import Selection
+from veritorque.core.diagnosis.search.state import SearchState
 
 QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -26,28 +26,28 @@ ENDING = wave_cause("ending", {QUICKER: 1.0, SLOW: 2.0})
 @cache
 def two_waves() -> tuple[HypothesisFitter, Hypothesis]:
     """Hide a strong and a weak wave; suspect them, and something that resembles the weak one."""
-    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
+    fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
     return fitter, nothing_found(fitter)
 
 
-def weighed_from(
+def compared(
     start: tuple[HypothesisFitter, Hypothesis], *members: Candidate
-) -> tuple[list[str], Selection, list[Comparison]]:
-    """Weigh what is put there; give the names that remain, with everything else."""
+) -> tuple[list[str], SearchState, list[Comparison]]:
+    """Compare what is put there with its alternatives; give the names that remain, with everything else."""
     fitter, none = start
-    selection, comparisons = compare_alternatives(fitter, Selection(none, fitter.tried(members), ()))
+    selection, comparisons = compare_alternatives(SearchState(fitter, none, fitter.fit(members)))
     return [one.cause.id for one in selection.chosen.members], selection, comparisons
 
 
 def test_what_was_hidden_stands_against_all_rivals():
-    names, selection, comparisons = weighed_from(two_waves(), candidate(STRONG), candidate(WEAK))
+    names, selection, comparisons = compared(two_waves(), candidate(STRONG), candidate(WEAK))
     assert names == ["strong", "weak"]
     assert selection.steps == ()
     assert all(one.margin > 6.0 for one in comparisons)
 
 
 def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record():
-    names, selection, comparisons = weighed_from(two_waves(), candidate(STRONG), candidate(STOPGAP))
+    names, selection, comparisons = compared(two_waves(), candidate(STRONG), candidate(STOPGAP))
     assert names == ["strong"]
     assert [(one.action, one.candidate.cause.id) for one in selection.steps] == [("dropped", "stopgap")]
     assert len(comparisons) == 1
@@ -61,23 +61,23 @@ def a_wave_beside_one_that_ends() -> tuple[HypothesisFitter, Hypothesis]:
         seen = (state.time < HELD_OUT_FROM)[:, None]
         return wave_effect({QUICK: 0.6, QUICKER: 0.2})(state) + seen * wave_effect({SLOW: 0.4})(state)
 
-    fitter = bench_of(measured_arm(effect), (STRONG, WEAK, ENDING))
+    fitter = fitter_of(measured_arm(effect), (STRONG, WEAK, ENDING))
     return fitter, nothing_found(fitter)
 
 
 def test_a_rival_that_does_not_hold_on_unseen_rows_refutes_nothing():
-    names, _, comparisons = weighed_from(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
+    names, _, comparisons = compared(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
     assert names == ["strong", "weak"]
-    (with_deviations,) = (one for one in comparisons[1].refuted if one.cause == "ending")
-    assert with_deviations.statistic > comparisons[1].statistic + 6.0
-    assert "no fit has seen" in with_deviations.why
+    (ending,) = (one for one in comparisons[1].refuted if one.cause == "ending")
+    assert ending.statistic > comparisons[1].statistic + 6.0
+    assert "no fit has seen" in ending.why
 
 
 def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
     """Alone it is a finding with a rival that explains more, and the report says so."""
-    names, _, (compare_member,) = weighed_from(two_waves(), candidate(STOPGAP))
+    names, _, (comparison,) = compared(two_waves(), candidate(STOPGAP))
     assert names == ["stopgap"]
-    assert compare_member.margin < -6.0
+    assert comparison.margin < -6.0
 
 
 @pytest.mark.parametrize(
@@ -88,8 +88,8 @@ def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, ri
     clip, push = made_up("clip", now_and_then), made_up("push", now_and_then, transient=True)
     monkeypatch.setitem(MASKED_BY, "clip", Masking(leaves, ""))
     scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))
-    fitter = bench_of(scene, (clip, push))
-    *_, (found,) = weighed_from((fitter, nothing_found(fitter)), candidate(clip))
+    fitter = fitter_of(scene, (clip, push))
+    *_, (found,) = compared((fitter, nothing_found(fitter)), candidate(clip))
     assert ["push" for _ in range(rival)] == [one.cause for one in found.ambiguous]
 
 
@@ -103,5 +103,5 @@ def test_a_name_that_a_pattern_without_one_beats_by_far_is_given_up(spoilt, kept
         return [product(state) + spoilt * np.sin(QUICK * state.position[:, 1])]
 
     cause = made_up("alike", columns)
-    fitter = bench_of(measured_arm(on_joint(product)), (cause,))
-    assert weighed_from((fitter, nothing_found(fitter)), candidate(cause))[0] == kept
+    fitter = fitter_of(measured_arm(on_joint(product)), (cause,))
+    assert compared((fitter, nothing_found(fitter)), candidate(cause))[0] == kept

@@ -5,15 +5,16 @@ import pytest
 
 from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
 from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, drawn
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from veritorque.core.diagnosis.checks.bursts import burst
+from veritorque.core.diagnosis.search.residuals import residual
 
 BEGIN, END = 6.0, 6.8
 
 
 def seen(effect=None, seed=6):
-    fitter = bench_of(measured_arm(effect, seed=seed), ())
-    return burst(fitter.dataset, fitter.residual(nothing_found(fitter)))
+    fitter = fitter_of(measured_arm(effect, seed=seed), ())
+    return burst(fitter.dataset, residual(fitter, nothing_found(fitter)))
 
 
 @pytest.mark.parametrize("height", [1.0, -3.0])

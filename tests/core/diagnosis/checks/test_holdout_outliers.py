@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import nothing_found
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from veritorque.core.diagnosis.checks.holdout_outliers import (
     Explained,
     has_holdout_outliers,
@@ -20,7 +20,7 @@ PUSH = 3.0
 
 
 def plain(dataset: Dataset) -> Explained:
-    fitter = bench_of(replace(measured_arm(), dataset=dataset), ())
+    fitter = fitter_of(replace(measured_arm(), dataset=dataset), ())
     return fitter, nothing_found(fitter)
 
 

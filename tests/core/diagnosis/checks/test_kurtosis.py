@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import JOINT, nothing_found, on_joint
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from veritorque.core.diagnosis.checks.change_points import switching_candidates
 from veritorque.core.diagnosis.checks.kurtosis import bounded_residual, kurtosis
 from veritorque.core.diagnosis.checks.lack_of_fit import best_unnamed_pattern
+from veritorque.core.diagnosis.search.residuals import residual
 
 SIZE = 0.2
 """Of the switching torque, N m."""
@@ -20,8 +21,8 @@ def switching(state):
 
 
 def kept(effect, seed):
-    fitter = bench_of(measured_arm(effect, seed=seed), ())
-    return bounded_residual(fitter.dataset, fitter.residual(nothing_found(fitter)))
+    fitter = fitter_of(measured_arm(effect, seed=seed), ())
+    return bounded_residual(fitter.dataset, residual(fitter, nothing_found(fitter)))
 
 
 @pytest.mark.parametrize("seed", [6, 7])
@@ -38,9 +39,9 @@ def test_noise_keeps_to_no_levels(seed):
 
 
 def switched(effect, seed):
-    fitter = bench_of(measured_arm(effect, seed=seed), ())
+    fitter = fitter_of(measured_arm(effect, seed=seed), ())
     none = nothing_found(fitter)
-    return best_unnamed_pattern(fitter, none, switching_candidates(fitter, none, fitter.residual(none)))
+    return best_unnamed_pattern(fitter, none, switching_candidates(fitter, none, residual(fitter, none)))
 
 
 @pytest.mark.parametrize("share", [1.0, 0.25])

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lsim
 
 from tests.core.diagnosis.made_up import JOINT, candidate, made_up, nothing_found, on_joint
-from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.scenes import Effect, fitter_of, measured_arm
 from veritorque.core.diagnosis.checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from veritorque.core.diagnosis.search.hypothesis import Hypothesis
 
@@ -45,7 +45,7 @@ WORDS = {
 
 
 def found_beside_nothing(effect: Effect | None, seed: int) -> Hypothesis | None:
-    fitter = bench_of(measured_arm(effect, seed=seed), ())
+    fitter = fitter_of(measured_arm(effect, seed=seed), ())
     return best_unnamed_pattern(fitter, nothing_found(fitter), unnamed_candidates(fitter))
 
 
@@ -67,9 +67,9 @@ def test_nothing_is_told_of_a_residual_that_is_noise(seed):
 
 def test_nothing_is_left_to_tell_once_a_cause_with_the_very_column_is_there():
     cause = made_up("product", lambda state, scalars: [product(state)])
-    fitter = bench_of(measured_arm(on_joint(product)), (cause,))
+    fitter = fitter_of(measured_arm(on_joint(product)), (cause,))
     nothing_found(fitter)
-    explained = fitter.tried((candidate(cause),))
+    explained = fitter.fit((candidate(cause),))
     assert best_unnamed_pattern(fitter, explained, unnamed_candidates(fitter)) is None
 
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from tests.core.diagnosis.scenes import Scene, bench_of, look_at_arm, measured_arm
+from tests.core.diagnosis.scenes import Scene, fitter_of, look_at_arm, measured_arm
 from veritorque.core.diagnosis.dataset.dataset import Dataset
+from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.log.model import whole_rows
 from veritorque.core.signals.recipe import FilterOptions
 
@@ -17,8 +18,8 @@ SPIKES = (4.0, 8.0, 12.0)
 
 def is_masked(scene: Scene) -> np.ndarray:
     """Give the RMS per joint of what a plain fit leaves, but for the rows next to the log's ends."""
-    fitter = bench_of(scene, ())
-    left, dataset = fitter.residual(fitter.tried(())), scene.dataset
+    fitter = fitter_of(scene, ())
+    left, dataset = residual(fitter, fitter.fit(())), scene.dataset
     inner = dataset.usable & ((dataset.time > 0.2) & (dataset.time < dataset.time[-1] - 0.2))[:, None]
     return np.sqrt(np.sum(left**2 * inner, axis=0) / inner.sum(axis=0))
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from veritorque.core.diagnosis.search.confounding import is_masked
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 
@@ -35,9 +35,9 @@ LIKE_LUCK, CLEAR = 0.06, 0.08
 )
 def test_a_push_is_told_from_what_a_strong_cause_leaves(always, once, far_less, expected):
     effect = on_joint(lambda state: always * waves(state) + once * push(state))
-    fitter = bench_of(measured_arm(effect), ())
+    fitter = fitter_of(measured_arm(effect), ())
     none = nothing_found(fitter)
-    less, other = (fitter.added(none, candidate(one)) for one in (ALWAYS, ONCE))
-    both = fitter.added(less, candidate(ONCE))
+    less, other = (fitter.fit_with(none, candidate(one)) for one in (ALWAYS, ONCE))
+    both = fitter.fit_with(less, candidate(ONCE))
     assert (likelihood_ratio(less, both) < 0.05 * likelihood_ratio(other, both)) is far_less
     assert is_masked(fitter, both, 1, less) is expected

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
-from tests.core.diagnosis.scenes import Scene, bench_of, measured_arm
+from tests.core.diagnosis.scenes import Scene, fitter_of, linearised, measured_arm
 from veritorque.core.diagnosis.causes.payload_change import PayloadChange
 from veritorque.core.diagnosis.causes.registry import BY_ID
 from veritorque.core.diagnosis.checks.holdout_outliers import with_other_holdout
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Hypothesis, ScoredCandidate
+from veritorque.core.diagnosis.search.residuals import stiction_share
 
 TRUE, NEAR = 7.0, 6.5
 """Waves per radian: what is there, and what resembles it."""
@@ -27,8 +28,8 @@ def wave(state, scalars):
 def scanned(allowed) -> ScoredCandidate:
     """Scan both waves, of which nature allows those that are given."""
     cause = made_up("wave", wave, RATES, allowed=lambda one: one["rate"] in allowed)
-    fitter = bench_of(measured_arm(WAVE), (cause,))
-    (found,) = fitter.scanned(nothing_found(fitter))
+    fitter = fitter_of(measured_arm(WAVE), (cause,))
+    (found,) = fitter.scan(nothing_found(fitter))
     return found
 
 
@@ -55,7 +56,7 @@ def arm() -> Scene:
 def freedom(arm: Scene, *columns) -> int:
     """Count the directions of a cause with so many columns of the second joint's motion."""
     cause = made_up("columns", lambda state, scalars: [one(state) for one in columns])
-    return bench_of(arm, ()).tried((candidate(cause),)).freedom(0)
+    return fitter_of(arm, ()).tried((candidate(cause),)).freedom(0)
 
 
 SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
@@ -87,18 +88,17 @@ def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
 
 def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
     """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
-    fitter = bench_of(measured_arm(WAVE), ())
-    fitter.believe(nothing_found(fitter))
+    fitter = fitter_of(measured_arm(WAVE), ())
     member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
-    whole = fitter.tried((member,))
-    (found,) = fitter.scanned(fitter.beneath(whole, len(whole.members) - 1), [member])
+    whole = fitter.fit((member,))
+    (found,) = fitter.scan(fitter.fit_beneath(whole, len(whole.members) - 1), [member])
     np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
 
 
 def at_rest(torque) -> float:
     """Give the second joint's share of error at rest where a torque is there that the model lacks."""
-    fitter = bench_of(measured_arm(on_joint(torque)), ())
-    return float(fitter.at_rest(nothing_found(fitter))[1])
+    fitter = fitter_of(measured_arm(on_joint(torque)), ())
+    return float(stiction_share(fitter, nothing_found(fitter))[1])
 
 
 def test_what_is_missed_only_while_a_joint_turns_round_is_friction_at_rest():
@@ -110,21 +110,19 @@ def test_what_is_missed_all_along_the_motion_is_not():
     assert at_rest(lambda state: 3.0 * np.sin(TRUE * state.position[:, 1])) < 0.2
 
 
-def test_what_was_believed_comes_back_with_everything_that_was_built_on_it():
-    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+def test_a_fitter_at_another_operating_point_leaves_the_first_as_it_was():
+    fitter = fitter_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(fitter)
-    suspected, found = fitter.candidates, fitter.scanned(none)
-    believe_before = fitter.remembered()
-    fitter.believe(replace(none, fit=replace(none.fit, values=2.0 * none.fit.values)))
-    assert not np.allclose(fitter.scanned(none)[0].values, found[0].values)
-    believe_before()
+    suspected, found = fitter.candidates, fitter.scan(none)
+    other = linearised_at_times(fitter, none, 2.0)
+    assert not np.allclose(other.scan(none)[0].values, found[0].values)
     assert fitter.candidates == suspected
-    assert np.array_equal(fitter.scanned(none)[0].values, found[0].values)
+    assert np.array_equal(fitter.scan(none)[0].values, found[0].values)
 
 
-def believed_times(fitter: HypothesisFitter, none: Hypothesis, factor: float) -> None:
-    """Believe in bodies so many times as heavy as those that were found."""
-    fitter.believe(replace(none, fit=replace(none.fit, values=factor * none.fit.values)))
+def linearised_at_times(fitter: HypothesisFitter, none: Hypothesis, factor: float) -> HypothesisFitter:
+    """Linearise at bodies so many times as heavy as those that were found."""
+    return fitter.linearised_at(replace(none, fit=replace(none.fit, values=factor * none.fit.values)))
 
 
 class Counted(type(BY_ID["torque_gain_nonlinear"])):
@@ -144,16 +142,16 @@ class Counted(type(BY_ID["torque_gain_nonlinear"])):
 def built_anew(fitter: HypothesisFitter, none: Hypothesis) -> int:
     """Count the columns that a scan has to build under what is believed now."""
     Counted.built.clear()
-    fitter.scanned(none)
+    fitter.scan(none)
     return len(Counted.built)
 
 
 def test_a_belief_that_hardly_differs_ranks_with_the_columns_of_the_one_before():
-    fitter = bench_of(measured_arm(WAVE), (Counted(),))
+    fitter = fitter_of(measured_arm(WAVE), (Counted(),))
     none = nothing_found(fitter)
     built = []
     for factor in (1.0, 1.005, 1.1):
-        believed_times(fitter, none, factor)
+        fitter = linearised_at_times(fitter, none, factor)
         built.append(built_anew(fitter, none))
     # Three joints have forty points each; the best of each joint is built anew.
     assert built == [120, 3, 120]
@@ -161,64 +159,66 @@ def test_a_belief_that_hardly_differs_ranks_with_the_columns_of_the_one_before()
 
 def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_without_building_columns_again():
     scene = measured_arm(WAVE)
-    fitter = bench_of(scene, (Counted(),))
-    fitter.scanned(nothing_found(fitter))
+    fitter = fitter_of(scene, (Counted(),))
+    fitter.scan(nothing_found(fitter))
     dataset = with_other_holdout(scene.dataset)
-    other, own = fitter.with_look(dataset), bench_of(replace(scene, dataset=dataset), (Counted(),))
+    other, own = (
+        linearised(fitter.with_dataset(dataset)),
+        fitter_of(replace(scene, dataset=dataset), (Counted(),)),
+    )
     none, alone = nothing_found(other), nothing_found(own)
     np.testing.assert_array_equal(none.fit.values, alone.fit.values)
-    assert not np.array_equal(none.fit.values, fitter.tried(()).fit.values)
+    assert not np.array_equal(none.fit.values, fitter.fit(()).fit.values)
     # The best of each of three joints, under what is believed now.
     assert built_anew(other, none) == 3
-    pairs = zip(other.scanned(none), own.scanned(alone), strict=True)
+    pairs = zip(other.scan(none), own.scan(alone), strict=True)
     assert all(one.candidate.key == theirs.candidate.key for one, theirs in pairs)
 
 
 def test_a_belief_that_differs_on_one_joint_ranks_anew_what_is_suspected_of_that_joint_alone():
-    fitter = bench_of(measured_arm(WAVE), (Counted(),))
+    fitter = fitter_of(measured_arm(WAVE), (Counted(),))
     none = nothing_found(fitter)
-    fitter.scanned(none)
+    fitter.scan(none)
     parameters = [fitter.plan.model.parameters[one] for one in fitter.plan.columns]
     (rubs,) = (place for place, one in enumerate(parameters) if (one.symbol, one.joint) == ("FC", 2))
     values = none.fit.values.copy()
     values[rubs] += 5.0
-    fitter.believe(replace(none, fit=replace(none.fit, values=values)))
+    fitter = fitter.linearised_at(replace(none, fit=replace(none.fit, values=values)))
     # The best of the other two joints are built anew.
     assert built_anew(fitter, none) == 40 + 2
 
 
 def test_the_best_of_a_scan_are_scored_with_the_columns_of_what_is_believed():
-    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    fitter = fitter_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(fitter)
-    before = {one.candidate.key: one.values for one in fitter.scanned(none)}
-    believed_times(fitter, none, 1.005)
-    for one in fitter.scanned(none):
+    before = {one.candidate.key: one.values for one in fitter.scan(none)}
+    fitter = linearised_at_times(fitter, none, 1.005)
+    for one in fitter.scan(none):
         np.testing.assert_allclose(one.values, before[one.candidate.key] / 1.005**3, rtol=1e-6)
 
 
 def test_what_is_fitted_has_the_columns_of_what_is_believed_however_little_that_differs():
-    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    fitter = fitter_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(fitter)
-    (first, *_) = (one.candidate for one in fitter.scanned(none))
-    before = fitter.added(none, first).fit.values[-1]
-    believed_times(fitter, none, 1.01)
-    after = fitter.added(none, first).fit.values[-1]
+    (first, *_) = (one.candidate for one in fitter.scan(none))
+    before = fitter.fit_with(none, first).fit.values[-1]
+    fitter = linearised_at_times(fitter, none, 1.01)
+    after = fitter.fit_with(none, first).fit.values[-1]
     # A cube's coefficient falls by the cube of what its argument grows by.
     np.testing.assert_allclose(after, before / 1.01**3, rtol=0.02)
     assert after != before
 
 
 def test_a_scan_is_made_once_for_a_hypothesis():
-    fitter = bench_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
+    fitter = fitter_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(fitter)
-    assert fitter.scanned(none) is fitter.scanned(none)
+    assert fitter.scan(none) is fitter.scan(none)
 
 
 def test_two_causes_of_one_name_are_both_suspected_at_the_same_joint():
     """As a load that came within the log, and one that is there since the reference."""
-    fitter = bench_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
-    nothing_found(fitter)
+    fitter = fitter_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
     last = [one for one in fitter.candidates if one.site == (3,)]
     assert {one.cause.throughout for one in last} == {True, False}
-    assert {one.cause.throughout for one in fitter.suspicion.of_kind(last[0].key)} == {True, False}
-    assert {one.cause.throughout for one in fitter.suspicion.of(last[0].cause, (3,))} == {True}
+    assert {one.cause.throughout for one in fitter.at.of_kind(last[0].key)} == {True, False}
+    assert {one.cause.throughout for one in fitter.at.of(last[0].cause, (3,))} == {True}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import nothing_found
-from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.scenes import Effect, fitter_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
 from veritorque.core.diagnosis.search.entry_test import RAISED, with_candidate
@@ -24,7 +24,7 @@ STIFF: Effect = lambda state: np.sign(state.velocity) * [1.0, 0.0, 0.0]  # noqa:
 
 def free_bench(effect: Effect) -> HypothesisFitter:
     """Suspect every cause where the rows alone tell the parameters."""
-    return bench_of(measured_arm(effect), CAUSES)
+    return fitter_of(measured_arm(effect), CAUSES)
 
 
 def bench_with_prior(effect: Effect) -> HypothesisFitter:
@@ -32,7 +32,7 @@ def bench_with_prior(effect: Effect) -> HypothesisFitter:
     scene = measured_arm(effect)
     values = base_model(scene.operating_point.model).base_of(scene.operating_point.standard)
     rows = np.diag(20.0 / np.maximum(np.abs(values), 1e-3))
-    return bench_of(scene, AGAINST_REFERENCE, GaussianPrior(rows, rows @ values))
+    return fitter_of(scene, AGAINST_REFERENCE, GaussianPrior(rows, rows @ values))
 
 
 BENCHES = {
@@ -52,30 +52,30 @@ BENCHES = {
     ids=["wave", "large_wave", "drift"],
 )
 def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its_fit_finds_it(effect, cause):
-    fitter = bench_of(measured_arm(effect), (cause,))
+    fitter = fitter_of(measured_arm(effect), (cause,))
     none = nothing_found(fitter)
-    hidden = fitter.scanned(none)[0]
+    hidden = fitter.scan(none)[0]
     brings = likelihood_ratio(none, with_candidate(fitter, none, hidden))
     assert hidden.statistic < 0.2 * brings
     assert predicted_likelihood_ratios(fitter, none, [hidden])[0] == pytest.approx(brings, rel=0.15)
 
 
 def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
-    fitter = bench_of(measured_arm(SPRUNG), CAUSES)
+    fitter = fitter_of(measured_arm(SPRUNG), CAUSES)
     none = nothing_found(fitter)
-    scans = fitter.scanned(none)[:16]
+    scans = fitter.scan(none)[:16]
     brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
     assert brings.max() > 100.0
     assert np.all(brings < RAISED * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0))
 
 
 def test_beside_what_is_found_already_only_the_rest_is_foreseen():
-    fitter = bench_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
+    fitter = fitter_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
     none = nothing_found(fitter)
-    spring, ripple = fitter.scanned(none)[:2]
+    spring, ripple = fitter.scan(none)[:2]
     assert (spring.candidate.cause.id, ripple.candidate.cause.id) == ("spring_compensator", "torque_ripple")
     beside = with_candidate(fitter, none, spring)
-    again = next(one for one in fitter.scanned(beside) if one.candidate.key == ripple.candidate.key)
+    again = next(one for one in fitter.scan(beside) if one.candidate.key == ripple.candidate.key)
     assert predicted_likelihood_ratios(fitter, none, [ripple])[0] > 100.0
     assert predicted_likelihood_ratios(fitter, beside, [again])[0] < 20.0
 
@@ -85,7 +85,7 @@ def test_beside_what_is_found_already_only_the_rest_is_foreseen():
 def test_of_no_effect_nothing_is_foreseen(make, effect):
     fitter = make(effect)
     none = nothing_found(fitter)
-    nothing = [replace(one, values=0.0 * one.values) for one in fitter.scanned(none)[:8]]
+    nothing = [replace(one, values=0.0 * one.values) for one in fitter.scan(none)[:8]]
     np.testing.assert_allclose(predicted_likelihood_ratios(fitter, none, nothing), 0.0, atol=5.0)
 
 
@@ -97,7 +97,7 @@ def test_of_no_effect_nothing_is_foreseen(make, effect):
 def test_what_will_bring_most_is_foreseen_to(make, effect):
     fitter = make(effect)
     none = nothing_found(fitter)
-    scans = fitter.scanned(none)[:16]
+    scans = fitter.scan(none)[:16]
     brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
     reach = np.array(predicted_likelihood_ratios(fitter, none, scans))
     assert brings.max() > 100.0

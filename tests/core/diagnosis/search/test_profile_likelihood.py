@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from veritorque.core.diagnosis.search.profile_likelihood import refine_scalars, with_deviations
 
 TRUE = 7.0
@@ -15,13 +15,13 @@ RATES = tuple({"rate": rate} for rate in (6.0, 6.5, 7.0, 7.5))
 @pytest.fixture(scope="module")
 def fitter():
     wave = made_up("wave", lambda state, scalars: [np.sin(scalars["rate"] * state.position[:, 1])], RATES)
-    fitter = bench_of(measured_arm(on_joint(lambda state: np.sin(TRUE * state.position[:, 1]))), (wave,))
+    fitter = fitter_of(measured_arm(on_joint(lambda state: np.sin(TRUE * state.position[:, 1]))), (wave,))
     nothing_found(fitter)
     return fitter
 
 
 def test_a_scalar_that_stays_where_it_is_is_known_as_well_as_one_that_is_settled_there(fitter):
-    none = fitter.tried(())
+    none = fitter.fit(())
     refine_jointly = refine_scalars(fitter, none, candidate(fitter.causes[0], {"rate": 7.0}))
     kept = with_deviations(fitter, none, candidate(fitter.causes[0], dict(refine_jointly.scalars)))
     assert kept.scalars == refine_jointly.scalars
@@ -30,7 +30,7 @@ def test_a_scalar_that_stays_where_it_is_is_known_as_well_as_one_that_is_settled
 
 
 def test_on_trial_a_scalar_is_what_it_is_settled_at_and_its_deviation_is_left_open(fitter):
-    none = fitter.tried(())
+    none = fitter.fit(())
     refine_jointly, tried = (
         refine_scalars(fitter, none, candidate(fitter.causes[0], {"rate": 6.5}), on_trial=on_trial)
         for on_trial in (False, True)

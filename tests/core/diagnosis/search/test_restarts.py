@@ -5,16 +5,17 @@ from dataclasses import replace
 import pytest
 
 from tests.core.diagnosis.made_up import nothing_found
-from tests.core.diagnosis.scenes import bench_of, measured_arm
+from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from tests.core.diagnosis.waves import BuiltOn, WaveCause, wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.masking import EXCLUDED_BY, MASKED_BY, Masking
-from veritorque.core.diagnosis.checks.alternatives import UNDECIDED
 from veritorque.core.diagnosis.search.restarts import (
     bic,
     restart_at_operating_point,
     restart_from_common_cause,
 )
-from veritorque.core.diagnosis.search.stepwise import Selection, search_stepwise
+from veritorque.core.diagnosis.search.state import SearchState
+from veritorque.core.diagnosis.search.stepwise import search_stepwise
+from veritorque.core.diagnosis.thresholds import UNDECIDED
 
 PARTS = ("first", "second", "third")
 RATES = (7.0, 11.0, 4.0)
@@ -28,7 +29,7 @@ def _tables_as_before(monkeypatch):
 
 
 def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, further=()):
-    """Give a bench, and what a search has found on it: the causes of these names."""
+    """Give what a search has found: the causes of these names."""
     parts = [wave_cause(name, {rate: 1.0}) for name, rate in zip(PARTS, RATES, strict=True)]
     whole = wave_cause("whole", dict(zip(RATES, SIZES, strict=True)))
     MASKED_BY["whole"], EXCLUDED_BY["whole"] = Masking(leaves, ""), Masking(excludes, "")
@@ -36,12 +37,12 @@ def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, fur
     type(whole).term = lambda self, dataset, operating_point, _, scalars: super(type(whole), self).term(
         dataset, operating_point, (2,), scalars
     )
-    fitter = bench_of(
+    fitter = fitter_of(
         measured_arm(wave_effect(dict(zip((*RATES, 15.0), sizes, strict=False)))), [*parts, whole, *further]
     )
     none = nothing_found(fitter)
     members = tuple(one for name in first for one in fitter.candidates if one.cause.id == name)
-    return fitter, Selection(none, fitter.tried(members), ())
+    return SearchState(fitter, none, fitter.fit(members))
 
 
 def named(selection):
@@ -49,8 +50,8 @@ def named(selection):
 
 
 def test_what_one_cause_explains_with_fewer_numbers_is_that_cause():
-    fitter, found = found_one_by_one()
-    better = restart_from_common_cause(fitter, found)
+    found = found_one_by_one()
+    better = restart_from_common_cause(found)
     assert named(better) == ["whole"]
     assert bic(better.chosen) > bic(found.chosen) + UNDECIDED
     assert [(step.action, step.candidate.cause.id) for step in better.steps] == [("swapped", "whole")]
@@ -62,35 +63,33 @@ def test_what_one_cause_explains_with_fewer_numbers_is_that_cause():
     ids=["it explains less", "it leaves but one of them", "there are not several"],
 )
 def test_otherwise_what_was_found_stays(case):
-    fitter, found = found_one_by_one(**case)
-    operating_point = fitter.operating_point
-    assert restart_from_common_cause(fitter, found) is found
-    assert fitter.operating_point is operating_point
+    found = found_one_by_one(**case)
+    assert restart_from_common_cause(found) is found
 
 
 def test_a_search_that_begins_with_the_whole_goes_on_from_there():
-    fitter, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
-    better = restart_from_common_cause(fitter, found)
+    found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
+    better = restart_from_common_cause(found)
     assert named(better) == ["whole", "quickest"]
 
 
 def test_a_search_that_comes_to_where_the_first_one_went_on_from_ends_there():
-    fitter, found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
-    end = frozenset(restart_from_common_cause(fitter, found).chosen.by_key)
+    found = found_one_by_one((*SIZES, 0.4), further=[wave_cause("quickest", {15.0: 1.0})])
+    end = frozenset(restart_from_common_cause(found).chosen.by_key)
     found = replace(found, through=frozenset({end}))
-    assert restart_from_common_cause(fitter, found) is found
+    assert restart_from_common_cause(found) is found
 
 
 def test_a_search_that_stays_where_it_began_has_met_no_other():
-    fitter, found = found_one_by_one()
-    better = restart_from_common_cause(fitter, found)
+    found = found_one_by_one()
+    better = restart_from_common_cause(found)
     found = replace(found, through=frozenset({frozenset(better.chosen.by_key)}))
-    assert named(restart_from_common_cause(fitter, found)) == ["whole"]
+    assert named(restart_from_common_cause(found)) == ["whole"]
 
 
 def test_a_search_tells_what_sets_of_causes_it_came_through():
     waves = (("quick", 7.0, 0.6), ("slow", 4.0, 0.3))
-    fitter = bench_of(
+    fitter = fitter_of(
         measured_arm(wave_effect({rate: size for _, rate, size in waves})),
         [wave_cause(name, {rate: 1.0}) for name, rate, _ in waves],
     )
@@ -99,8 +98,8 @@ def test_a_search_tells_what_sets_of_causes_it_came_through():
 
 
 def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
-    fitter, found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
-    better = restart_from_common_cause(fitter, found)
+    found = found_one_by_one(leaves=PARTS[:2], excludes=PARTS[2:])
+    better = restart_from_common_cause(found)
     assert named(better) == ["whole"]
 
 
@@ -119,14 +118,13 @@ class Flattering(WaveCause):
 
 def test_what_explains_less_once_it_is_believed_makes_way_for_what_it_hid():
     effect = wave_effect({7.0: 0.6, 4.5: 0.3})
-    fitter = bench_of(measured_arm(effect), (Flattering(), wave_cause("slow", {4.5: 1.0})))
+    fitter = fitter_of(measured_arm(effect), (Flattering(), wave_cause("slow", {4.5: 1.0})))
     found = search_stepwise(fitter)
     assert named(found) == ["flattering"]
-    assert named(restart_at_operating_point(fitter, found)) == ["flattering", "slow"]
+    assert named(restart_at_operating_point(found)) == ["flattering", "slow"]
 
 
 def test_where_nothing_was_hid_what_was_found_and_believed_stays():
-    fitter = bench_of(measured_arm(wave_effect({7.0: 0.6, 4.5: 0.3})), (Flattering(),))
-    found, operating_point = search_stepwise(fitter), fitter.operating_point
-    assert restart_at_operating_point(fitter, found) is found
-    assert fitter.operating_point is operating_point
+    fitter = fitter_of(measured_arm(wave_effect({7.0: 0.6, 4.5: 0.3})), (Flattering(),))
+    found = search_stepwise(fitter)
+    assert restart_at_operating_point(found) is found

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found
-from tests.core.diagnosis.scenes import Effect, bench_of, measured_arm
+from tests.core.diagnosis.scenes import Effect, fitter_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes import imitation
 from veritorque.core.diagnosis.causes.imitation import IMITATIONS, Imitation
@@ -28,7 +28,9 @@ from veritorque.core.diagnosis.search.entry_test import (
 )
 from veritorque.core.diagnosis.search.likelihood_ratio import bic_gain, likelihood_ratio, log_p
 from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratios
-from veritorque.core.diagnosis.search.stepwise import Selection, confirm, search_stepwise
+from veritorque.core.diagnosis.search.residuals import residual
+from veritorque.core.diagnosis.search.state import SearchState
+from veritorque.core.diagnosis.search.stepwise import confirm, search_stepwise
 
 QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -39,12 +41,12 @@ SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E
 BOTH: Effect = lambda state: UNEVEN(state) + SPRUNG(state)  # noqa: E731  (a formula)
 
 
-def names(selection: Selection) -> list[tuple[str, tuple[int, ...]]]:
+def names(selection: SearchState) -> list[tuple[str, tuple[int, ...]]]:
     return sorted(one.key for one in selection.chosen.members)
 
 
-def searched(effect: Effect | None, seed: int) -> Selection:
-    return search_stepwise(bench_of(measured_arm(effect, seed=seed), CAUSES))
+def searched(effect: Effect | None, seed: int) -> SearchState:
+    return search_stepwise(fitter_of(measured_arm(effect, seed=seed), CAUSES))
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -87,7 +89,7 @@ def spiky(state):
     ("effect", "named"), [(shoved, ["external_contact"]), (spiky, [])], ids=["shoved", "spiky"]
 )
 def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
-    found = search_stepwise(bench_of(measured_arm(effect), (BY_ID["external_contact"],)))
+    found = search_stepwise(fitter_of(measured_arm(effect), (BY_ID["external_contact"],)))
     assert [name for name, _ in names(found)] == named
 
 
@@ -99,12 +101,12 @@ def only_before_the_unseen_rows(state):
 
 def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_the_same():
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
-    fitter = bench_of(measured_arm(only_before_the_unseen_rows), causes)
+    fitter = fitter_of(measured_arm(only_before_the_unseen_rows), causes)
     none = nothing_found(fitter)
-    first, second = fitter.scanned(none)
+    first, second = fitter.scan(none)
     assert first.candidate.cause.id == "quick"
     (small,) = predicted_likelihood_ratios(fitter, none, [second])
-    assert RAISED * small + BESIDES < bic_gain(none, fitter.added(none, first.candidate))
+    assert RAISED * small + BESIDES < bic_gain(none, fitter.fit_with(none, first.candidate))
     assert names(search_stepwise(fitter)) == [("quicker", (2,))]
 
 
@@ -113,9 +115,9 @@ def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_tim
     event = wave_cause("event", {QUICK: 1.0, QUICKER: 0.5})
     type(event).traits = SearchTraits(transient=True)
     effect = wave_effect({QUICK: 0.6, QUICKER: 0.3})
-    alone = search_stepwise(bench_of(measured_arm(effect), (event,)))
+    alone = search_stepwise(fitter_of(measured_arm(effect), (event,)))
     assert names(alone) == [("event", (2,))]
-    both = search_stepwise(bench_of(measured_arm(effect), (lasting, event)))
+    both = search_stepwise(fitter_of(measured_arm(effect), (lasting, event)))
     assert [(step.action, step.candidate.cause.id) for step in both.steps] == [
         ("added", "lasting"),
         ("added", "event"),
@@ -124,28 +126,28 @@ def test_what_happens_at_picked_instants_takes_no_place_of_what_acts_all_the_tim
 
 
 def test_two_that_look_better_than_each_other_are_swapped_there_and_back_at_most(monkeypatch):
-    fitter = bench_of(
+    fitter = fitter_of(
         measured_arm(wave_effect({QUICK: 0.6})),
         (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly_quick", {NEARLY_QUICK: 1.0})),
     )
-    in_turn = cycle(one.candidate for one in fitter.scanned(nothing_found(fitter)))
+    in_turn = cycle(one.candidate for one in fitter.scan(nothing_found(fitter)))
 
     def other_than_the_last(fitter, now, *_given_up_and_limits):
-        return None if now.members else fitter.added(now, next(in_turn))
+        return None if now.members else fitter.fit_with(now, next(in_turn))
 
     monkeypatch.setattr(search, "best_entry", other_than_the_last)
     assert [step.action for step in search_stepwise(fitter).steps] == ["added", "swapped", "swapped"]
 
 
 @cache
-def misled() -> Selection:
+def misled() -> SearchState:
     """Offer two true waves, and a false one that alone explains more than either."""
     causes = (
         wave_cause("quick", {QUICK: 1.0}),
         wave_cause("quicker", {QUICKER: 1.0}),
         wave_cause("stand_in", {QUICK: 1.0, QUICKER: 1.0, SLOW: 0.5}),
     )
-    return search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes))
+    return search_stepwise(fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes))
 
 
 def test_a_false_cause_that_comes_first_is_taken_back_when_the_true_ones_are_found():
@@ -169,20 +171,20 @@ def test_what_a_chosen_cause_leaves_unexplained_is_added_only_where_it_is_nearly
 ):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
     monkeypatch.setitem(MASKED_BY, "quick", Masking(leaves, ""))
-    found = search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
+    found = search_stepwise(fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: size})), causes))
     assert {name for name, _ in names(found)} == {"quick", *(["quicker"] if named else [])}
 
 
 def weakly(fitter, first, second):
     """Tell whether a second cause is clear enough to be the first one, but not to be just another one."""
-    now = fitter.tried((first,))
-    chance = log_p(now, fitter.added(now, second)) + np.log(fitter.kinds)
+    now = fitter.fit((first,))
+    chance = log_p(now, fitter.fit_with(now, second)) + np.log(fitter.kinds)
     return np.log(FURTHER_LEVEL) < chance < np.log(LEVEL)
 
 
 def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_that():
     effect = lambda state: 0.3 * SPRUNG(state) + 0.045 * UNEVEN(state)  # noqa: E731  (a formula)
-    fitter = bench_of(measured_arm(effect), CAUSES)
+    fitter = fitter_of(measured_arm(effect), CAUSES)
     found = search_stepwise(fitter)
     assert names(found) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
     assert weakly(fitter, *sorted(found.chosen.members, key=lambda one: one.site))
@@ -190,7 +192,7 @@ def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_t
 
 def test_one_that_shares_what_it_explains_with_the_first_has_to_be_clearer():
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("nearly", {NEARLY_QUICK: 1.0}))
-    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, NEARLY_QUICK: 0.034})), causes)
+    fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6, NEARLY_QUICK: 0.034})), causes)
     assert names(search_stepwise(fitter)) == [("quick", (2,))]
     assert weakly(fitter, *fitter.candidates)
 
@@ -200,8 +202,7 @@ def test_one_that_would_not_join_any_more_is_dropped_when_another_one_joins():
     causes = [
         wave_cause(name, {rate: 1.0}) for name, rate in zip(("quick", "nearly", "new"), waves, strict=True)
     ]
-    fitter = bench_of(measured_arm(wave_effect(waves)), causes)
-    nothing_found(fitter)
+    fitter = fitter_of(measured_arm(wave_effect(waves)), causes)
     first, second, _ = fitter.candidates
     found = search_stepwise(fitter, start=(first, second))
     assert names(found) == [("new", (2,)), ("quick", (2,))]
@@ -213,15 +214,14 @@ def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
         made_up("one", lambda state, _: [np.sin(QUICK * state.position[:, 1])]),
         made_up("two", lambda state, _: [wave(QUICKER * state.position[:, 1]) for wave in (np.sin, np.cos)]),
     )
-    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), causes)
-    nothing_found(fitter)
+    fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), causes)
     one, two = map(candidate, causes)
-    both, with_other_holdout = fitter.tried((two, one)), fitter.tried((one, two))
-    assert bic_gain(fitter.tried((one,)), both, 0) == pytest.approx(
-        bic_gain(fitter.tried((one,)), with_other_holdout), abs=0.5
+    both, reverse = fitter.fit((two, one)), fitter.fit((one, two))
+    assert bic_gain(fitter.fit((one,)), both, 0) == pytest.approx(
+        bic_gain(fitter.fit((one,)), reverse), abs=0.5
     )
-    assert bic_gain(fitter.tried((two,)), with_other_holdout, 0) == pytest.approx(
-        bic_gain(fitter.tried((two,)), both), abs=0.5
+    assert bic_gain(fitter.fit((two,)), reverse, 0) == pytest.approx(
+        bic_gain(fitter.fit((two,)), both), abs=0.5
     )
 
 
@@ -229,11 +229,11 @@ def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rival
     """As a size that was possible beside another cause, and is not once that one was given up."""
     columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
     cause = made_up("forbidden", columns, allowed=lambda scalars: False)
-    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
+    fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
     none = nothing_found(fitter)
-    forbidden = fitter.tried((candidate(cause),))
+    forbidden = fitter.fit((candidate(cause),))
     assert not forbidden.possible
-    kept, comparisons = compare_alternatives(fitter, Selection(none, forbidden, ()))
+    kept, comparisons = compare_alternatives(SearchState(fitter, none, forbidden))
     assert (names(kept), comparisons) == ([], [])
     assert not passes_exit_test(fitter, none, forbidden, 0)
 
@@ -242,7 +242,7 @@ def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rival
 def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explain(keeps_out, monkeypatch):
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
     monkeypatch.setitem(EXCLUDED_BY, "quick", Masking(keeps_out, ""))
-    found = search_stepwise(bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
+    found = search_stepwise(fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), causes))
     assert [name for name, _ in names(found)] == ["quick", "quicker"][: 2 - len(keeps_out)]
 
 
@@ -258,9 +258,9 @@ def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_th
     cause = made_up("noisy", columns, like_position_noise=like_noise)
     scene = measured_arm(wave_effect({QUICK: 0.04}))
     dataset = replace(scene.dataset, position_share=np.array([0.9, share, 0.9]))
-    fitter = bench_of(replace(scene, dataset=dataset), (cause,))
+    fitter = fitter_of(replace(scene, dataset=dataset), (cause,))
     none = nothing_found(fitter)
-    trial = fitter.tried((candidate(cause),))
+    trial = fitter.fit((candidate(cause),))
     assert 0.1 < likelihood_ratio(none, trial) / len(trial.fit.joints[1].torque) < 0.5
     assert is_significant(fitter, none, trial, kinds=1) == named
 
@@ -273,26 +273,26 @@ def twins():
         wave_cause("other", {QUICK: 1.0}),
         wave_cause("far", {QUICKER: 1.0}),
     )
-    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
-    return search_stepwise(fitter), fitter
+    fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6})), causes)
+    return search_stepwise(fitter)
 
 
 def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_equally_good(monkeypatch):
     known = Imitation("one", "other", "they are the same", "move the joint while its twin rests")
     monkeypatch.setattr(imitation, "IMITATIONS", (*IMITATIONS, known))
-    selection, fitter = twins()
-    ((name, site),) = names(selection)
-    (rival,) = compare_member(fitter, selection.chosen, 0).ambiguous
+    found = twins()
+    ((name, site),) = names(found)
+    (rival,) = compare_member(found, 0).ambiguous
     assert {name, rival.cause} == {"one", "other"}
     assert rival.joints == site
     assert rival.separating_experiment == "move the joint while its twin rests"
     # Noise is learned from different starts, until it gains less than 0.03 per joint; six would be much.
-    assert compare_member(fitter, selection.chosen, 0).margin == pytest.approx(0.0, abs=0.3)
+    assert compare_member(found, 0).margin == pytest.approx(0.0, abs=0.3)
 
 
 def test_a_rival_that_explains_little_is_not_equally_good():
-    selection, fitter = twins()
-    assert "far" not in {rival.cause for rival in compare_member(fitter, selection.chosen, 0).ambiguous}
+    found = twins()
+    assert "far" not in {rival.cause for rival in compare_member(found, 0).ambiguous}
 
 
 @pytest.mark.parametrize(
@@ -310,18 +310,18 @@ def test_of_causes_that_noise_of_positions_passes_for_one_refutes_the_other_only
     )
     scene, harmless = (measured_arm(one) for one in (wave_effect({QUICK: 0.05, QUICKER: 0.05}), None))
     noise = residual_of(harmless)
-    fitter = bench_of(replace(scene, dataset=replace(scene.dataset, position_torque=size * noise)), causes)
-    whole, part = (fitter.tried((candidate(one),)) for one in causes)
+    fitter = fitter_of(replace(scene, dataset=replace(scene.dataset, position_torque=size * noise)), causes)
+    whole, part = (fitter.fit((candidate(one),)) for one in causes)
     none, rows = nothing_found(fitter), len(whole.fit.joints[1].torque)
     assert 0.3**2 < (bic_gain(none, whole) - bic_gain(none, part)) / rows < 0.9
-    found = compare_member(fitter, whole, 0)
+    found = compare_member(SearchState(fitter, none, whole), 0)
     assert [one.cause for one in found.ambiguous] == ["part"] * named
     assert [one.cause for one in found.refuted] == ["part"] * (not named)
 
 
 def residual_of(scene):
-    fitter = bench_of(scene, ())
-    return fitter.residual(fitter.tried(()))
+    fitter = fitter_of(scene, ())
+    return residual(fitter, fitter.fit(()))
 
 
 def wave_of(*rates):
@@ -329,7 +329,7 @@ def wave_of(*rates):
 
 
 def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
-    fitter = bench_of(measured_arm(BOTH, seed=5), CAUSES)
+    fitter = fitter_of(measured_arm(BOTH, seed=5), CAUSES)
     monkeypatch.setattr(fitter_module, "noise_absorbs_effect", lambda *_rows_and_fit: True)
     assert fitter.needs_ordinary_noise(nothing_found(fitter))
     other = fitter.with_ordinary_noise()
@@ -337,15 +337,14 @@ def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypat
     assert fitter.needs_ordinary_noise(nothing_found(fitter))
 
 
-def found_with(fitter, *members) -> Selection:
+def found_with(fitter, *members) -> SearchState:
     """Pretend that a search found some causes."""
-    none = nothing_found(fitter)
-    return Selection(none, fitter.tried(members), ())
+    return SearchState(fitter, nothing_found(fitter), fitter.fit(members))
 
 
 def waves_searched_for(*others):
     quick, quicker = wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0})
-    fitter = bench_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), (quick, quicker, *others))
+    fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.3})), (quick, quicker, *others))
     return fitter, quick
 
 
