@@ -56,7 +56,7 @@ def arm() -> Scene:
 def freedom(arm: Scene, *columns) -> int:
     """Count the directions of a cause with so many columns of the second joint's motion."""
     cause = made_up("columns", lambda state, scalars: [one(state) for one in columns])
-    return fitter_of(arm, ()).tried((candidate(cause),)).freedom(0)
+    return fitter_of(arm, ()).fit((candidate(cause),)).freedom(0)
 
 
 SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731  (a formula)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.made_up import nothing_found
-from tests.core.diagnosis.scenes import Effect, fitter_of, measured_arm
+from tests.core.diagnosis.scenes import Effect, fitter_of, linearised, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
 from veritorque.core.diagnosis.search.entry_test import RAISED, with_candidate
@@ -22,7 +22,7 @@ SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E
 STIFF: Effect = lambda state: np.sign(state.velocity) * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
 
 
-def free_bench(effect: Effect) -> HypothesisFitter:
+def free_fitter(effect: Effect) -> HypothesisFitter:
     """Suspect every cause where the rows alone tell the parameters."""
     return fitter_of(measured_arm(effect), CAUSES)
 
@@ -36,8 +36,8 @@ def bench_with_prior(effect: Effect) -> HypothesisFitter:
 
 
 BENCHES = {
-    "rows alone": free_bench,
-    "ordinary noise": lambda effect: free_bench(effect).with_ordinary_noise(),
+    "rows alone": free_fitter,
+    "ordinary noise": lambda effect: linearised(free_fitter(effect).with_ordinary_noise()),
     "a prior": bench_with_prior,
 }
 
