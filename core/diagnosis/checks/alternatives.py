@@ -1,8 +1,8 @@
-"""Let every chosen cause meet its rivals: those that explain the same as well, and those that were refuted.
+"""Compare every finding with its alternatives: those that explain the log as well, and those refuted.
 
-A rival takes the finding's place with the other findings kept, its scalars refined and its noise learned
-anew. Two explanations whose criteria differ by less than six are not told apart by this log. Source: Burnham
-& Anderson, Model Selection (2002), ch. 2.
+An alternative takes the finding's place with the other findings kept, its scalars refined and its noise
+estimated again. Two hypotheses whose criteria differ by less than six are undecided by this log.
+Source: Burnham & Anderson, Model Selection (2002), ch. 2.
 """
 
 from dataclasses import dataclass, replace
@@ -25,7 +25,7 @@ from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 
 OTHER_SHARE = 0.03
-"""Share of a finding's rise below which its lead over a rival not known to be confused with it is nothing."""
+"""Share of a finding's rise below which its lead over a other not known to be confused with it is nothing."""
 UNNAMED_SHARE = 0.25
 """Share of a finding's rise by which a pattern without a name has to lead to refute it."""
 EVENT_SHARE = 0.5
@@ -36,25 +36,25 @@ LEAST_GAIN = 0.5
 """Per cent of the error on unseen rows that a cause beside a clearer one has to gain, or gain for sure."""
 COMPARED = 6
 WORTH_NAMING = 0.1
-"""A rival that reaches less than this share of the finding's own rise is not worth a line."""
+"""A other that reaches less than this share of the finding's own rise is not worth a line."""
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Hold how a finding stands among its rivals.
+    """Hold the comparison of a finding with its alternatives.
 
     Attributes
     ----------
     place, member
         What is judged, and its place in the hypothesis.
     statistic
-        Rise of twice the log-likelihood that it brings itself.
+        Its likelihood ratio statistic.
     bic_gain
-        The same less what its parameters would gain by themselves.
+        Its BIC difference.
     margin
-        By how much its criterion beats that of the best rival that is another cause or acts elsewhere.
+        Its BIC difference less that of the best alternative: another cause, or the same one elsewhere.
     over_unnamed
-        The same over the best pattern without a name on its joints; infinite where none explains anything.
+        The same over the best unnamed pattern on its joints; infinite where none explains anything.
     """
 
     place: int
@@ -104,10 +104,9 @@ def _falls(state: SearchState, own: Comparison, *, alone: bool) -> bool:
 
 
 def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, alone: bool) -> bool:
-    """Tell whether a rival would beat a member, or whether it takes nothing from the error on unseen rows.
+    """Tell whether an alternative would beat a member, or whether it reduces no error on held-out rows.
 
-    Of the clearest, of one that stands alone, and of one that hardly acts there, it is only asked whether it
-    makes that error larger.
+    The most significant member, and one that hardly acts on those rows, only fail where that error grows.
     """
     if own.margin < -UNDECIDED and not alone:
         return True
@@ -116,7 +115,7 @@ def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison,
     expected = holdout_share(fitter, chosen, chosen.by_key[own.member.key]) * own.statistic
     dataset, left = fitter.dataset, (residual(fitter, own.without), residual(fitter, chosen))
     holdout, fitted = (dataset.usable & (dataset.held_out == held)[:, None] for held in (True, False))
-    # What shared parameters take up where a cause acts, they spoil on the other joints.
+    # What shared parameters absorb where a cause acts, they add to the error of the other joints.
     places = (tuple(sorted(fitter.columns([own.member])[0])), tuple(range(dataset.joints)))
     both = [
         [gain(*left, mask, dataset.block_of_all, joints) for mask in (holdout, fitted)] for joints in places
@@ -128,14 +127,14 @@ def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison,
 
 
 def _refuted_unseen(there: Gain, here: Gain) -> bool:
-    """Tell whether unseen rows show no gain, and deny that of the fitted ones if these show any."""
+    """Tell whether held-out rows show no gain, and contradict that of the fitted rows if there is one."""
     low, high = there.interval_95
     none = there.total_percent < 0.0 and here.total_percent < 0.0
     return none or (low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent)
 
 
 def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
-    """Give by how much a member beats the best pattern without a name in its place, on its joints."""
+    """Give a member's BIC difference less that of the best unnamed pattern in its place, on its joints."""
     joints = own.member.site or range(1, fitter.dataset.joints + 1)
     here = tuple(one for one in unnamed if one.site[0] in joints)
     unnamed_pattern = best_unnamed_pattern(fitter, own.without, here)
@@ -143,7 +142,7 @@ def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Cand
 
 
 def _beaten_by_unnamed(own: Comparison) -> bool:
-    """Tell whether a pattern without a name explains much more than a member in its place."""
+    """Tell whether an unnamed pattern explains much more than a member in its place."""
     if own.member.cause.traits.transient:
         return own.over_unnamed < EVENT_SHARE * own.statistic
     return own.over_unnamed < -max(UNDECIDED, UNNAMED_SHARE * own.statistic)
@@ -166,7 +165,7 @@ def compare_member(state: SearchState, index: int) -> Comparison:
             margin = min(margin, behind)
         # One that explains no more besides than position noise might refutes nobody.
         like = _by_position_noise(fitter, own, (member, other))
-        if not why and behind < max(like, _indifference(member, other, own_ratio)):
+        if not why and behind < max(like, _undecided_below(member, other, own_ratio)):
             ambiguous.append(_undecided(member, other, ratio, behind, like))
         elif ratio > WORTH_NAMING * own_ratio:
             refuted.append(_refuted(other, ratio, own_ratio, why))
@@ -189,13 +188,13 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 
 
-def _indifference(member: Candidate, rival: Candidate, own_ratio: float) -> float:
-    known = imitations(member.cause.id).get(rival.cause.id)
+def _undecided_below(member: Candidate, other: Candidate, own_ratio: float) -> float:
+    known = imitations(member.cause.id).get(other.cause.id)
     return max(UNDECIDED, (known.share if known else OTHER_SHARE) * own_ratio)
 
 
 def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
-    """Give the rise that noise of the positions may bring two candidates: none where one is not like it."""
+    """Give the statistic that position noise may give two candidates: none where one is unlike it."""
     if not all(one.cause.traits.like_position_noise for one in both):
         return 0.0
     torque, worth = fitter.dataset.position_torque, []
@@ -205,32 +204,32 @@ def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Ca
 
 
 def _undecided(
-    member: Candidate, rival: Candidate, statistic: float, behind: float, like: float
+    member: Candidate, other: Candidate, statistic: float, behind: float, like: float
 ) -> Alternative:
-    known = imitations(member.cause.id).get(rival.cause.id)
-    why = known.why if known else "both columns run nearly parallel in this motion"
-    experiment = known.experiment if known else rival.cause.experiment
-    noise = f", where noise of the positions may make {like:.1f}" if like > UNDECIDED else ""
+    known = imitations(member.cause.id).get(other.cause.id)
+    why = known.why if known else "the columns of both are nearly collinear in this motion"
+    experiment = known.experiment if known else other.cause.experiment
+    noise = f"; position noise may account for {like:.1f}" if like > UNDECIDED else ""
     return Alternative(
-        rival.cause.id,
-        rival.site,
+        other.cause.id,
+        other.site,
         statistic,
-        f"its criterion differs by only {behind:.1f}{noise}: {why}",
+        f"Delta BIC only {behind:.1f}{noise}: {why}",
         experiment,
     )
 
 
 def _inadmissible(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis) -> str:
-    """Say why a rival cannot take a finding's place, however well it fits; nothing where it can."""
+    """Say why an alternative cannot take a finding's place; empty where it can."""
     if not trial.possible:
-        return "fits only with a sign or size that nature does not allow"
-    return "" if passes_holdout(fitter, without, trial) else "does not help on rows that no fit has seen"
+        return "fits only with a sign or size that is not physically admissible"
+    return "" if passes_holdout(fitter, without, trial) else "does not help on held-out data"
 
 
-def _refuted(rival: Candidate, statistic: float, own: float, impossible: str) -> Alternative:
+def _refuted(other: Candidate, statistic: float, own: float, inadmissible: str) -> Alternative:
     why = (
-        f"{impossible} (rise {statistic:.1f})"
-        if impossible
-        else f"raises twice the log-likelihood by {statistic:.1f} where the finding raises it by {own:.1f}"
+        f"{inadmissible} (log-likelihood ratio statistic {statistic:.1f})"
+        if inadmissible
+        else f"log-likelihood ratio statistic {statistic:.1f}, where the finding has {own:.1f}"
     )
-    return Alternative(rival.cause.id, rival.site, statistic, why, "")
+    return Alternative(other.cause.id, other.site, statistic, why, "")

@@ -1,8 +1,8 @@
-"""See whether what is left is far larger for a while than at all other times: something happened then.
+"""Find bursts: short spans in which the residual is far larger than at all other times.
 
-An event whose shape is on no list (a jerk, a blow, a stuck brake) fits no cause and follows no pattern of the
-motion; a learner that predicts blocks it has not seen cannot foretell it. The median of a short stretch is
-not moved by single spikes, and what is slow and large by itself stays within a few deviations of the rest.
+A transient event of a shape that no cause has (a jerk, a blow, a stuck brake) follows no pattern of the
+motion, and a learner cannot predict it on held-out blocks. The median of a short span is not moved by single
+spikes, and slow disturbances stay within a few deviations of the rest.
 """
 
 import numpy as np
@@ -20,21 +20,21 @@ LEAST_ROWS, LEAST_ELSEWHERE = 8, 200
 
 
 def burst(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
-    """Give where a residual (rows x joints) stands out most, and on which joint; None where nowhere."""
+    """Give the largest burst of a residual (rows x joints), N m or N; None where there is none."""
     found = [one for joint in range(dataset.joints) for one in _stretches(dataset, residual, joint)]
     ratio, joint, begin = max(found, default=(0.0, 0, 0.0))
     if ratio < CLEAR:
         return None
     chance = float(norm.logsf(ratio) + np.log(2.0 * len(found))) / float(np.log(10.0))
     statement = (
-        f"What is left on joint {joint + 1} is {ratio:.2g} times as large for a while about "
-        f"{begin + 0.5 * SECONDS:.3g} s as at other times: something happened then that is on no list"
+        f"Burst in the residual of joint {joint + 1} at {begin + 0.5 * SECONDS:.3g} s: {ratio:.2g} times the "
+        "RMS at other times, of a shape that no listed cause has"
     )
     return UnnamedPattern(joint + 1, statement, ratio**2, chance)
 
 
 def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tuple[float, int, float]]:
-    """Give, per stretch, how large the joint's residual is there over its RMS elsewhere."""
+    """Give, per span, the median size of the joint's residual over its RMS elsewhere."""
     rows = np.flatnonzero(dataset.usable[:, joint])
     size = np.abs(residual[rows, joint])
     return [
@@ -47,7 +47,7 @@ def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tupl
 
 
 def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, Indices, Indices]]:
-    """Give, per stretch of a log, when it begins, the places of its rows, and of those beside it as well."""
+    """Give, per span of a log, its begin, the places of its rows, and those of its neighbourhood too."""
     own = np.flatnonzero(dataset.log[rows] == log)
     time = dataset.time[rows][own]
     begins = np.arange(time.min(), time.max(), 0.5 * SECONDS)

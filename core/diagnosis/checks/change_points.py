@@ -1,7 +1,8 @@
-"""Look for a torque that switches by itself between two levels, at instants which the residual gives away.
+"""Find change points: instants at which a torque switches by itself between two levels.
 
-The residual is smoothed more and less, and changes sides where it is far enough over on the other one. Each
-of these ways is scored like any pattern; every instant is paid for as one of all that the band tells apart.
+The residual is smoothed with several widths, and changes side where it exceeds a level on the other one. Each
+set of change points is scored like any pattern, with every instant counted as one of all that the bandwidth
+resolves.
 Source: Yao, Statistics & Probability Letters 6(3), 1988, on what a change that is looked for costs.
 """
 
@@ -31,7 +32,7 @@ _UNLISTED = UnnamedPatternCause()
 def switching_candidates(
     fitter: HypothesisFitter, now: Hypothesis, residual: JointSeries
 ) -> tuple[Candidate, ...]:
-    """Give, per joint, the likeliest way in which its residual (rows x joints) switches.
+    """Give, per joint, the likeliest change points of its residual (rows x joints).
 
     None where there are several logs: their instants are the same, and what happened at them is not.
     """
@@ -57,14 +58,14 @@ def switching_candidates(
 
 
 def _changes(series: Vector) -> Iterator[Indices]:
-    """List after which rows a series changes sides, in all ways of looking at it."""
+    """List the rows after which a series changes side, for all widths and levels."""
     for width, far in product(SMOOTHED, FAR):
         side = sides(uniform_filter1d(series, width), far)
         yield np.flatnonzero(side[1:] != side[:-1])
 
 
 def sides(series: Vector, far: float) -> Vector:
-    """Say on which side a series is: where it was last far over, so many RMS, on one of them.
+    """Give the side of a series: the one on which it last exceeded a level, in RMS.
 
     Examples
     --------
@@ -77,5 +78,5 @@ def sides(series: Vector, far: float) -> Vector:
 
 
 def _log_trials(changes: int, instants: float) -> float:
-    """Give the logarithm of how many ways there are to choose so many of the instants."""
+    """Give the logarithm of the number of ways to choose so many of the instants."""
     return float(changes * (1.0 + np.log(max(instants / changes, 1.0)))) if changes else 0.0

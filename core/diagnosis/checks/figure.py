@@ -1,4 +1,4 @@
-"""Show a finding: one joint's residual over the coordinate that explains it, before and after.
+"""Prepare a finding's figure: one joint's residual over the coordinate that explains it, before and after.
 
 Friction's sign follows the direction of motion, so that over a load or an angle its effects of both
 directions cancel. Where the coordinate alone does not tell what a finding adds, each direction has its curve.
@@ -52,7 +52,8 @@ def curve(
     rows = np.flatnonzero(dataset.clear[:, joint])
     own, forward = torque[joint][rows], dataset.state.velocity[rows, joint] > 0.0
     together, apart = _binned(rows, along.values), _apart(rows, forward, along.values)
-    split = _told(own, rows, together) < TOLD and _told(own, rows, apart) > _told(own, rows, together)
+    shares = [_explained_by_means(own, rows, groups) for groups in (together, apart)]
+    split = shares[0] < TOLD and shares[1] > shares[0]
     groups = apart if split else together
     return Curve(
         coordinate=along.name,
@@ -88,8 +89,8 @@ def _apart(rows: Indices, forward: np.ndarray, along: Vector) -> list[Indices]:
     ]
 
 
-def _told(torque: Vector, rows: Indices, groups: list[Indices]) -> float:
-    """Give the share of a torque's variation over some rows that the means of groups show."""
+def _explained_by_means(torque: Vector, rows: Indices, groups: list[Indices]) -> float:
+    """Give the share of a torque's variance over some rows that the means of groups explain."""
     total = float(np.var(torque)) * len(rows)
     place = np.empty(int(rows.max(initial=0)) + 1, dtype=int)
     place[rows] = np.arange(len(rows))

@@ -1,4 +1,4 @@
-"""Tell of every cause found: its size, what decided, what it gains and the figure that shows it."""
+"""Compose the finding of every cause: its size, the evidence, its gain and its figure."""
 
 from collections.abc import Sequence
 
@@ -53,7 +53,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         confidence=confidence(own.statistic, margin, measured),
         p_value=float(np.exp(log_p)),
         explained_fraction=_explained(left, dataset.usable & ~dataset.held_out[:, None], joints),
-        evidence=(*_evidence(own, log_p, member.trials), *_unseen(fitter, chosen, place, own)),
+        evidence=(*_evidence(own, log_p, member.trials), *_on_holdout(fitter, chosen, place, own)),
         ambiguous_with=own.ambiguous,
         refuted=own.refuted,
         gain=measured,
@@ -65,61 +65,60 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
 def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, ...]:
     return (
         Evidence(
-            "Rise of twice the log-likelihood when it joins the model, the noise learned anew",
+            "Log-likelihood ratio statistic when it enters the model, with the noise estimated again",
             "likelihood ratio",
             own.statistic,
         ),
         Evidence(
-            f"Logarithm of the chance of so large a rise by luck, corrected for {trials:.3g} scanned values "
-            "and all other candidates",
+            f"Logarithm of the p-value, corrected for {trials:.3g} scanned values and all other candidates",
             "log10 p",
             log_p / float(np.log(10.0)),
         ),
         Evidence(
-            "Lead of its criterion over the best rival's; below 6 the two cannot be told apart",
+            "Delta BIC to the best alternative; below 6 the two are undecided",
             "criterion difference",
             own.margin,
         ),
-        *_over_nameless(own),
+        *_over_unnamed(own),
     )
 
 
-def _unseen(
+def _on_holdout(
     fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison
 ) -> tuple[Evidence, ...]:
-    """Say what it brings on rows that no fit has seen, each weighed by the noise there; not of an event.
+    """Give its statistic on held-out rows, each weighted by the noise there; not of a transient cause.
 
-    The error's RMS, which `gain` is of, may be one of slow torque that hides what is weighed here.
+    The RMS error, which `gain` is of, may be dominated by slow torque.
     """
     if own.member.cause.traits.transient:
         return ()
     expected = expected_holdout_likelihood_ratio(fitter, own.without, chosen, place)
     return (
         Evidence(
-            "Rise of twice the log-likelihood on rows that no fit has seen; as far as it acts there "
-            f"{expected:.0f} is to be expected",
+            "Log-likelihood ratio statistic on held-out data; as far as it acts there, "
+            f"{expected:.0f} is expected",
             "unseen likelihood ratio",
             holdout_likelihood_ratio(fitter, own.without, chosen, place),
         ),
     )
 
 
-def _over_nameless(own: Comparison) -> tuple[Evidence, ...]:
-    """Say how it stands to patterns without a name, where one explains a part of it."""
+def _over_unnamed(own: Comparison) -> tuple[Evidence, ...]:
+    """Compare it with unnamed patterns, where one explains a part of it."""
     if not np.isfinite(own.over_unnamed):
         return ()
-    statement = "Lead of its criterion over that of the best pattern without a name; below 0 it is doubtful"
+    statement = "Delta BIC to the best unnamed pattern; below 0 the finding is doubtful"
     return (Evidence(statement, "lead over the nameless", own.over_unnamed),)
 
 
 def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
-    """Give the share of the residual's mean square that a finding takes from the joint it helps most."""
+    """Give the share of the residual's mean square that a finding explains on the joint it helps most."""
     sums = [(one**2 * mask).sum(axis=0)[list(joints)] for one in left]
     return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
 
 
 def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -> Finding:
-    """Tell of a fault of the samples."""
+    """Compose the finding of a sample check."""
     sure = 1.0 - found.p_value
     return Finding(
         cause=cause.id,
@@ -131,7 +130,7 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
         confidence=float(min(sure, 0.99)),
         p_value=found.p_value,
         explained_fraction=float(np.clip(np.max(found.residual_share), 0.0, 1.0)),
-        evidence=(Evidence("Statistic of the check on the raw samples", "raw check", found.statistic),),
+        evidence=(Evidence("Statistic of the sample check", "raw check", found.statistic),),
         ambiguous_with=(),
         refuted=(),
         gain=None,
@@ -141,5 +140,5 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
 
 
 def _without(fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison) -> JointSeries:
-    """Give the residual without a finding: all else fitted anew, or, against a reference, kept as it is."""
+    """Give the residual without a finding: all else fitted again, or, against a reference, kept as it is."""
     return residual(fitter, own.without) if fitter.prior is None else residual(fitter, chosen, (place,))

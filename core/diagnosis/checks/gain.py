@@ -1,4 +1,4 @@
-"""Measure what a finding gains on rows that no fit has seen, with an interval from whole blocks."""
+"""Measure what a finding gains on held-out rows, with an interval from a block bootstrap."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ SEED = 0
 def gain(
     before: JointSeries, after: JointSeries, mask: np.ndarray, block: np.ndarray, joints: tuple[int, ...]
 ) -> Gain | None:
-    """Compare two residuals on marked rows (rows x joints); None where there are too few to judge.
+    """Compare two residuals on marked rows (rows x joints); None where there are too few.
 
     Parameters
     ----------

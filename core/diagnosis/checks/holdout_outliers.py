@@ -1,9 +1,9 @@
-"""See whether held-out rows hold something that the fitted rows never showed: a short event, mostly.
+"""Test whether held-out blocks are outliers: a short event may lie in them alone.
 
-What is held out is spread evenly, so that any lasting effect shows on both sides; what happened once may lie
-on the wrong one. Then other blocks are held out: before anything is searched where a plain fit shows it, and
-where only what was found shows it the search begins anew. Source: Stone, J. R. Stat. Soc. B 36(2), 1974, for
-exchanging the parts of a log.
+Held-out blocks are spread evenly, so that a lasting effect acts on fitted and held-out rows. What happened
+once may lie in a held-out block. Then other blocks are held out: before the search where a plain fit shows
+the outlier, and by a further search where only its result shows it.
+Source: Stone, J. R. Stat. Soc. B 36(2), 1974, for exchanging the parts of a log.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,7 @@ from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 
 Explained = tuple[HypothesisFitter, Hypothesis]
-"""A bench and a hypothesis that was fitted on it."""
+"""A fitter and a hypothesis that it fitted."""
 OVER_LARGEST, OVER_USUAL = 2.5, 6.0
 """How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
 LEAST_ROWS = 8
@@ -29,7 +29,7 @@ AS_MANY = 0.5
 
 
 def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
-    """Tell whether a block that was held out is missed far worse than any that was fitted."""
+    """Tell whether the error of a held-out block is far larger than that of any fitted one."""
     holdout = extended(fitter.rows.held_out, fitter.columns(found.members))
     for part, fitted, seen in zip(holdout, found.fit.joints, fitter.rows.fitted, strict=True):
         missed = (part.torque - part.columns @ found.fit.values)[:, None]
@@ -42,12 +42,12 @@ def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
 
 
 def with_typical_holdout(dataset: Dataset, plain: Explained, fit: Callable[[Dataset], Explained]) -> Dataset:
-    """Hold other blocks out from the first where what is held out surprises, and those would not.
+    """Hold other blocks out from the first where those held out are outliers, and the others are not.
 
     Parameters
     ----------
     plain
-        The look's rows with nothing suspected, and their fit.
+        The data set's fitter without candidates, and its fit.
     fit
         Gives the same of other rows.
     """
@@ -58,7 +58,7 @@ def with_typical_holdout(dataset: Dataset, plain: Explained, fit: Callable[[Data
 def with_other_holdout(dataset: Dataset) -> Dataset | None:
     """Hold other blocks out: those half-way to the next ones.
 
-    None where whole logs are held out, or where the robot rests or turns round in the others.
+    None where whole logs are held out, or where the robot rests or reverses in the others.
     """
     held_out = np.zeros_like(dataset.held_out)
     for log in np.unique(dataset.log):

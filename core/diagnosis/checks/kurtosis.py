@@ -1,4 +1,4 @@
-"""See whether a residual keeps to levels: a torque that switches by itself, at instants nobody can foretell.
+"""Test the kurtosis of a residual: a torque that switches between levels by itself has a small one.
 
 Noise has a kurtosis of three or more, and so has any sum of it over time; what stays between two levels has
 as little as one. Its deviation comes from leaving out blocks in turn. Sources: Darlington, The American
@@ -23,7 +23,7 @@ LEAST_ROWS = 200
 
 
 def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
-    """Give the joint whose residual (rows x joints) keeps to levels most clearly; None where none does."""
+    """Give the joint whose residual (rows x joints) has the most significantly small kurtosis, or None."""
     blocks = row_blocks(dataset)
     found = []
     for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
@@ -37,8 +37,8 @@ def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern 
         return None
     chance = float(norm.logsf(clearest) + np.log(len(found))) / float(np.log(10.0))
     statement = (
-        f"What is left on joint {joint} keeps within bounds, as a torque does that switches between levels "
-        f"by itself (kurtosis {size:.2g}; noise has 3 or more)"
+        f"The residual of joint {joint} is bounded, as of a torque that switches between levels by itself "
+        f"(kurtosis {size:.2g}; noise has 3 or more)"
     )
     return UnnamedPattern(joint, statement, clearest**2, chance)
 

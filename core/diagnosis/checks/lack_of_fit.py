@@ -1,7 +1,7 @@
-"""Look for what is in no list: beside what was found, and in the place of what was found.
+"""Test for lack of fit: unnamed patterns beside the findings, and in the place of a finding.
 
-A pattern without a name that explains much better than a named cause refutes the name; one that explains what
-is left shows that something is left. Either must be as sure as a named cause has to be.
+An unnamed pattern that explains much more than a named cause refutes the name. One that explains what is left
+shows lack of fit. Either must be as significant as a named cause.
 """
 
 from dataclasses import replace
@@ -17,7 +17,7 @@ _UNLISTED = UnnamedPatternCause()
 
 
 def unnamed_candidates(fitter: HypothesisFitter) -> tuple[Candidate, ...]:
-    """Give the patterns that are looked for under the present belief."""
+    """Give the unnamed patterns as candidates at the operating point."""
     return tuple(
         Candidate(_UNLISTED, site, scalars, _UNLISTED.traits.trials(grid, scalars))
         for site in _UNLISTED.sites(fitter.dataset, fitter.operating_point)
@@ -39,7 +39,7 @@ def best_unnamed_pattern(
 
 
 def _finest(fitter: HypothesisFitter, now: Hypothesis, found: Candidate) -> Candidate:
-    """Give the likeliest of the patterns around one."""
+    """Refine a pattern: give the likeliest around one."""
     around = [replace(found, scalars=scalars) for scalars in _UNLISTED.finer(fitter.dataset, found.scalars)]
     best = max(zip(fitter.score(now, around), around, strict=True), key=lambda one: one[0].statistic)[1]
     return replace(best, trials=found.trials * len(around))

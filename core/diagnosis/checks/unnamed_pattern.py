@@ -1,8 +1,8 @@
-"""Suspect something that is in no list: a residual that follows a pattern which no listed cause has.
+"""Offer unnamed patterns: a residual may follow one that no listed cause has.
 
-What is found so carries no name; it says that something is left, on which joint and what it follows, and it
-keeps listed causes from being named for want of better. Source: Brynjarsdottir & O'Hagan, Inverse Problems
-30, 2014, for why a free discrepancy may not claim a physical name.
+What is found so carries no name. It says that something is left, on which joint and what it follows, and it
+prevents that a listed cause is named for lack of a better one. Source: Brynjarsdottir & O'Hagan,
+Inverse Problems 30, 2014, for why a free discrepancy may not claim a physical name.
 """
 
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ _NAMES = tuple(PATTERNS)
 
 @dataclass(frozen=True)
 class UnnamedPatternCause(OwnJointCause):
-    """Suspect what no listed cause explains."""
+    """Offer the unnamed patterns of one joint."""
 
     id = "unlisted"
     title = "Something follows a pattern that no listed cause has"
@@ -42,14 +42,14 @@ class UnnamedPatternCause(OwnJointCause):
     traits = SearchTraits(discrete=("pattern", "number_0", "number_1", "number_2"))
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
-        """List all patterns, numbers after their place."""
+        """List all patterns with their numbers."""
         del operating_point
         return [
             _scalars(name, numbers) for name, numbers in _fixed(dataset.joints, site[0], _seconds(dataset))
         ]
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
-        """List numbers around those of a grid point: higher harmonics want a rhythm's rate better than it."""
+        """List numbers around those of a grid point: higher harmonics need a finer rate than the grid's."""
         name, numbers = _read(scalars)
         if name != "clock":
             return [scalars]
@@ -57,7 +57,7 @@ class UnnamedPatternCause(OwnJointCause):
         return [_scalars(name, (numbers[0] + step * place,)) for place in range(-FINER, FINER + 1)]
 
     def switching(self, instants: Vector) -> Scalars:
-        """Say that the torque switches between two levels at these instants, s: no grid could list them."""
+        """Give the scalars of a torque that switches between two levels at these instants, s."""
         return _scalars("levels", tuple(instants.tolist()))
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
@@ -66,13 +66,13 @@ class UnnamedPatternCause(OwnJointCause):
         return Trace(site[0], *_read(scalars))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report no numbers: they would mean nothing elsewhere."""
+        """Report no numbers: they have no physical meaning."""
         del solved
         return ()
 
     def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
-        return f"What is left on joint {solved.site[0]} follows {_words(*_read(solved.scalars))}"
+        return f"The residual of joint {solved.site[0]} follows {_words(*_read(solved.scalars))}"
 
 
 @cache
@@ -129,10 +129,11 @@ def _words(pattern: str, numbers: Numbers) -> str:
             " times its own speed squared",
         )
         return (
-            f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per turn){factor[int(numbers[2])]}"
+            f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per revolution)"
+            f"{factor[int(numbers[2])]}"
         )
     if pattern == "clock":
-        return f"a rhythm of {1.0 / numbers[0]:.3g} s, whatever the robot does"
+        return f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion"
     if pattern == "levels":
         return "two levels between which it switches by itself"
-    return f"something that swings by itself at about {numbers[0]:.2g} Hz"
+    return f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion"

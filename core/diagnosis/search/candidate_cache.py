@@ -1,7 +1,7 @@
-"""Rank what is suspected all along the motion, site by site under the earliest belief that will do.
+"""Reuse candidates' columns of an earlier operating point where it is near enough, joint by joint.
 
-A scan over everything costs most where columns have to be built, and most beliefs change one joint's torque.
-What is suspected of the others is then as it was on their own joints, and nearly so on all.
+Most of a scan's cost is the columns, and most changes of the operating point change one joint's torque. The
+columns of the other joints' candidates are then unchanged on their own joints, and nearly so on all.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,14 +19,14 @@ NEAR = 0.01
 
 @dataclass(frozen=True, eq=False)
 class CandidateCache:
-    """Keep what is suspected all along the motion, to be ranked by columns that may be of an earlier belief.
+    """Hold the candidates that act all the time, with columns that may be of an earlier operating point.
 
     Attributes
     ----------
     whole
-        The suspicion that candidates of several joints or of none are of.
+        The operating point of candidates of several joints or of none.
     joints
-        Per joint, the suspicion that candidates of that joint alone are of.
+        Per joint, the operating point of candidates of that joint alone.
     """
 
     whole: Candidates
@@ -34,50 +34,50 @@ class CandidateCache:
 
     @cached_property
     def candidates(self) -> tuple[Candidate, ...]:
-        """Give what is suspected."""
-        return tuple(candidate for candidate, _ in self._suspected)
+        """Give the candidates."""
+        return tuple(candidate for candidate, _ in self._placed)
 
     def of(self, now: Candidates) -> bool:
-        """Tell whether everything is of one suspicion."""
-        return self._suspicions == (now,)
+        """Tell whether all columns are of one operating point."""
+        return self._points == (now,)
 
     def under(self, now: Candidates) -> "CandidateCache":
-        """Take what another belief would rank otherwise from the suspicion under that belief.
+        """Take the candidates whose columns another operating point changes from there.
 
-        Roughly: columns made of derivatives may change by a greater share than what is predicted does, and so
-        may what a candidate of one joint adds on the others.
+        Approximate: columns of derivatives may change by a larger share than the torque does, and so may
+        what a candidate of one joint adds on the others.
         """
-        changed = {one: ~(one.change(now) <= NEAR) for one in self._suspicions}
+        changed = {one: ~(one.change(now) <= NEAR) for one in self._points}
         whole = now if changed[self.whole].any() else self.whole
         joints = tuple(now if changed[one][joint] else one for joint, one in enumerate(self.joints))
         return self if (whole, joints) == (self.whole, self.joints) else CandidateCache(whole, joints)
 
     def columns(self, built: Callable[[Sequence[Candidate], Candidates], Sequence[Columns]]) -> list[Columns]:
-        """Give the candidates' columns, each as a bench builds it under its suspicion."""
+        """Give the candidates' columns, each at its operating point."""
         out: dict[int, Columns] = {}
-        for suspicion in self._suspicions:
-            places = [place for place, (_, own) in enumerate(self._suspected) if own is suspicion]
-            columns = built([self.candidates[place] for place in places], suspicion)
+        for point in self._points:
+            places = [place for place, (_, own) in enumerate(self._placed) if own is point]
+            columns = built([self.candidates[place] for place in places], point)
             out |= dict(zip(places, columns, strict=True))
         return [out[place] for place in range(len(out))]
 
     @property
-    def _suspicions(self) -> tuple[Candidates, ...]:
+    def _points(self) -> tuple[Candidates, ...]:
         return tuple(dict.fromkeys((self.whole, *self.joints)))
 
     @cached_property
-    def _suspected(self) -> tuple[tuple[Candidate, Candidates], ...]:
+    def _placed(self) -> tuple[tuple[Candidate, Candidates], ...]:
         return tuple(
             (candidate, own)
             for cause, site in self.whole.lasting
-            for own in (self._suspicion(site),)
+            for own in (self._point(site),)
             for candidate in own.of(cause, site)
         )
 
-    def _suspicion(self, site: Site) -> Candidates:
+    def _point(self, site: Site) -> Candidates:
         return self.joints[site[0] - 1] if len(site) == 1 else self.whole
 
 
-def cache_at(suspicion: Candidates) -> CandidateCache:
-    """Rank everything under one belief."""
-    return CandidateCache(suspicion, (suspicion,) * suspicion.dataset.joints)
+def cache_at(point: Candidates) -> CandidateCache:
+    """Take all candidates from one operating point."""
+    return CandidateCache(point, (point,) * point.dataset.joints)

@@ -1,7 +1,4 @@
-"""Keep what is suspected while one prediction is believed, and what was computed for it.
-
-All of it is out of date as soon as something else is believed, and of use again when the first is.
-"""
+"""Hold the candidates at one operating point, and what was computed for them there."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
@@ -23,20 +20,20 @@ from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Keep what is suspected while one prediction is believed.
+    """Hold the candidates at one operating point.
 
     Attributes
     ----------
     dataset, left
-        The rows; and the same with only what is not explained so far for their torque.
+        The data set; and the same with what is not explained so far in place of the torque.
     columns
-        The filtered columns of candidates that are built on the prediction.
+        The filtered columns of candidates that depend on the operating point.
     scans
-        Per hypothesis, what a scan of all candidates on top of it gave.
+        Per hypothesis, the scan of all candidates on top of it.
     less
-        The last hypotheses that were taken apart, and what each is without either of its members.
+        The last hypothesis whose members were removed in turn, and the smaller hypotheses.
     trials
-        What each of these is with the candidates that were fitted in a member's place.
+        For each of these, the hypotheses with a candidate in the removed member's place.
     """
 
     causes: tuple[Cause, ...]
@@ -53,12 +50,12 @@ class Candidates:
 
     @property
     def lasting(self) -> tuple[tuple[Cause, Site], ...]:
-        """List what is suspected all along the motion: the causes with their sites."""
+        """List the causes that act all the time, with their sites."""
         return tuple(self._sites(cause for cause in self.causes if not cause.traits.transient))
 
     @cached_property
     def events(self) -> tuple[Candidate, ...]:
-        """Give what may have happened, as what is left tells of it."""
+        """Give the transient candidates, from what is not explained so far."""
         pairs = self._sites(cause for cause in self.causes if cause.traits.transient)
         return tuple(candidate for cause, site in pairs for candidate in self.of(cause, site))
 
@@ -68,7 +65,7 @@ class Candidates:
                 yield cause, site
 
     def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
-        """Give one cause at one site with all scalars that are scanned."""
+        """Give one cause at one site with all values of its scalars."""
         if (cause, site) not in self._known:
             grid = tuple(cause.grid(self.left, self.operating_point, site))
             self._known[cause, site] = tuple(
@@ -77,7 +74,7 @@ class Candidates:
         return self._known[cause, site]
 
     def of_kind(self, key: tuple[str, Site]) -> tuple[Candidate, ...]:
-        """Give all causes of one name at one site: against a reference some come in two forms."""
+        """Give all causes of one id at one site: against a reference some come in two forms."""
         name, site = key
         causes = (
             one
@@ -87,7 +84,7 @@ class Candidates:
         return tuple(candidate for one in causes for candidate in self.of(one, site))
 
     def change(self, other: "Candidates") -> JointVector:
-        """Give by how much another prediction differs from this one, as a share of each joint's torque."""
+        """Give the RMS difference of another prediction, as a share of each joint's torque."""
         square, change = np.zeros(self.dataset.joints), np.zeros(self.dataset.joints)
         if other is self:
             return change
@@ -99,15 +96,15 @@ class Candidates:
 
 
 def no_candidates(dataset: Dataset, model: DynamicModel) -> Candidates:
-    """Believe that nothing moves any link, and suspect nothing."""
+    """Give the operating point without any torque, and no candidates."""
     nothing = Prediction(model, np.zeros(len(model.parameters)), inverse_dynamics)
     return Candidates((), dataset, dataset, nothing)
 
 
 def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Prediction) -> Prediction:
-    """Give a prediction that knows what joined the model: loads first, then all else, then its scales.
+    """Extend a prediction by the members: loads first, then all else, then gains of the torque channel.
 
-    What is late is late after that, and is not part of it.
+    A delay acts on the result, and is not part of it.
     """
     for joins in (_loads, _acts_inside, _scales):
         terms = []

@@ -1,4 +1,4 @@
-"""Tell a cause from what another one leaves: by what it keeps beside that one, and by where it acts."""
+"""Tell a cause from what another one masks: by what it explains beside that one, and by where it acts."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import bounded_likelihood_ratio, likelihood_ratio, likelihood_ratio_by_joint, log_p
 
 BESIDE_SHARE = 0.5
-"""What keeps this share of its rise beside a finding is no rival to it."""
+"""What keeps this share of its rise beside a finding is no other to it."""
 LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
 """A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
 EVENT_OVER_OTHER, FAR_BEYOND_LUCK = 0.05, 1e-30
@@ -19,12 +19,12 @@ WITHIN = 0.9
 
 
 def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hypothesis) -> bool:
-    """Tell whether a member looks like what another one leaves, and brings too little for a cause.
+    """Tell whether a member resembles what another one leaves, and explains too little to be a cause.
 
-    It does where half of its rise, joint by joint, is no more than a quarter of what the other brings there:
-    on a joint of its own it has to be half as clear as the other. An event does where it happens only while
-    the other acts, and brings less, and beside whatever brings many times as much unless it is far beyond
-    luck.
+    It does where half of its likelihood ratio statistic, joint by joint, is no more than a quarter of the
+    other's there. On a joint of its own it has to have half the other's statistic. A transient member does
+    where it happens only while the other acts and explains less. It also does beside any member that
+    explains many times as much, unless its p-value is extremely small.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
         if own.traits.transient:
             within = leaves and _acts_within(whole, index, place)
             least = likelihood_ratio(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
-            if own_ratio.sum() < least and (within or not _far_beyond_luck(less, whole, index)):
+            if own_ratio.sum() < least and (within or not _is_extreme(less, whole, index)):
                 return True
             continue
         left = LEFT_SHARE * np.maximum(likelihood_ratio_by_joint(without, whole), 0.0)
@@ -49,26 +49,26 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
     return False
 
 
-def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate, alone: float) -> bool:
-    """Tell whether a candidate keeps its rise beside a hypothesis: then it is no rival."""
-    return fitter.scan(own, [rival])[0].statistic > BESIDE_SHARE * alone
+def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, other: Candidate, alone: float) -> bool:
+    """Tell whether a candidate explains as much beside a hypothesis: then it is no alternative."""
+    return fitter.scan(own, [other])[0].statistic > BESIDE_SHARE * alone
 
 
-def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, rival: Candidate) -> bool:
-    """Tell whether a candidate is an event that the last member leaves, as by its own torque at its limit."""
-    if not rival.cause.traits.transient or rival.cause.id not in masks(own.members[-1].cause.id):
+def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) -> bool:
+    """Tell whether a candidate is transient and the last member leaves it, as by torque at its limit."""
+    if not other.cause.traits.transient or other.cause.id not in masks(own.members[-1].cause.id):
         return False
-    both = fitter.fit_with(own, rival)
+    both = fitter.fit_with(own, other)
     return _acts_within(both, len(own.members), len(own.members) - 1)
 
 
-def _far_beyond_luck(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
+def _is_extreme(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
     chance = log_p(less, whole, bounded_likelihood_ratio(less, whole, index), index)
     return bool(chance < np.log(FAR_BEYOND_LUCK))
 
 
 def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
-    """Tell whether one member acts hardly ever but while another does, on the joints of the other."""
+    """Tell whether one member acts hardly ever except while another does, on the joints of the other."""
     together = alone = 0
     for part in whole.fit.joints:
         acts, other = (part.of(whole.columns_of(one)).any(axis=1) for one in (index, place))

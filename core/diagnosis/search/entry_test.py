@@ -1,7 +1,7 @@
-"""Judge what may join a hypothesis: beyond luck, large enough to matter, and of use on unseen rows.
+"""Test what may enter a hypothesis: significant, large enough to matter, and of use on held-out rows.
 
-A scan says which candidates come into question; each of them is fitted with the noise learned anew where it
-acts before it is judged, because noise that was learned without it has learned it.
+A scan ranks the candidates. Each is fitted with the noise estimated again where it acts before it is tested,
+because noise that was estimated without it has absorbed it.
 """
 
 from collections.abc import Sequence
@@ -54,12 +54,12 @@ def best_entry(
     most: int = TRIED,
     least: float = 0.0,
 ) -> Hypothesis | None:
-    """Give the hypothesis with the cause that deserves it most, of so many tried; None where none does.
+    """Give the hypothesis with the best cause that may enter, of so many tried; None where none may.
 
     Parameters
     ----------
     least
-        What its criterion has to gain (see `bic_gain`).
+        BIC gain that it has to exceed.
     """
     excluded = {name for one in now.members for name in excludes(one.cause.id)}
     taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
@@ -74,17 +74,17 @@ def best_entry(
     found: Hypothesis | None = None
     left: Ranked = [(one, most) for one, most in ranked if most > least]
     while left and found is None:
-        likely, left = _likely(fitter, now, left, least, len(scans))
-        found = _first_to_hold(fitter, now, likely, excluded_kinds, least)
+        likely, left = _significant(fitter, now, left, least, len(scans))
+        found = _best_on_holdout(fitter, now, likely, excluded_kinds, least)
     return found
 
 
-def _likely(
+def _significant(
     fitter: HypothesisFitter, now: Hypothesis, ranked: Ranked, least: float, kinds: int
 ) -> tuple[list[Hypothesis], Ranked]:
-    """Fit candidates, and give those that are clear enough, the best ones first.
+    """Fit candidates, and give those that are significant, the best ones first.
 
-    Those that cannot be better than others that were are not fitted, and given besides.
+    Those that cannot be better than a significant one are not fitted, and are given besides.
     """
     likely: list[Hypothesis] = []
     left: list[tuple[ScoredCandidate, float]] = []
@@ -95,21 +95,21 @@ def _likely(
             continue
         trial = with_candidate(fitter, now, one)
         gains = bic_gain(now, trial)
-        if trial.possible and gains > least and _deserves(fitter, now, trial, kinds):
+        if trial.possible and gains > least and _passes_entry_test(fitter, now, trial, kinds):
             likely.append(trial)
             best = best if one.candidate.cause.traits.transient else max(best, gains)
     return sorted(likely, key=lambda trial: -bic_gain(now, trial)), left
 
 
-def _first_to_hold(
+def _best_on_holdout(
     fitter: HypothesisFitter,
     now: Hypothesis,
     likely: Sequence[Hypothesis],
     excluded_kinds: Excluded,
     least: float,
 ) -> Hypothesis | None:
-    """Give the best of some trials that holds on unseen rows and is not what others leave."""
-    # A shared parameter carries an effect to other joints: the last word has the noise of all of them.
+    """Give the best of some trials that passes the hold-out test and is not masked by a member."""
+    # A shared parameter carries an effect to other joints, so the noise of all of them is estimated again.
     whole = [fitter.fit(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
     # A transient cause explains a little of anything, and comes after those that act all the time.
     ranked = sorted(
@@ -127,26 +127,30 @@ def _first_to_hold(
     return next(deserves, None)
 
 
-def _deserves(
+def _passes_entry_test(
     fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: int, index: int = -1
 ) -> bool:
-    """Tell whether a member is clear enough to join (the last one unless said otherwise; so below)."""
-    return is_significant(fitter, now, trial, kinds, index=index) or _apart(fitter, now, trial, kinds, index)
+    """Tell whether a member passes the entry test (the last one by default; so below)."""
+    return is_significant(fitter, now, trial, kinds, index=index) or _is_independent(
+        fitter, now, trial, kinds, index
+    )
 
 
 def passes_exit_test(fitter: HypothesisFitter, without: Hypothesis, now: Hypothesis, index: int) -> bool:
-    """Tell whether nature allows a member, and whether it is clear enough to join the others again."""
+    """Tell whether a member is admissible, and would enter beside the others again."""
     if not now.allows(index):
         return False
     if not without.members:
         return bool(wald_statistic(now, index) > -2.0 * np.log(LEVEL))
-    return _deserves(fitter, without, now, fitter.kinds, index)
+    return _passes_entry_test(fitter, without, now, fitter.kinds, index)
 
 
-def _apart(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: int, index: int) -> bool:
-    """Tell whether a member is as clear as a first one has to be, and owes nothing to the others."""
+def _is_independent(
+    fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: int, index: int
+) -> bool:
+    """Tell whether a member is as significant as a first one has to be, and independent of the others."""
     member, others = trial.members[index], [set(one.site) for one in now.members]
-    if not others or _at_picked_instants(trial, index):
+    if not others or _acts_rarely(trial, index):
         return False
     if not all(one and one.isdisjoint(member.site) for one in others):
         return False
@@ -165,17 +169,17 @@ def is_significant(
     level: float | None = None,
     index: int = -1,
 ) -> bool:
-    """Tell whether a member is beyond luck among so many kinds, and large enough to matter."""
+    """Tell whether a member is significant among so many kinds, and large enough to matter."""
     if level is None:
-        rare = _at_picked_instants(trial, index)
+        rare = _acts_rarely(trial, index)
         level = FURTHER_LEVEL if now.members else EVENT_LEVEL if rare else LEVEL
     hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_likelihood_ratio(now, trial, index), index)
     return bool(chance < hurdle and _share(now, trial) > _least_share(fitter, trial.members[index]))
 
 
-def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
-    """Tell whether a member acts now and then only, so that one burst of noise may look like it."""
+def _acts_rarely(trial: Hypothesis, index: int) -> bool:
+    """Tell whether a member acts on few rows only, so that one burst of noise may look like it."""
     if trial.members[index].cause.traits.transient:
         return True
     own = trial.columns_of(index)
@@ -186,23 +190,23 @@ def _at_picked_instants(trial: Hypothesis, index: int) -> bool:
 def passes_holdout(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis) -> bool:
     """Tell whether a new member helps on held-out rows as far as it acts there.
 
-    An event is judged where it happens: what a fit knows of it from half its span says little of the rest.
+    A transient cause is judged where it happens: a fit to half its span says little of the rest.
     """
     if trial.members[-1].cause.traits.transient:
         return True
     expected = holdout_share(fitter, trial) * min(
         wald_statistic(trial, len(trial.members) - 1), likelihood_ratio(now, trial)
     )
-    luck = 2.0 * float(np.sqrt(max(expected, 1.0)))
+    deviation = 2.0 * float(np.sqrt(max(expected, 1.0)))
     return holdout_likelihood_ratio(fitter, now, trial) >= min(
-        UNSEEN_SHARE * expected, expected - UNLUCKY * luck
+        UNSEEN_SHARE * expected, expected - UNLUCKY * deviation
     )
 
 
 def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCandidate) -> Hypothesis:
-    """Add a candidate with refined scalars, and fit everything anew; how well they are known is left open.
+    """Add a candidate with refined scalars, without their deviations, and fit everything again.
 
-    What was fitted in a member's place to challenge it is not fitted again to weigh it.
+    What was fitted in a member's place for a swap is not fitted again for a comparison.
     """
     kept, place = fitter.at.trials.get(now, {}), scored.candidate.place
     if place not in kept:

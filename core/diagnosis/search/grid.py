@@ -1,4 +1,4 @@
-"""Search a scalar between the points of its grid: finer and finer around the best."""
+"""Refine a grid around its best point."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""Ask the rows that no fit has seen what they say of a member, and what would be to be expected of them.
+"""Give a member's likelihood ratio statistic on held-out rows, and its expected value.
 
 Source: Stone, J. R. Stat. Soc. B 36(2), 1974, on judging by data that the choice has not seen.
 """
@@ -14,24 +14,23 @@ from .hypothesis import Hypothesis
 def holdout_likelihood_ratio(
     fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int = -1
 ) -> float:
-    """Give the rise of twice the log-likelihood on held-out rows, at the larger hypothesis's noise.
+    """Give the likelihood ratio statistic on held-out rows, at the larger hypothesis's noise.
 
-    What was believed beforehand was not seen by either: by how much less the larger hypothesis departs
-    from it counts like rows, in proportion to those that are held out.
+    A prior counts like rows, in proportion to those that are held out: neither hypothesis was fitted to it.
     """
     share = holdout_share(fitter, trial, index) if fitter.prior else 0.0
-    return _rise_at(fitter, fitter.rows.held_out, now, trial, share)
+    return _ratio_on(fitter, fitter.rows.held_out, now, trial, share)
 
 
 def expected_holdout_likelihood_ratio(
     fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int
 ) -> float:
-    """Give what `holdout_likelihood_ratio` would be if a member did there what it does on the fitted rows."""
-    return holdout_share(fitter, trial, index) * _rise_at(fitter, fitter.rows.fitted, now, trial, 1.0)
+    """Give the `holdout_likelihood_ratio` of a member that explains there what it does on fitted rows."""
+    return holdout_share(fitter, trial, index) * _ratio_on(fitter, fitter.rows.fitted, now, trial, 1.0)
 
 
 def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) -> float:
-    """Give the square of a member's torque on held-out rows over that on the fitted ones."""
+    """Give the square of a member's white torque on held-out rows over that on the fitted ones."""
     columns = fitter.columns(trial.members)[index]
     values = trial.fit.values[trial.columns_of(index % len(trial.members))]
     squares = []
@@ -44,7 +43,7 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
     return squares[0] / max(squares[1], 1e-300)
 
 
-def _rise_at(
+def _ratio_on(
     fitter: HypothesisFitter,
     joints: tuple[JointRows, ...],
     now: Hypothesis,

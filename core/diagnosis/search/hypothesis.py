@@ -1,4 +1,4 @@
-"""Carry what a diagnosis weighs: candidates, and hypotheses made of them."""
+"""Hold candidates, and the hypotheses that are made of them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -15,12 +15,12 @@ from ..regression.gls import OPEN_SHARE, Fit
 from ..regression.score_test import Score
 
 ColumnKey = tuple[str, Site, tuple[tuple[str, float], ...]]
-"""A cause, its site and its scalars: what columns are kept under."""
+"""A cause, its site and its scalars: the key of cached columns."""
 
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """Name one cause at one site with settled scalars.
+    """Hold one cause at one site with values of its scalars.
 
     Attributes
     ----------
@@ -50,13 +50,13 @@ class Candidate:
 
     @cached_property
     def place(self) -> ColumnKey:
-        """Name it with its scalars."""
+        """Give the key of its columns."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
 
 
 @dataclass(frozen=True, eq=False)
 class ScoredCandidate:
-    """Carry a candidate with the rise of twice the log-likelihood that it brings.
+    """Hold a candidate with its score test.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class ScoredCandidate:
 
     @cached_property
     def log_p(self) -> float:
-        """Give log of (trials times the chance of so large a rise by luck)."""
+        """Give the log p-value of the statistic, times the number of trials."""
         return log_chi2_tail(self.statistic, self.freedom) + float(np.log(self.candidate.trials))
 
 
@@ -103,7 +103,7 @@ class Hypothesis:
         return np.asarray(self.fit.covariance[place, place])
 
     def solved(self, index: int) -> FittedCause:
-        """Give what was found for a member; deviations count what scalars and columns are not exact by."""
+        """Give a member's estimates; deviations include those of its scalars and the linearisation error."""
         member, values = self.members[index], self.fit.values[self.columns_of(index)]
         covariance = self.covariance(index) + np.diag((member.cause.traits.linearisation_error * values) ** 2)
         for name, slope in member.slopes.items():
@@ -112,17 +112,17 @@ class Hypothesis:
         return FittedCause(member.site, values, covariance, member.scalars, dict(member.deviations))
 
     def in_joint_units(self, index: int, robot: RobotModel) -> FittedCause:
-        """Give what was found for a member as a reader is told it: in the units of its joint."""
+        """Give a member's estimates in the units of its joint."""
         found = self.solved(index)
         return replace(found, slides=bool(found.site) and slides(robot, found.site[0]))
 
     @property
     def possible(self) -> bool:
-        """Tell whether nature allows all members."""
+        """Tell whether all members are physically admissible."""
         return all(self.allows(index) for index in range(len(self.members)))
 
     def allows(self, index: int) -> bool:
-        """Tell whether nature allows one member."""
+        """Tell whether one member is physically admissible."""
         return self.members[index].cause.admissible(self.solved(index))
 
     @property
@@ -132,13 +132,13 @@ class Hypothesis:
 
 
 def allowed(candidate: Candidate, judged: Score) -> bool:
-    """Tell whether nature allows what a score says of a candidate."""
+    """Tell whether the estimates of a score test are physically admissible."""
     solved = FittedCause(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
     return candidate.cause.admissible(solved)
 
 
 def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[ScoredCandidate]:
-    """Give the best scalars of each kind, the least likely by luck first."""
+    """Give the best scalars of each kind, the smallest p-value first."""
     kinds: dict[object, list[int]] = {}
     for place, one in enumerate(asked):
         kinds.setdefault(one.key, []).append(place)

@@ -1,4 +1,4 @@
-"""Measure what a cause brings to a hypothesis: its rise of the likelihood, and the chance of that by luck.
+"""Measure what a cause adds to a hypothesis: likelihood ratio, BIC gain, Wald statistic and p-value.
 
 Source: Schwarz, Ann. Stat. 6(2), 1978, for the criterion.
 """
@@ -14,18 +14,18 @@ MOST_OF_A_ROW = 16.0
 
 
 def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf, index: int = -1) -> float:
-    """Give the log of a member's p-value, corrected for its grid; its statistic is `most` at most.
+    """Give the log of a member's p-value, corrected for its grid; its statistic is limited to `most`.
 
-    `trial` is `now` and this member, which is the last one unless said otherwise; so below.
+    `trial` is `now` and this member, the last one by default; so below.
     """
     statistic = min(wald_statistic(trial, index), likelihood_ratio(now, trial), most)
     return ScoredCandidate(trial.members[index], statistic, trial.freedom(index), np.zeros(0), 1.0).log_p
 
 
 def bounded_likelihood_ratio(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
-    """Give the rise where no row counts for more than so many deviations; of an event, over its own rows.
+    """Give the likelihood ratio statistic with each row's share limited; of a transient cause, on its rows.
 
-    A few spikes of heavy-tailed noise are no contact and no clipped peak, however large they are.
+    A few spikes of heavy-tailed noise are no contact and no saturated peak, however large they are.
     """
     own, event = trial.columns_of(index), trial.members[index].cause.traits.transient
     before = np.insert(now.fit.values, own.start, np.zeros(trial.widths[index]))
@@ -40,19 +40,19 @@ def bounded_likelihood_ratio(now: Hypothesis, trial: Hypothesis, index: int = -1
 
 
 def likelihood_ratio(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the rise of twice the log-likelihood from one hypothesis to a larger one."""
+    """Give the likelihood ratio statistic of a larger hypothesis: twice the rise of the log-likelihood."""
     return 2.0 * (trial.fit.log_likelihood - now.fit.log_likelihood)
 
 
 def likelihood_ratio_by_joint(now: Hypothesis, trial: Hypothesis) -> JointVector:
-    """Give the same from each joint's rows."""
+    """Give its part from each joint's rows."""
     return np.asarray(2.0 * (trial.fit.by_joint - now.fit.by_joint))
 
 
 def log_p_of(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statistic: float) -> float:
     """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned.
 
-    `statistic` is the rise that it brings by itself.
+    `statistic` is its own likelihood ratio statistic.
     """
     member = chosen.members[index]
     size = min(wald_statistic(chosen, index), statistic)
@@ -61,7 +61,7 @@ def log_p_of(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statistic
 
 
 def wald_statistic(hypothesis: Hypothesis, index: int) -> float:
-    """Give a member's squared size in units of its covariance, under the noise of the whole hypothesis."""
+    """Give a member's Wald statistic: squared size over covariance, at the whole hypothesis's noise."""
     covariance = hypothesis.covariance(index)
     scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     values = hypothesis.fit.values[hypothesis.columns_of(index)] / scale
@@ -69,7 +69,7 @@ def wald_statistic(hypothesis: Hypothesis, index: int) -> float:
 
 
 def bic_gain(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
-    """Give the rise less what its parameters would gain by themselves (Bayesian criterion)."""
+    """Give the BIC difference: the likelihood ratio statistic less the penalty of a member's parameters."""
     rows = max(len(one.torque) for one in trial.fit.joints)
     freedom = trial.freedom(index) + trial.members[index].searched
     return likelihood_ratio(now, trial) - freedom * float(np.log(rows))

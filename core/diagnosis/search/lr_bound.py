@@ -1,8 +1,9 @@
-"""Foresee what candidates bring once the noise is learned without them, before any of them is fitted.
+"""Predict the likelihood ratio statistics of candidates before any of them is fitted.
 
-Noise that was learned while an effect was unknown holds a part of it, and a scan under that noise says too
-little of it: up to a hundred times. Taking the effect out of the residual, as large as the scan says it is,
-and learning the noise once more shows most of what is missing for a seventh of what a fit costs.
+Noise that was estimated while an effect was unknown has absorbed a part of it, and a score test under that
+noise gives too small a statistic, by a factor of up to a hundred. The effect, as large as the score test
+finds it, is taken out of the residual and the noise estimated again. That recovers most of the statistic for
+a seventh of the cost of a fit.
 """
 
 from collections.abc import Mapping, Sequence
@@ -24,23 +25,23 @@ Effect = Mapping[int, Weights]
 def predicted_likelihood_ratios(
     fitter: HypothesisFitter, now: Hypothesis, scans: Sequence[ScoredCandidate]
 ) -> list[float]:
-    """Give by how much each candidate of a scan may raise twice the log-likelihood."""
+    """Predict the likelihood ratio statistic of each candidate of a scan."""
     rows = extended(fitter.rows.fitted, fitter.columns(now.members))
     columns = fitter.columns([one.candidate for one in scans])
     effects = (
         {joint: own[rows[joint].rows] @ one.values for joint, own in kind.items()}
         for one, kind in zip(scans, columns, strict=True)
     )
-    return [_rise(rows, now.fit, effect) for effect in effects]
+    return [_statistic(rows, now.fit, effect) for effect in effects]
 
 
-def _rise(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
-    """Take an effect out of the residual, and learn the noise anew where it acts, as a fit would.
+def _statistic(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
+    """Take an effect out of the residual, and estimate the noise again where it acts, as a fit would.
 
-    A fit under ordinary noise learns it from what the ordinary fit leaves, which has values of its own.
+    A fit under ordinary noise estimates it from the residual of the ordinary fit, which has its own values.
     """
     seen = now.plain or now
-    values, seen_values = (one.values - _stands_for(one, effect) for one in (now, seen))
+    values, seen_values = (one.values - _bias_by(one, effect) for one in (now, seen))
     total = 0.0 if now.prior is None else -0.5 * now.prior.departure(values)
     for joint, (rows, part) in enumerate(zip(joints, now.joints, strict=True)):
         without = replace(rows, torque=rows.torque - effect.get(joint, 0.0))
@@ -48,14 +49,14 @@ def _rise(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
         likely = part.noise.log_likelihood(left, rows.place)
         if joint in effect:
             residual = left if seen is now else seen.joints[joint].missed(without, seen_values)
-            learned = fit_ar_noise(residual, rows.place, taken=degrees_taken(rows, joints))
-            likely = max(likely, learned.log_likelihood(left, rows.place))
+            estimated = fit_ar_noise(residual, rows.place, taken=degrees_taken(rows, joints))
+            likely = max(likely, estimated.log_likelihood(left, rows.place))
         total += likely
     return 2.0 * (total - now.log_likelihood)
 
 
-def _stands_for(found: Fit, effect: Effect) -> Weights:
-    """Give what the fitted columns' coefficients hold of an effect that is not among them."""
+def _bias_by(found: Fit, effect: Effect) -> Weights:
+    """Give the bias of the fitted coefficients by an effect that is not among the columns."""
     slope = np.zeros(len(found.values))
     for joint, one in effect.items():
         part = found.joints[joint]

@@ -1,7 +1,7 @@
-"""Settle a candidate's scalars between its grid points, and tell how well they are known.
+"""Refine a candidate's scalars between its grid points by profile likelihood, and give their deviations.
 
-One scalar after the other is searched on top of a hypothesis, at its noise, all linear parameters following:
-variable projection. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973.
+One scalar after the other is searched on top of a hypothesis, at its noise, with the linear parameters
+projected out: variable projection. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973.
 """
 
 from collections.abc import Mapping
@@ -33,37 +33,39 @@ NEARLY = 1.96
 def refine_scalars(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, *, on_trial: bool = False
 ) -> Candidate:
-    """Settle a candidate's scalars between its grid points, on top of a hypothesis.
+    """Refine a candidate's scalars between its grid points, on top of a hypothesis.
 
     Parameters
     ----------
     on_trial
-        Whether it is enough to know what they are, and not how well they are known.
+        Whether their values are enough, without deviations.
     """
     for name in candidate.scalars:
         if name in candidate.cause.traits.self_consistent:
-            candidate = _yielding(fitter, under, candidate, name)
+            candidate = _self_consistent(fitter, under, candidate, name)
         elif name not in candidate.cause.traits.discrete:
             candidate, seen = _refined(fitter, under, candidate, name)
             if not on_trial:
-                candidate = _told(fitter, under, candidate, name, seen)
+                candidate = _with_deviation(fitter, under, candidate, name, seen)
     return candidate
 
 
 def with_deviations(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate) -> Candidate:
-    """Tell how well a candidate's scalars are known where they are, on top of a hypothesis."""
+    """Give the deviations of a candidate's scalars where they are, on top of a hypothesis."""
     for name, here in candidate.scalars.items():
         if name not in (*candidate.cause.traits.self_consistent, *candidate.cause.traits.discrete):
             points, _ = _grid(fitter, candidate, name)
             trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
             found = fitter.score(under, trials)
             seen = {trial.scalars[name]: one.statistic for trial, one in zip(trials, found, strict=True)}
-            candidate = _told(fitter, under, candidate, name, seen)
+            candidate = _with_deviation(fitter, under, candidate, name, seen)
     return candidate
 
 
-def _yielding(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-    """Build the columns where they yield the size that they are built for."""
+def _self_consistent(
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
+) -> Candidate:
+    """Linearise the columns at the size that they yield (self-consistent scalar)."""
 
     @cache
     def off(size: float) -> float:
@@ -81,10 +83,10 @@ def _yielding(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate,
 def _refined(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
 ) -> tuple[Candidate, Mapping[float, float]]:
-    """Settle one scalar, and give the statistics of all values that were tried."""
+    """Refine one scalar, and give the statistics of all values that were tried."""
     points, ends = _grid(fitter, candidate, name)
     if name in candidate.cause.traits.onset:
-        candidate = _begun(fitter, under, candidate, name)
+        candidate = _at_likeliest_onset(fitter, under, candidate, name)
     here = candidate.scalars[name]
     low, high = np.clip(neighbours(points, here), *ends)
     if name in candidate.cause.traits.onset and here not in points:
@@ -102,11 +104,13 @@ def _refined(
     return _at(candidate, name, here), seen
 
 
-def _begun(fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str) -> Candidate:
-    """Let a candidate that is not there by luck begin to act at the likeliest row of all.
+def _at_likeliest_onset(
+    fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
+) -> Candidate:
+    """Let a significant candidate begin to act at the row of the largest likelihood.
 
-    The likelihood of an instant has narrow peaks: under noise that remembers for long a step shows where it
-    is, and hardly later. No grid that is scanned with all else is as fine.
+    The likelihood of an instant has narrow peaks: under noise with a long memory a step shows where it is,
+    and hardly later. No grid of a scan is as fine.
     """
     (alone,) = fitter.score(under, [candidate])
     if log_chi2_tail(alone.statistic, alone.freedom) + float(np.log(candidate.trials)) > 0.0:
@@ -129,25 +133,25 @@ def _row(fitter: HypothesisFitter) -> float:
     return float(np.median(np.diff(fitter.dataset.time)))
 
 
-def _told(
+def _with_deviation(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, seen: Mapping[float, float]
 ) -> Candidate:
-    """Tell how well a settled scalar is known, from what other values are worth."""
+    """Give a refined scalar's deviation, from the likelihood of other values."""
     here = candidate.scalars[name]
-    deviation, slope = _spread(fitter, under, candidate, name, neighbours(sorted(seen), here))
+    deviation, slope = _deviation_and_slope(fitter, under, candidate, name, neighbours(sorted(seen), here))
     if name in candidate.cause.traits.onset:
-        seen = {**seen, **_farther(fitter, under, candidate, name)}
+        seen = {**seen, **_around_onset(fitter, under, candidate, name)}
     return replace(
         candidate,
-        deviations={**candidate.deviations, name: max(deviation, _reach(seen, here))},
+        deviations={**candidate.deviations, name: max(deviation, _deviation_of_interval(seen, here))},
         slopes={**candidate.slopes, name: slope},
     )
 
 
-def _farther(
+def _around_onset(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
 ) -> dict[float, float]:
-    """Give what a settled instant and others before and after it are worth."""
+    """Score a refined instant and others before and after it."""
     values = (candidate.scalars[name] + AROUND).tolist()
     found = fitter.score(under, [_at(candidate, name, value) for value in values])
     return {value: one.statistic for value, one in zip(values, found, strict=True)}
@@ -158,26 +162,26 @@ def _grid(
 ) -> tuple[list[float], tuple[float, float]]:
     """Give the points that a scalar was scanned at, and its ends, one step beyond them.
 
-    What is settled again and again may not wander off.
+    A scalar that is refined again and again stays within them.
     """
     here = candidate.scalars[name]
-    # What is believed may have changed since it was chosen, and the grid with it.
+    # The operating point may have changed since it was chosen, and the grid with it.
     scanned = [one.scalars.get(name, here) for one in fitter.at.of(candidate.cause, candidate.site)]
     points = sorted({*scanned} or {here})
     return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 
 
-def _spread(
+def _deviation_and_slope(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, around: tuple[float, float]
 ) -> tuple[float, Vector]:
     """Read a scalar's deviation off the curvature of the profile likelihood, and the values' slope."""
     here = candidate.scalars[name]
     step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
-    low, middle, high = _beside(fitter, under, candidate, name, step)
+    low, middle, high = _scores_beside(fitter, under, candidate, name, step)
     for _ in range(7):
         if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
             break
-        wider = _beside(fitter, under, candidate, name, 2.0 * step)
+        wider = _scores_beside(fitter, under, candidate, name, 2.0 * step)
         if min(one.clear_share for one in wider) <= 0.0:
             break
         step, (low, middle, high) = 2.0 * step, wider
@@ -188,7 +192,7 @@ def _spread(
     return float(step / np.sqrt(drop)), slope
 
 
-def _beside(
+def _scores_beside(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str, step: float
 ) -> list[Score]:
     here = candidate.scalars[name]
@@ -199,10 +203,10 @@ def _at(candidate: Candidate, name: str, value: float) -> Candidate:
     return replace(candidate, scalars={**candidate.scalars, name: value})
 
 
-def _reach(seen: Mapping[float, float], here: float) -> float:
-    """Give the deviation that the farthest of the values which are nearly as likely stands for.
+def _deviation_of_interval(seen: Mapping[float, float], here: float) -> float:
+    """Give the deviation that corresponds to the farthest value inside the 95 % likelihood interval.
 
-    The likelihood of an instant has edges, and no curvature that tells how well it is known.
+    The likelihood of an instant has edges, and no curvature to read a deviation from.
     """
     best = max(seen.values())
     likely = [abs(value - here) for value, statistic in seen.items() if best - statistic < NEARLY**2]

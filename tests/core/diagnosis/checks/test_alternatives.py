@@ -70,7 +70,7 @@ def test_a_rival_that_does_not_hold_on_unseen_rows_refutes_nothing():
     assert names == ["strong", "weak"]
     (ending,) = (one for one in comparisons[1].refuted if one.cause == "ending")
     assert ending.statistic > comparisons[1].statistic + 6.0
-    assert "no fit has seen" in ending.why
+    assert "held-out data" in ending.why
 
 
 def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():

@@ -56,7 +56,7 @@ def test_a_pattern_without_a_name_is_told_with_its_joint_and_what_it_follows(tor
     last = found.members[-1]
     statement = last.cause.statement(found.solved(0))
     assert last.site == (JOINT,)
-    assert statement.startswith(f"What is left on joint {JOINT} follows ")
+    assert statement.startswith(f"The residual of joint {JOINT} follows ")
     assert WORDS[torque] in statement
 
 
