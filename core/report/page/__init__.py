@@ -1,5 +1,5 @@
-"""Draw the page that people read.
+"""Draw the report.
 
-In comes a result document as plain data, out goes one self-contained HTML file. Nothing else of core is used,
-so that a service draws the page from a stored result without loading the science.
+It is composed from a result document alone and uses nothing else of core, so that a service draws it from a
+stored result without loading the science.
 """

@@ -1,18 +1,16 @@
-"""Tell each finding: what is wrong, how large, how sure, what it gains, and its rivals."""
-
-from collections.abc import Sequence
+"""Describe each finding: size, confidence, evidence, improvement, and alternatives."""
 
 from .figures import finding_figure
-from .markup import Html, listing, section, table, tag, together
+from .render import Table
 from .units import unit_of_effort
 from .words import (
     Document,
     band,
-    chance,
-    cure,
+    corrected_object,
     interval,
     joints,
     number,
+    p_value_text,
     percent,
     quantity,
     share,
@@ -22,127 +20,80 @@ from .words import (
 )
 
 _RAW = "raw check"
-_NOT_CURED = (
-    "Nothing joins the model for it, so that there is no gain to measure: it has to be mended where the log "
-    "is recorded."
-)
 _READ = {
-    "likelihood ratio": "With it in the model the log is more likely: twice the log-likelihood rises by {}",
-    "log10 p": "Luck leaves so clear a trace with a chance of ten to the power of {}, all trials counted in",
-    "criterion difference": "The best rival in its place falls behind by {}; less than 6 would tell nothing",
-    "lead over the nameless": "The best pattern without a name falls behind by {}; less than 0 leaves doubt",
-    _RAW: "The raw samples show it before any model is fitted; the check's statistic is {}",
+    "likelihood ratio": "Log-likelihood ratio statistic {}",
+    "log10 p": "log10 of the p-value, corrected for all candidates: {}",
+    "criterion difference": "Best alternative: ΔBIC {} (below 6: undecided)",
+    "lead over the nameless": "Best unnamed pattern: ΔBIC {} (below 0: undecided)",
+    _RAW: "The raw samples show it before any model is fitted; test statistic {}",
 }
 _READ_WITHOUT_VALUE = {
-    "log10 p": "Luck leaves so clear a trace with a chance smaller than can be computed",
-    "criterion difference": "No rival can take its place",
+    "log10 p": "The p-value is below the smallest representable number",
+    "criterion difference": "No alternative cause is applicable",
 }
 
 
-def findings_section(document: Document) -> Html | None:
-    """Write all findings, the surest first as the document has them."""
-    found = document["diagnosis"]["findings"]
-    if not found:
-        return None
-    cards = [_card(place, one, document) for place, one in enumerate(found, start=1)]
-    return section("What is wrong, and why", *cards)
-
-
-def _card(place: int, finding: Document, document: Document) -> Html:
-    curve = finding.get("curve")
-    return tag(
-        "article",
-        tag("h3", f"{place}. {finding['title']}, {joints(finding['joints'])}"),
-        tag("p", unbroken(f"{finding['statement']}. {_repair(place, document)}"), class_="statement"),
-        _key_figures(finding, band(document)),
-        finding_figure(curve, unit_of_effort(document, curve["joint"])) if curve else None,
-        _parameters(finding),
-        tag("h4", "Why this cause"),
-        listing(_reasons(finding)),
-        _undecided(finding["ambiguous_with"]),
-        tag("p", _NOT_CURED, class_="note") if _is_raw(finding) else _refuted(finding["refuted"]),
-        class_="finding",
-    )
-
-
-def _repair(place: int, document: Document) -> str:
-    """Say what mends a finding, where the document tells it."""
-    listed = document["diagnosis"].get("repairs", ())[place - 1 : place]
-    return "".join(f"Repair: {one['what']}." for one in listed)
-
-
-def _is_raw(finding: Document) -> bool:
-    return any(one["statistic"] == _RAW for one in finding["evidence"])
-
-
-def _key_figures(finding: Document, band: str) -> Html:
-    gain = finding.get("gain")
-    told = [(share(finding["confidence"]), "confidence that this is the cause")]
-    if gain:
-        told += [
-            (
-                percent(gain.get("improvement_total_percent")),
-                f"smaller error on data that no fit has seen, {band} (95 %: {interval(gain['interval_95'])})",
-            )
-        ]
-    told += [
-        (share(finding["explained_residual_fraction"]), "of the residual's mean square explained"),
-        (chance(finding["p_value"]), "chance that luck leaves so clear a trace somewhere"),
+def findings(document: Document) -> list[dict[str, object]]:
+    """Describe all findings in the order of the document."""
+    repairs = document["diagnosis"].get("repairs", ())
+    return [
+        _described(finding, repairs[place : place + 1], document)
+        for place, finding in enumerate(document["diagnosis"]["findings"])
     ]
-    return tag("div", *(tag("div", tag("b", big), tag("span", small)) for big, small in told), class_="key")
 
 
-def _parameters(finding: Document) -> Html | None:
+def _described(finding: Document, repairs: list[Document], document: Document) -> dict[str, object]:
+    curve = finding.get("curve")
+    correction = "".join(f" Correction: {repair['what']}." for repair in repairs)
+    return {
+        "title": f"{finding['title']}, {joints(finding['joints'])}",
+        "statement": unbroken(f"{finding['statement']}.{correction}"),
+        "key_figures": _key_figures(finding, band(document)),
+        "figure": finding_figure(curve, unit_of_effort(document, curve["joint"])) if curve else None,
+        "parameters": _parameters(finding),
+        "evidence": [
+            *(_sentence(evidence) for evidence in finding["evidence"]),
+            f"Object of the correction: {corrected_object(finding['cure'])}.",
+        ],
+        "undecided": finding["ambiguous_with"],
+        "rejected": finding["refuted"],
+        "is_raw": any(evidence["statistic"] == _RAW for evidence in finding["evidence"]),
+    }
+
+
+def _key_figures(finding: Document, band: str) -> list[tuple[str, str]]:
+    gain = finding.get("gain")
+    improvement = gain and (
+        percent(gain.get("improvement_total_percent")),
+        f"reduction of the error on held-out data, {band} (95 %: {interval(gain['interval_95'])})",
+    )
+    return [
+        (share(finding["confidence"]), "confidence in this cause"),
+        *([improvement] if improvement else []),
+        (share(finding["explained_residual_fraction"]), "of the mean-square residual explained"),
+        (p_value_text(finding["p_value"]), "p-value, corrected for all candidates"),
+    ]
+
+
+def _parameters(finding: Document) -> Table:
     rows = [
         (
-            quantity(one["name"]),
-            uncertain(one["value"], one["standard_deviation"]),
-            percent(one.get("relative_deviation_percent")),
-            tag("span", unit(one["unit"])),
+            quantity(parameter["name"]),
+            uncertain(parameter["value"], parameter["standard_deviation"]),
+            percent(parameter.get("relative_deviation_percent")),
+            unit(parameter["unit"]),
         )
-        for one in finding["parameters"]
+        for parameter in finding["parameters"]
     ]
-    if not rows:
-        return None
-    headings = ("", "value ± standard deviation", "%P", "unit")
-    return table(
-        "How large it is", headings, rows, note="%P: the standard deviation in percent of the value."
-    )
+    headings = ("parameter", "value ± standard deviation", "%P", "unit")
+    note = "%P: standard deviation in percent of the value."
+    return Table("Parameters of the finding", headings, rows, note)
 
 
-def _reasons(finding: Document) -> list[str]:
-    cured = f"What has to be mended: {cure(finding['cure'])}."
-    return [*(_reason(one) for one in finding["evidence"]), cured]
-
-
-def _reason(evidence: Document) -> str:
+def _sentence(evidence: Document) -> str:
     value, statistic = evidence["value"], evidence["statistic"]
     if value is None:
         return f"{_READ_WITHOUT_VALUE.get(statistic, evidence['statement'])}."
     if statistic in _READ:
         return f"{_READ[statistic].format(number(value))}."
     return f"{evidence['statement']}: {number(value)} ({statistic})."
-
-
-def _undecided(rivals: Sequence[Document]) -> Html | None:
-    if not rivals:
-        return None
-    items = [
-        together(
-            [
-                tag("b", f"{one['title']}, {joints(one['joints'])}"),
-                f": {one['why']}. ",
-                tag("i", "Experiment that separates the two: "),
-                f"{one['separating_experiment']}.",
-            ]
-        )
-        for one in rivals
-    ]
-    return together([tag("h4", "This log cannot tell it apart from"), listing(items)])
-
-
-def _refuted(rivals: Sequence[Document]) -> Html | None:
-    if not rivals:
-        return tag("p", "No other cause comes near to explaining the same trace.", class_="note")
-    items = [f"{one['title']}, {joints(one['joints'])}: {one['why']}." for one in rivals]
-    return together([tag("h4", "Refuted"), listing(items)])

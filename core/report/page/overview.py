@@ -1,14 +1,13 @@
-"""Say in a few sentences what a diagnosis came to: what is wrong, how large it is, what its cure gains."""
+"""Summarise a diagnosis: findings, their sizes, and the improvement by the correction."""
 
 from collections.abc import Sequence
 
-from .markup import Html, tag
 from .words import (
     Document,
     count,
     fit_band,
     interval,
-    is_real,
+    is_significant,
     joints,
     lower,
     percent,
@@ -20,107 +19,98 @@ from .words import (
 
 
 def headline(document: Document) -> str:
-    """Give the verdict as a sentence or two."""
+    """Give the result in one or two sentences."""
     diagnosis, left = document["diagnosis"], document["diagnosis"]["unexplained"]["joints"]
-    if not diagnosis["findings"]:
-        return _nothing(document) if diagnosis["verdict"] == "nothing_found" else _unnamed(document)
-    sentence = f"{_subject(document)}: {_titles(diagnosis['findings'])}."
-    if diagnosis["verdict"] == "unexplained" and left:
-        sentence += f" Part of what is left on {joints(left)} has no known cause."
-    return sentence
-
-
-def _nothing(document: Document) -> str:
     name, other = document["robot"]["name"], reference(document)
-    if other:
-        return f"{name} differs from {other} in nothing that this log can show."
-    return f"Nothing that this log can show is wrong with the simulation of {name}."
-
-
-def _unnamed(document: Document) -> str:
-    name, other = document["robot"]["name"], reference(document)
-    left = joints(document["diagnosis"]["unexplained"]["joints"])
-    who = f"What {name} does differently from {other}" if other else f"The simulation of {name}"
-    return f"{who} leaves structure in the torque of {left}, and no known cause explains it."
+    if diagnosis["findings"]:
+        sentence = f"{_subject(document)}: {_titles(diagnosis['findings'])}."
+        unexplained = diagnosis["verdict"] == "unexplained" and left
+        return sentence + (
+            f" Part of the residual on {joints(left)} has no known cause." if unexplained else ""
+        )
+    if diagnosis["verdict"] == "nothing_found":
+        return (
+            f"No difference found between {name} and {other}."
+            if other
+            else f"No cause of simulation error found for {name}."
+        )
+    what = (
+        f"Unexplained difference between {name} and {other}" if other else f"Unexplained residual of {name}"
+    )
+    return f"{what} in the torque of {joints(left)}: no known cause explains it."
 
 
 def _subject(document: Document) -> str:
     name, other = document["robot"]["name"], reference(document)
-    size = len(_where_by_title(document["diagnosis"]["findings"]))
-    what = f"{count(size)} thing{'s' if size > 1 else ''}"
-    return (
-        f"{name} differs from {other} in {what}" if other else f"The simulation of {name} gets {what} wrong"
-    )
+    size = len(_joints_by_title(document["diagnosis"]["findings"]))
+    number, plural = count(size).capitalize(), "s" * (size > 1)
+    if other:
+        return f"{number} difference{plural} between {name} and {other}"
+    return f"{number} cause{plural} of simulation error found for {name}"
 
 
-def _titles(found: Sequence[Document]) -> str:
-    unsure = {one["title"] for one in found if one["ambiguous_with"]}
+def _titles(findings: Sequence[Document]) -> str:
+    unsure = {finding["title"] for finding in findings if finding["ambiguous_with"]}
     return series(
         [
-            f"{lower(title)}{', or a cause like it' * (title in unsure)} ({joints(places)})"
-            for title, places in _where_by_title(found).items()
+            f"{lower(title)}{', or a similar cause' * (title in unsure)} ({joints(places)})"
+            for title, places in _joints_by_title(findings).items()
         ]
     )
 
 
-def at_a_glance(document: Document) -> Html | None:
-    """List findings with their sizes before each is told at length, and what else they may be."""
-    found = document["diagnosis"]["findings"]
-    if len(found) < 2 and not any(one["ambiguous_with"] for one in found):
-        return None
-    return tag("ol", *(tag("li", unbroken(_in_a_line(one))) for one in found))
+def glance(document: Document) -> list[str]:
+    """List findings with size, confidence and alternatives; empty for a single unambiguous one."""
+    findings = document["diagnosis"]["findings"]
+    if len(findings) < 2 and not any(finding["ambiguous_with"] for finding in findings):
+        return []
+    return [unbroken(_line(finding)) for finding in findings]
 
 
-def _in_a_line(finding: Document) -> str:
-    line = f"{finding['statement']} ({share(finding['confidence'])} sure)."
-    rivals = _where_by_title(finding["ambiguous_with"])
-    if not rivals:
+def _line(finding: Document) -> str:
+    line = f"{finding['statement']} (confidence {share(finding['confidence'])})."
+    alternatives = _joints_by_title(finding["ambiguous_with"])
+    if not alternatives:
         return line
-    others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in rivals.items())
-    return f"{line} It may as well be {others}; this log cannot tell."
+    others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in alternatives.items())
+    return f"{line} Not distinguishable in this log from: {others}."
 
 
-def _where_by_title(found: Sequence[Document]) -> dict[str, list[int]]:
-    """List the joints of every cause, so that one which acts on three joints is one thing, not three."""
-    where: dict[str, set[int]] = {}
-    for one in found:
-        where.setdefault(one["title"], set()).update(one["joints"])
-    return {title: sorted(places) for title, places in where.items()}
+def _joints_by_title(causes: Sequence[Document]) -> dict[str, list[int]]:
+    """List the joints of every cause, so that a cause on three joints counts once."""
+    listed: dict[str, set[int]] = {}
+    for cause in causes:
+        listed.setdefault(cause["title"], set()).update(cause["joints"])
+    return {title: sorted(places) for title, places in listed.items()}
 
 
-def gained(document: Document) -> str | None:
-    """Say what the cure gained on unseen data, joint by joint."""
+def improvement(document: Document) -> str:
+    """Give the significant improvements by the correction on held-out data; empty without a correction."""
     diagnosis = document["diagnosis"]
-    helped = [
-        one for one in diagnosis.get("gain") or [] if is_real(one["improvement_percent"], one["interval_95"])
-    ]
-    if not helped:
-        return _nothing_sure(document) if diagnosis.get("gain") else None
+    gains = diagnosis.get("gain") or []
     parts = [
-        f"by {percent(one['improvement_percent'])} on joint {one['joint']} "
-        f"(95 %: {interval(one['interval_95'])})"
-        for one in helped
+        f"by {percent(gain['improvement_percent'])} on joint {gain['joint']} "
+        f"(95 %: {interval(gain['interval_95'])})"
+        for gain in gains
+        if is_significant(gain["improvement_percent"], gain["interval_95"])
     ]
-    torque = (
-        f"With the cure in the model, the torque error on data that no fit has seen falls {series(parts)}."
-    )
-    return torque + _moved_better(diagnosis.get("simulation") or {})
-
-
-def _nothing_sure(document: Document) -> str:
-    moved = _moved_better(document["diagnosis"].get("simulation") or {})
+    motion = _motion_improvement(diagnosis.get("simulation") or {})
+    if parts:
+        return f"The correction reduces the torque error on held-out data {series(parts)}.{motion}"
+    if not gains:
+        return ""
     return (
-        f"In the band that the model is fitted in ({fit_band(document)}), the cure gains nothing sure on "
-        f"data that no fit has seen.{moved}"
+        f"Within the bandwidth of the fit ({fit_band(document)}), the correction gives no significant "
+        f"improvement on held-out data.{motion}"
     )
 
 
-def _moved_better(simulation: Document) -> str:
+def _motion_improvement(simulation: Document) -> str:
     gains = simulation.get("improvement_total_percent") or []
-    ends = simulation.get("interval_95") or [None] * len(gains)
+    intervals = simulation.get("interval_95") or [None] * len(gains)
     parts = [
-        f"{percent(gain)} less on joint {joint}"
-        for joint, (gain, own) in enumerate(zip(gains, ends, strict=True), start=1)
-        if is_real(gain, own)
+        f"{percent(gain)} smaller on joint {joint}"
+        for joint, (gain, ends) in enumerate(zip(gains, intervals, strict=True), start=1)
+        if is_significant(gain, ends)
     ]
-    return f" The simulated motion strays {series(parts)}." if parts else ""
+    return f" The simulated position error is {series(parts)}." if parts else ""

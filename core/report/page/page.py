@@ -1,19 +1,17 @@
-"""Compose the report of a job as one HTML file that opens anywhere, from its result document alone.
+"""Compose the report of a job as one HTML file from its result document.
 
-It holds no script and asks for nothing from elsewhere. The first screen says what came out; everything below
-is what that sentence rests on.
+The page holds no script and loads nothing from elsewhere.
 """
 
 from collections.abc import Sequence
 
-from . import overview, robot
-from .findings import findings_section
-from .joints import joints_section
-from .markup import Html, tag, together
-from .remainder import not_shown_section, unexplained_section
-from .running import Origin, facts, sheets
-from .source import data_section, method_section
-from .style import STYLE
+from . import overview, remainder, robot
+from .figures import dependence_figure
+from .findings import findings
+from .joints import joint_errors
+from .render import render
+from .running import Origin, facts, print_margins
+from .source import sources
 from .traces import JointTraces, traces_section
 from .words import Document
 
@@ -28,60 +26,48 @@ def compose_page(
     Parameters
     ----------
     origin
-        The job that the document is the result of, where there is one.
+        The job of the document, if there is one.
     traces
-        What was measured and estimated over time, thinned, where it was kept.
+        Measured and estimated signals over time, decimated, if they were stored.
     """
-    diagnosed = bool(document.get("diagnosis"))
-    name = document["robot"]["name"]
-    what = "diagnosis" if diagnosed else "identification"
-    opening, *sections = _diagnosis(document) if diagnosed else _identification(document)
-    drawn = traces_section(traces, [str(log.get("name", "")) for log in document.get("logs") or []])
-    head = tag(
-        "head",
-        Html(f'<meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{POLICY}">'),
-        Html('<meta name="viewport" content="width=device-width, initial-scale=1">'),
-        tag("title", f"{name}: {what}"),
-        tag("style", Html(STYLE + sheets(document, origin))),
-    )
-    header = tag("header", tag("p", f"{name}: {what}", class_="kind"), opening, facts(document, origin))
-    whole = [one for one in (*sections[:2], drawn, *sections[2:]) if one]
-    body = tag("body", tag("main", header, *whole), _end(document))
-    return f"<!doctype html>\n{tag('html', head, body, lang='en')}\n"
+    document = {"diagnosis": None, "doubts": [], "defects": []} | dict(document)
+    names = [str(log.get("name", "")) for log in document.get("logs") or []]
+    shown = _diagnosis(document) if document["diagnosis"] else _identification(document)
+    common = {
+        "document": document,
+        "policy": POLICY,
+        "title": f"{document['robot']['name']}: {'diagnosis' if document['diagnosis'] else 'identification'}",
+        "version": (document.get("provenance") or {}).get("version", ""),
+        "facts": facts(document, origin),
+        "print_margins": print_margins(document, origin),
+        "traces": traces_section(traces, names),
+    }
+    return str(render("page.html.j2", common | sources(document) | shown))
 
 
-def _end(document: Document) -> Html:
-    version = (document.get("provenance") or {}).get("version", "")
-    return tag("footer", f"Veritorque {version}. Units are SI, angles in rad, joints counted from 1.")
-
-
-def _diagnosis(document: Document) -> list[object]:
-    gained = overview.gained(document)
+def _diagnosis(document: Document) -> dict[str, object]:
     after = document["diagnosis"]["after"].get("base_parameters") or []
-    told = [overview.at_a_glance(document), tag("p", gained) if gained else None]
-    return [
-        together([tag("h1", overview.headline(document), class_="verdict"), *told]),
-        findings_section(document),
-        joints_section(document),
-        unexplained_section(document),
-        not_shown_section(document),
-        robot.doubts_section(document),
-        data_section(document),
-        method_section(document),
-        robot.parameters_section(
-            after or document["base_parameters"],
-            "The extended model's parameters" if after else "The model's parameters",
-        ),
-    ]
+    return {
+        "headline": overview.headline(document),
+        "glance": overview.glance(document),
+        "improvement": overview.improvement(document),
+        "findings": findings(document),
+        **joint_errors(document),
+        "remainder": remainder.sentences(document),
+        "residuals": remainder.residuals(document),
+        "dependences": dependence_figure(remainder.clearest_dependences(document)),
+        "not_identifiable": remainder.not_identifiable(document),
+        "parameters_heading": f"Parameters of the {'extended ' if after else ''}model",
+        "base_parameters": robot.base_parameters(after or document["base_parameters"]),
+    }
 
 
-def _identification(document: Document) -> list[object]:
-    return [
-        tag("h1", robot.headline(document), class_="verdict"),
-        robot.doubts_section(document),
-        robot.scores_section(document),
-        robot.existence_section(document),
-        robot.parameters_section(document["base_parameters"], "The parameters"),
-        data_section(document),
-        method_section(document),
-    ]
+def _identification(document: Document) -> dict[str, object]:
+    return {
+        "headline": robot.headline(document),
+        "glance": [],
+        "improvement": "",
+        "scores": robot.scores(document),
+        "consistency": robot.consistency(document),
+        "base_parameters": robot.base_parameters(document["base_parameters"]),
+    }

@@ -1,24 +1,22 @@
-"""Tell what a diagnosis leaves: what is still predictable and where, and what this motion could not show."""
+"""Describe the unexplained residual of a diagnosis, and the causes that are not identifiable."""
 
-from .figures import dependence_figure
-from .markup import Html, listing, section, table, tag, together
+from .render import Table
 from .units import effort, unit_of_effort
 from .words import Document, band, coordinate, interval, joints, number, series, share
 
 _SOURCES = {
     "repeats": "repeats of the motion",
-    "high_band": "torque above the motion's band",
+    "high_band": "torque above the bandwidth of the motion",
     "none": "unknown",
 }
-
 _MOSTLY = 0.5
-"""Share of a joint's error from which on a sentence is due."""
+"""Share of a joint's squared error from which stiction is mentioned."""
 _WELL_ABOVE = 1.5
-"""A noise floor from another band than the residual's is no better known than this factor."""
+"""Ratio to the noise floor that counts as above it; the floor is known within this factor."""
 
 
-def unexplained_section(document: Document) -> Html:
-    """Tabulate per joint what a generic learner still predicts, beside the noise floor."""
+def residuals(document: Document) -> Table:
+    """Tabulate residual, noise floor and explainable variance per joint."""
     left = document["diagnosis"]["unexplained"]
     shares = left["predictable_residual_fraction"]
     rows = [
@@ -29,66 +27,67 @@ def unexplained_section(document: Document) -> Html:
             _SOURCES.get(left["noise_floor_source"][joint], left["noise_floor_source"][joint]),
             share(shares[joint]),
             interval([end and 100.0 * end for end in left["interval_95"][joint]]),
-            _where(left["places"][joint], joint + 1),
+            _range(left["places"][joint], joint + 1),
         )
         for joint in range(len(shares))
     ]
-    headings = ("joint", "residual RMS", "noise floor", "floor from", "predictable share", "95 %", "where")
+    headings = (
+        "joint",
+        "residual RMS",
+        "noise floor",
+        "source of the floor",
+        "explainable variance",
+        "95 %",
+        "mainly at",
+    )
     note = (
-        f"RMS {band(document)}. Noise floor: the noise, estimated without "
-        "any model. Predictable share: how much of the residual's mean square a generic learner foretells, "
-        "which is the most that any further cause could explain."
+        f"RMS {band(document)}. Noise floor: estimated without a model. Explainable variance (R2, upper "
+        "bound): share of the mean-square residual that a generic learner predicts on held-out data; no "
+        "further cause can explain more."
     )
-    return section(
-        "What stays unexplained",
-        *(tag("p", sentence) for sentence in _said(left)),
-        table("What is left", headings, rows, note=note, text=(3, 6)),
-        dependence_figure(_clearest(document)),
-    )
+    return Table("Residual per joint", headings, rows, note, (3, 6))
 
 
-def _said(left: Document) -> list[str]:
-    shares, marked = left["predictable_residual_fraction"], left["joints"]
-    parked = [joint for joint, one in enumerate(shares, start=1) if one is None]
-    others = "any other joint" if parked else "any joint"
-    pattern = left["pattern"]
-    foretold = [
-        joint for joint in marked if pattern is None or joint != pattern["joint"] or shares[joint - 1]
+def sentences(document: Document) -> list[str]:
+    """Interpret the unexplained residual in sentences."""
+    left = document["diagnosis"]["unexplained"]
+    shares, pattern = left["predictable_residual_fraction"], left["pattern"]
+    parked = [joint for joint, fraction in enumerate(shares, start=1) if fraction is None]
+    predicted = [
+        joint for joint in left["joints"] if pattern is None or joint != pattern["joint"] or shares[joint - 1]
     ]
-    told = (
-        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in foretold])} part of the "
-        "residual still follows the motion: a cause that is not in the list, or one that this log cannot "
-        "separate."
-        if foretold
-        else "A generic learner, given positions, speeds, loads and time, cannot predict the residual of "
-        f"{others} on data it has not seen."
+    first = (
+        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in predicted])} part of the "
+        "residual depends on the motion: an unknown cause, or one that is not identifiable from this log."
+        if predicted
+        else "A generic learner with positions, velocities, loads and time as inputs cannot predict the "
+        f"residual of {'any other joint' if parked else 'any joint'} on held-out data."
     )
     if pattern:
-        told += f" {pattern['statement']}, as no cause in the list would (p = 10^{pattern['log10_p']:.0f})."
-    elif not marked:
-        told += " Nothing that follows the motion is left: no extension of the model would gain much."
-    said = [told]
+        first += f" {pattern['statement']}; no known cause explains it (p = 10^{pattern['log10_p']:.0f})."
+    elif not left["joints"]:
+        first += " No extension of the model would give a significant improvement."
+    listed = [first]
     if above := _above_the_floor(left):
-        said.append(
-            f"On {joints(above)} what is left lies well above the noise floor without following the motion: "
-            "vibration, or noise that remembers for long and hides structure from the learner."
+        listed.append(
+            f"On {joints(above)} the residual is well above the noise floor without depending on the motion: "
+            "vibration, or noise with long autocorrelation, which hides structure from the learner."
         )
-    if at_rest := _mostly_at_rest(left):
-        said.append(
-            f"Friction while the joint stands still or turns round makes {series(at_rest)}. At rest it takes "
-            "whatever value keeps the joint in place: this is stiction, no dynamics that a model could "
-            "foretell, and it was set aside before anything was judged."
+    if stiction := _mostly_stiction(left):
+        listed.append(
+            f"Stiction at standstill and at reversals causes {series(stiction)}. It was excluded from the "
+            "diagnosis: friction at rest balances the other torques and is not a function of the motion."
         )
     if parked:
-        said.append(f"Of {joints(parked)}, which the motion hardly moves, nothing can be said.")
-    return said
+        listed.append(f"No statement is possible on {joints(parked)}: there is hardly any motion.")
+    return listed
 
 
-def _mostly_at_rest(left: Document) -> list[str]:
+def _mostly_stiction(left: Document) -> list[str]:
     return [
-        f"{share(one)} of the squared error on joint {joint}"
-        for joint, one in enumerate(left["at_rest_fraction"], start=1)
-        if one is not None and one > _MOSTLY
+        f"{share(fraction)} of the squared error on joint {joint}"
+        for joint, fraction in enumerate(left["at_rest_fraction"], start=1)
+        if fraction is not None and fraction > _MOSTLY
     ]
 
 
@@ -101,42 +100,28 @@ def _above_the_floor(left: Document) -> list[int]:
     ]
 
 
-def _clearest(document: Document) -> list[tuple[Document, str]]:
-    """Take every joint with structure left over the coordinate that the structure follows most clearly."""
+def clearest_dependences(document: Document) -> list[tuple[Document, str]]:
+    """Select the most significant coordinate of every joint with structure, with the unit of its torque."""
     diagnosis = document["diagnosis"]
     found = []
     for joint in diagnosis["unexplained"]["joints"]:
-        listed = [one for one in diagnosis["atlas"] if one["joint"] == joint and one["p_value"] is not None]
+        listed = [row for row in diagnosis["atlas"] if row["joint"] == joint and row["p_value"] is not None]
         if listed:
-            clearest = min(listed, key=lambda one: (one["p_value"], -one["statistic"]))
+            clearest = min(listed, key=lambda row: (row["p_value"], -row["statistic"]))
             found.append((clearest, unit_of_effort(document, joint)))
     return found
 
 
-def not_shown_section(document: Document) -> Html | None:
-    """List the causes that this motion could not have shown, with the motion that would."""
+def not_identifiable(document: Document) -> list[tuple[str, list[Document]]]:
+    """Group the causes that are not identifiable by reason."""
     listed = document["diagnosis"]["not_identifiable"]
-    if not listed:
-        return None
-    reasons = dict.fromkeys(str(one["why"]) for one in listed)
-    parts = [
-        part
-        for why in reasons
-        for part in (
-            tag("p", f"{why[:1].upper()}{why[1:]}:"),
-            listing(_missing(one) for one in listed if one["why"] == why),
-        )
+    reasons = dict.fromkeys(str(cause["why"]) for cause in listed)
+    return [
+        (f"{why[:1].upper()}{why[1:]}", [cause for cause in listed if cause["why"] == why]) for why in reasons
     ]
-    return section("What this motion could not have shown", *parts)
 
 
-def _missing(one: Document) -> Html:
-    cause = tag("b", f"{one.get('title', one['cause'])}, {joints(one['joints'])}")
-    shown = tag("i", "Motion that would show it: ")
-    return together([cause, ". ", shown, f"{one['separating_experiment']}."])
-
-
-def _where(places: list[Document], joint: int) -> str:
+def _range(places: list[Document], joint: int) -> str:
     if not places:
         return ""
     place = places[0]

@@ -1,111 +1,105 @@
-"""Tell an identification: what was found, how well it is known, and whether such a robot can exist."""
+"""Describe an identification: parameters with their precision, errors, and physical consistency."""
 
 from collections.abc import Sequence
 
-from .markup import Html, listing, section, table, tag
+from .render import Table, element
 from .units import effort, unit_of_mass_matrix
 from .whisker import whisker
 from .words import Document, fit_band, number, percent, uncertain, unit
 
-_OF_PSEUDO_INERTIA = "in SI units, of entries in kg m², kg m and kg; its sign is what counts"
+_PSEUDO_INERTIA_UNIT = "in SI units, with entries in kg m², kg m and kg; only its sign matters"
 
 
 def headline(document: Document) -> str:
-    """Give the result as a sentence."""
-    counts, held = document["counts"], document.get("validation_total_percent")
-    on = "unseen data" if held is not None else "the data it was fitted to"
-    error = held if held is not None else document.get("fit_total_percent")
-    exists = document["feasibility"].get("feasible")
-    can = {True: "a robot that can exist", False: "a robot that cannot exist"}.get(exists, "a robot")
+    """Give the result in one sentence."""
+    held_out = document.get("validation_total_percent")
+    error, data = (
+        (document.get("fit_total_percent"), "fitted data")
+        if held_out is None
+        else (held_out, "held-out data")
+    )
+    feasible = document["feasibility"].get("feasible")
+    consistency = {True: ", physically consistent", False: ", physically inconsistent"}.get(feasible, "")
     return (
-        f"{document['robot']['name']} is identified as {can}: {counts['base']} base parameters, torque error "
-        f"{percent(error)} on {on}."
+        f"{document['robot']['name']}: {document['counts']['base']} base parameters identified{consistency}; "
+        f"torque error {percent(error)} on {data}."
     )
 
 
-def scores_section(document: Document) -> Html | None:
-    """Tabulate the error of the predicted torque per joint, fitted and held out."""
-    fit, held = (_by_joint(document.get(name) or []) for name in ("fit", "validation"))
-    if not fit:
-        return None
+def scores(document: Document) -> Table:
+    """Tabulate the torque prediction error per joint, fitted and held out."""
+    held_out = {int(row["joint"]): row for row in document.get("validation") or []}
     rows = [
         (
-            str(joint),
-            effort(document, joint, row["rms_torque"]),
-            effort(document, joint, row["rms_residual"]),
+            str(row["joint"]),
+            effort(document, row["joint"], row["rms_torque"]),
+            effort(document, row["joint"], row["rms_residual"]),
             percent(row["nrmse_of_range_percent"]),
             percent(row["nrmse_of_rms_percent"]),
-            *_unseen(document, held.get(joint)),
+            *_held_out(document, held_out.get(int(row["joint"]))),
         )
-        for joint, row in fit.items()
+        for row in document.get("fit") or []
     ]
-    headings = ("joint", "torque RMS", "error, fitted", "% of range", "% of RMS", "error, unseen", "% of RMS")
+    headings = ("joint", "RMS torque", "fit error", "% of range", "% of RMS", "held-out error", "% of RMS")
     note = (
-        f"RMS {fit_band(document)}: torque and error pass the filter that "
-        "the model is fitted with. Unseen: blocks of time that were held out of the fit."
+        f"RMS {fit_band(document)}: torque and error pass the filter of the fit. Held out: blocks of time "
+        "excluded from the fit."
     )
-    told = table("Error of the predicted torque", headings, rows, note=note)
-    return section("How well it predicts torque", told, key="torque")
+    return Table("Torque prediction error", headings, rows, note)
 
 
-def _unseen(document: Document, row: Document | None) -> tuple[str, str]:
+def _held_out(document: Document, row: Document | None) -> tuple[str, str]:
     if row is None:
         return "", ""
     return effort(document, row["joint"], row["rms_residual"]), percent(row["nrmse_of_rms_percent"])
 
 
-def existence_section(document: Document) -> Html | None:
-    """Say whether the robot can exist, and what that cost."""
+def consistency(document: Document) -> list[str]:
+    """List facts about physical consistency and its cost; empty where the document has none."""
     found, solver = document.get("feasibility") or {}, document.get("solver") or {}
     if not found:
-        return None
-    smallest = [one for one in found.get("pseudo_inertia_min_eigenvalue") or [] if one is not None]
+        return []
+    eigenvalues = [value for value in found.get("pseudo_inertia_min_eigenvalue") or [] if value is not None]
     mass = found.get("mass_matrix_min_eigenvalue") or {}
-    workspace = f"{mass.get('configurations')} configurations of the workspace"
-    objectives = [number(solver.get(name), 4) for name in ("objective", "objective_ols")]
-    can, least = ("can" if found.get(name) else "cannot" for name in ("feasible", "ols_feasible"))
+    objective, least = (number(solver.get(name), 4) for name in ("objective", "objective_ols"))
+    own, ols = ("" if found.get(name) else "in" for name in ("feasible", "ols_feasible"))
     bounds = found.get("active_constraints") or []
-    told = [
-        f"The identified robot {can} exist; plain least squares gives one that {least}.",
-        smallest
-        and f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(smallest))} {_OF_PSEUDO_INERTIA}.",
+    workspace = f"{mass.get('configurations')} configurations of the workspace"
+    sentences = [
+        f"Identified parameters: {own}consistent; ordinary least squares: {ols}consistent.",
+        eigenvalues
+        and f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(eigenvalues))} "
+        f"{_PSEUDO_INERTIA_UNIT}.",
         mass
         and f"Smallest eigenvalue of the mass matrix in {workspace}: {number(mass['workspace'])} "
         f"{unit_of_mass_matrix(document)}.",
-        f"Solver: {solver.get('status')}; objective {objectives[0]} beside {objectives[1]} of least squares.",
-        bounds and f"Bounds that the estimate touches: {', '.join(bounds)}.",
+        f"Cost of the consistency constraint: objective {objective}, ordinary least squares {least}.",
+        f"Solver: {solver.get('status')}.",
+        bounds and f"Active constraints: {', '.join(bounds)}.",
     ]
-    return section("Whether such a robot can exist", listing(one for one in told if one))
+    return [sentence for sentence in sentences if sentence]
 
 
-def doubts_section(document: Document) -> Html | None:
-    """List what does not look right."""
-    doubts = document.get("doubts") or []
-    return section("What deserves a second look", listing(f"{one}." for one in doubts)) if doubts else None
-
-
-def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
-    """Tabulate base parameters with %P, new ones first; a star marks the essential ones."""
-    if not rows:
-        return None
+def base_parameters(rows: Sequence[Document]) -> Table:
+    """Tabulate base parameters with %P, added ones first; a star marks the essential ones."""
     listed = [
         (
             f"{row['name']}{'*' if row.get('essential') else ''}",
             uncertain(row["value"], row["standard_deviation"]),
             percent(row.get("relative_deviation_percent")),
-            whisker(row),
+            whisker(row) or "",
             number(row.get("value_ols")),
-            tag("span", unit(row["unit"])),
-            tag("b", "joined the model")
+            unit(row["unit"]),
+            element("b", "added")
             if row.get("new")
-            else tag("span", row.get("grouping") or "", class_="meta"),
+            else element("span", row.get("grouping") or "", class_="meta"),
         )
         for row in sorted(rows, key=lambda row: not row.get("new"))
     ]
     note = (
-        "* essential; %P: relative standard deviation. Error bars, each row on a scale of its own with zero "
-        "as the upright line: the dot is the value, the thick bar the 95 % interval, the thin one that of "
-        "blocks of the log drawn anew, constraints included."
+        "* essential. %P: standard deviation in percent of the value. Error bars, scaled per row, zero at "
+        "the vertical line. Dot: value; thick bar: 95 % interval; thin bar: 95 % interval of the block "
+        "bootstrap, constraints included."
     )
     headings = (
         "parameter",
@@ -114,14 +108,6 @@ def parameters_section(rows: Sequence[Document], heading: str) -> Html | None:
         "error bars",
         "least squares",
         "unit",
-        "what is grouped in it",
+        "grouping",
     )
-    return section(
-        heading,
-        table("Base parameters", headings, listed, note=note, text=(6,)),
-        key="parameters",
-    )
-
-
-def _by_joint(rows: Sequence[Document]) -> dict[int, Document]:
-    return {int(row["joint"]): row for row in rows}
+    return Table("Base parameters", headings, listed, note, (6,))

@@ -1,13 +1,15 @@
-"""Draw plots as SVG on the server: axes with round ticks, curves, bands and points; nothing needs a script.
+"""Draw plots as SVG: axes with round ticks, curves, bands and points.
 
-Colours are classes, so that one style sheet serves a light screen, a dark one and paper.
+Colours are classes of the style sheet, which serves light and dark screens and paper.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, floor, log10
 
-from .markup import Html, tag, together
+from markupsafe import Markup
+
+from .render import element
 from .words import MINUS
 
 _MOST_TICKS = 6
@@ -18,7 +20,7 @@ Values = Sequence[float]
 
 @dataclass(frozen=True)
 class Frame:
-    """Place a plot in a picture, and turn data into pixels.
+    """Place a plot in a picture, and convert data to pixels.
 
     Attributes
     ----------
@@ -57,17 +59,17 @@ class Frame:
     def _high(self) -> float:
         return self.height - _MARGIN_TOP - _MARGIN_BOTTOM
 
-    def axes(self, title: str, x_label: str, y_label: str) -> Html:
-        """Draw the grid, the numbers beside it, and what they are."""
+    def axes(self, title: str, x_label: str, y_label: str) -> Markup:
+        """Draw grid, tick labels and axis labels."""
         middle = self._begin + self._wide / 2.0
         side = (self.left + 13.0, self._floor - self._high / 2.0)
-        return together(
+        return Markup("").join(
             [
                 *(self._tick_across(value) for value in ticks(*self.x)),
                 *(self._tick_up(value) for value in ticks(*self.y)),
-                tag("text", title, x=self._begin, y=self.top + 14.0, class_="title"),
-                tag("text", x_label, x=middle, y=self._floor + 36.0, text_anchor="middle"),
-                tag(
+                element("text", title, x=self._begin, y=self.top + 14.0, class_="title"),
+                element("text", x_label, x=middle, y=self._floor + 36.0, text_anchor="middle"),
+                element(
                     "text",
                     y_label,
                     x=side[0],
@@ -78,51 +80,55 @@ class Frame:
             ]
         )
 
-    def line(self, x: Values, y: Values, kind: str) -> Html:
+    def line(self, x: Values, y: Values, kind: str) -> Markup:
         """Draw a curve."""
-        return tag(
+        return element(
             "polyline",
-            points=_points([self.at(*one) for one in zip(x, y, strict=True)]),
+            points=_points([self.at(*point) for point in zip(x, y, strict=True)]),
             class_=f"line {kind}",
         )
 
-    def band(self, x: Values, low: Values, high: Values, kind: str) -> Html:
+    def band(self, x: Values, low: Values, high: Values, kind: str) -> Markup:
         """Fill what lies between two curves."""
-        there = [self.at(*one) for one in zip(x, low, strict=True)]
-        back = [self.at(*one) for one in zip(x, high, strict=True)]
-        return tag("polygon", points=_points([*there, *reversed(back)]), class_=f"band {kind}")
+        there = [self.at(*point) for point in zip(x, low, strict=True)]
+        back = [self.at(*point) for point in zip(x, high, strict=True)]
+        return element("polygon", points=_points([*there, *reversed(back)]), class_=f"band {kind}")
 
-    def dots(self, x: Values, y: Values, kind: str) -> Html:
+    def dots(self, x: Values, y: Values, kind: str) -> Markup:
         """Draw points."""
-        pixels = [self.at(*one) for one in zip(x, y, strict=True)]
-        return together(
-            tag("circle", cx=across, cy=down, r=3.2, class_=f"dot {kind}") for across, down in pixels
+        pixels = [self.at(*point) for point in zip(x, y, strict=True)]
+        return Markup("").join(
+            element("circle", cx=across, cy=down, r=3.2, class_=f"dot {kind}") for across, down in pixels
         )
 
-    def zero(self) -> Html | None:
-        """Draw the line on which nothing is left, where it is in sight."""
+    def zero(self) -> Markup:
+        """Draw the zero line where it is in range."""
         if not self.y[0] < 0.0 < self.y[1]:
-            return None
+            return Markup("")
         return self.line(self.x, (0.0, 0.0), "zero")
 
-    def _tick_across(self, value: float) -> Html:
+    def _tick_across(self, value: float) -> Markup:
         across, down = self.at(value, self.y[0])
-        rule = tag("line", x1=across, x2=across, y1=down, y2=round(down - self._high, 1), class_="grid")
-        return together([rule, tag("text", _short(value), x=across, y=down + 16.0, text_anchor="middle")])
+        rule = element("line", x1=across, x2=across, y1=down, y2=round(down - self._high, 1), class_="grid")
+        return Markup("").join(
+            [rule, element("text", _short(value), x=across, y=down + 16.0, text_anchor="middle")]
+        )
 
-    def _tick_up(self, value: float) -> Html:
+    def _tick_up(self, value: float) -> Markup:
         across, down = self.at(self.x[0], value)
-        rule = tag("line", x1=across, x2=round(across + self._wide, 1), y1=down, y2=down, class_="grid")
-        return together([rule, tag("text", _short(value), x=across - 6.0, y=down + 4.0, text_anchor="end")])
+        rule = element("line", x1=across, x2=round(across + self._wide, 1), y1=down, y2=down, class_="grid")
+        return Markup("").join(
+            [rule, element("text", _short(value), x=across - 6.0, y=down + 4.0, text_anchor="end")]
+        )
 
 
-def picture(title: str, description: str, size: tuple[float, float], *parts: object) -> Html:
-    """Put drawn parts in a picture that a screen reader can tell of."""
+def picture(title: str, description: str, size: tuple[float, float], *parts: object) -> Markup:
+    """Put drawn parts in a picture with a title and a description for screen readers."""
     width, height = size
-    return tag(
+    return element(
         "svg",
-        tag("title", title),
-        tag("desc", description),
+        element("title", title),
+        element("desc", description),
         *parts,
         viewBox=f"0 0 {width:g} {height:g}",
         role="img",
@@ -131,7 +137,7 @@ def picture(title: str, description: str, size: tuple[float, float], *parts: obj
 
 
 def ticks(low: float, high: float) -> list[float]:
-    """Give a few round values between two ends.
+    """Give round values in a range.
 
     Examples
     --------
@@ -148,7 +154,7 @@ def ticks(low: float, high: float) -> list[float]:
 
 
 def span(*groups: Values, margin: float = 0.06) -> tuple[float, float]:
-    """Give ends that hold all values, with a little room.
+    """Give the range of all values with a margin.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Write numbers, joints and coordinates for a reader; the page's only place that rounds."""
+"""Write numbers, joints and coordinates as text; the page rounds only here."""
 
 from collections.abc import Mapping, Sequence
 from math import floor, log10
@@ -7,50 +7,50 @@ from typing import Any
 Number = float | int | None
 Document = Mapping[str, Any]
 """A result document, or a part of one."""
-_WORTH_A_WORD = 1.0
+_SMALLEST_GAIN = 1.0
 """Percent."""
 _SMALLEST, _LARGEST = 0.1, 1000
-"""Percentages below and above are told by these bounds: what they are exactly helps nobody."""
+"""Percentages outside are given as bounds."""
 MINUS = "\N{MINUS SIGN}"
-_STUCK = "\N{NO-BREAK SPACE}"
+_NO_BREAK_SPACE = "\N{NO-BREAK SPACE}"
 NOTHING = "-"
-"""What stands where there is no number."""
+"""Placeholder of a missing number."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 _COORDINATES = {
     "time": "time",
     "position": "position",
-    "velocity": "speed",
+    "velocity": "velocity",
     "acceleration": "acceleration",
-    "load": "torque through the gear, as predicted",
-    "torque": "torque, as predicted",
-    "torque_rate": "rate of the torque, as predicted",
-    "travel": "way since the last reversal",
-    "motor_phase": "angle of the motor",
+    "load": "predicted transmitted torque",
+    "torque": "predicted torque",
+    "torque_rate": "predicted torque rate",
+    "travel": "travel since the last reversal",
+    "motor_phase": "motor angle",
     "temperature": "temperature",
 }
 _QUANTITIES = {
     "std": "standard deviation",
     "lsb": "resolution",
     "harmonic": "cycles per revolution",
-    "com_x": "mass centre, x",
-    "com_y": "mass centre, y",
-    "com_z": "mass centre, z",
+    "com_x": "centre of mass, x",
+    "com_y": "centre of mass, y",
+    "com_z": "centre of mass, z",
     "Fvm": "viscous friction of the motor",
     "Fcm": "Coulomb friction of the motor",
     "Iam": "inertia of the motor",
 }
 _NAMES = ("Coulomb", "Stribeck")
-"""Titles of causes may begin with a name."""
-_CURES = {
-    "term": "a term is missing from the model",
-    "signal": "a signal of the log is not what it says",
-    "robot": "the description of the robot is wrong",
+"""Proper names at the beginning of titles."""
+_CORRECTED = {
+    "term": "the model (an additional term)",
+    "signal": "a channel of the log",
+    "robot": "the robot description",
 }
 
 
 def number(value: Number, digits: int = 3) -> str:
-    """Write a few significant digits, a power of ten where the number is tiny or huge.
+    """Write significant digits, with a power of ten for very small and large numbers.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def number(value: Number, digits: int = 3) -> str:
 
 
 def uncertain(value: Number, deviation: Number, unit: str = "1") -> str:
-    """Write a value with its standard deviation, both to the digit that the deviation has.
+    """Write a value with its standard deviation, rounded to two digits of the deviation.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def uncertain(value: Number, deviation: Number, unit: str = "1") -> str:
 
 
 def percent(value: Number) -> str:
-    """Write a percentage as far as it says anything, and bounds beyond that.
+    """Write a percentage, or a bound if it is very small or large.
 
     Examples
     --------
@@ -129,32 +129,32 @@ def interval(ends: Sequence[Number] | None) -> str:
     return f"{low} to {high} %"
 
 
-def chance(p_value: Number) -> str:
-    """Write a p-value; what is smaller than a number can hold is called so.
+def p_value_text(p_value: Number) -> str:
+    """Write a p-value, bounded below by 10⁻³⁰⁰.
 
     Examples
     --------
-    >>> chance(0.0), chance(2e-9), chance(0.2)
-    ('below 10⁻³⁰⁰', '2·10⁻⁹', '0.20')
+    >>> p_value_text(0.0), p_value_text(2e-9), p_value_text(0.2)
+    ('< 10⁻³⁰⁰', '2·10⁻⁹', '0.20')
     """
     if p_value is None:
         return NOTHING
     if p_value < 1e-300:
-        return "below 10⁻³⁰⁰"
+        return "< 10⁻³⁰⁰"
     return number(p_value, 2)
 
 
-def is_real(gain: Number, ends: Sequence[Number] | None, *, sign: float = 1.0) -> bool:
-    """Tell whether a gain (or, by `sign`, a loss), in percent, is sure and worth a word.
+def is_significant(gain: Number, ends: Sequence[Number] | None, *, sign: float = 1.0) -> bool:
+    """Decide whether an improvement (or, by `sign`, a loss), in percent, is significant and above 1 %.
 
     Examples
     --------
-    >>> is_real(40.0, [30.0, 50.0]), is_real(40.0, [-1.0, 81.0]), is_real(0.5, [0.4, 0.6])
-    (True, False, False)
+    >>> is_significant(40.0, [30.0, 50.0]), is_significant(40.0, [-1.0, 81.0])
+    (True, False)
     """
     if gain is None or ends is None:
         return False
-    return sign * gain > _WORTH_A_WORD and all(end is not None and sign * end > 0.0 for end in ends)
+    return sign * gain > _SMALLEST_GAIN and all(end is not None and sign * end > 0.0 for end in ends)
 
 
 def joints(numbers: Sequence[int]) -> str:
@@ -167,7 +167,7 @@ def joints(numbers: Sequence[int]) -> str:
     """
     if not numbers:
         return "the whole robot"
-    return f"joint{'s' if len(numbers) > 1 else ''} {series([str(one) for one in numbers])}"
+    return f"joint{'s' if len(numbers) > 1 else ''} {series([str(joint) for joint in numbers])}"
 
 
 def series(items: Sequence[str]) -> str:
@@ -187,18 +187,18 @@ def count(size: int) -> str:
 
 
 def lower(sentence: str) -> str:
-    """Begin with a small letter, unless a name stands there.
+    """Begin with a small letter, except for proper names.
 
     Examples
     --------
-    >>> lower("The gear yields"), lower("Coulomb friction varies")
-    ('the gear yields', 'Coulomb friction varies')
+    >>> lower("The gear is compliant"), lower("Coulomb friction varies")
+    ('the gear is compliant', 'Coulomb friction varies')
     """
     return sentence if sentence.startswith(_NAMES) else sentence[:1].lower() + sentence[1:]
 
 
 def quantity(name: str) -> str:
-    """Say in words what a number of a finding is.
+    """Describe a parameter of a finding.
 
     Examples
     --------
@@ -209,7 +209,7 @@ def quantity(name: str) -> str:
 
 
 def unit(name: str) -> str:
-    """Write a unit for a reader: powers raised, nothing where there is none.
+    """Write a unit with raised powers; empty without a unit.
 
     Examples
     --------
@@ -220,41 +220,39 @@ def unit(name: str) -> str:
 
 
 def unbroken(sentence: str) -> str:
-    """Keep units on the line of their numbers.
+    """Join numbers and units by no-break spaces.
 
     Examples
     --------
     >>> len("by 0.1 N m".split(" ")), len(unbroken("by 0.1 N m").split(" "))
     (4, 2)
     """
-    return sentence.replace(" N m", f"{_STUCK}N{_STUCK}m").replace(" %", f"{_STUCK}%")
+    return sentence.replace(" N m", f"{_NO_BREAK_SPACE}N{_NO_BREAK_SPACE}m").replace(
+        " %", f"{_NO_BREAK_SPACE}%"
+    )
 
 
 def coordinate(name: str, joint: int) -> str:
-    """Say in words what a figure's abscissa shows.
+    """Describe the abscissa of a figure.
 
     Examples
     --------
     >>> coordinate("position", 4), coordinate("velocity_of_joint_2", 3)
-    ('position of joint 4', 'speed of joint 2')
+    ('position of joint 4', 'velocity of joint 2')
     """
     if name.startswith("velocity_of_joint_"):
-        return f"speed of joint {name.removeprefix('velocity_of_joint_')}"
+        return f"velocity of joint {name.removeprefix('velocity_of_joint_')}"
     words = _COORDINATES.get(name, name.replace("_", " "))
-    return (
-        words
-        if name in ("time", "temperature")
-        else f"{words.partition(',')[0]} of joint {joint}{_tail(words)}"
-    )
+    return words if name in ("time", "temperature") else f"{words} of joint {joint}"
 
 
-def cure(kind: str) -> str:
-    """Say what a cure mends."""
-    return _CURES.get(kind, kind)
+def corrected_object(kind: str) -> str:
+    """Describe what is corrected for a finding."""
+    return _CORRECTED.get(kind, kind)
 
 
 def reference(document: Document) -> str | None:
-    """Say what a diagnosis compares its logs with; None where everything was identified from them first.
+    """Describe the reference of a diagnosis; None if the model was identified from the logs.
 
     Examples
     --------
@@ -268,7 +266,7 @@ def reference(document: Document) -> str | None:
 
 
 def band(document: Document) -> str:
-    """Say up to which frequency a diagnosis looked; nothing of it counts above.
+    """Give the upper frequency limit of a diagnosis.
 
     Examples
     --------
@@ -279,7 +277,7 @@ def band(document: Document) -> str:
 
 
 def fit_band(document: Document) -> str:
-    """Say up to which frequency the model was fitted and scored, log by log where they differ.
+    """Give the upper frequency limits of the fit.
 
     Examples
     --------
@@ -288,8 +286,3 @@ def fit_band(document: Document) -> str:
     """
     cutoffs = sorted({number((log.get("filter") or {}).get("cutoff_hz")) for log in document["logs"]})
     return f"up to {series(cutoffs)} Hz"
-
-
-def _tail(words: str) -> str:
-    _, comma, rest = words.partition(",")
-    return comma + rest

@@ -94,7 +94,7 @@ def test_every_finding_has_its_repair_and_a_description_that_is_right_is_not_rep
     (one,) = document["diagnosis"]["repairs"]
     assert (one["cause"], one["joints"], one["mends"]) == ("torque_ripple", [2], "model")
     assert document["diagnosis"]["repaired_robot"] is None
-    assert f"Repair: {one['what']}." in Page(compose_page(json.loads(json.dumps(document)))).text
+    assert f"Correction: {one['what']}." in Page(compose_page(json.loads(json.dumps(document)))).text
 
 
 def test_nothing_is_left_above_the_noise_floor(document):
@@ -111,7 +111,7 @@ def test_the_atlas_shows_every_joint_over_every_coordinate_that_it_has(document)
 
 def test_the_page_of_a_real_diagnosis_names_the_cause_in_its_first_sentence(document):
     page = compose_page(json.loads(json.dumps(document)))
-    assert "The simulation of planar arm gets one thing wrong: torque ripple (joint 2)." in (page)
+    assert "One cause of simulation error found for planar arm: torque ripple (joint 2)." in (page)
 
 
 def test_the_extended_model_is_in_the_document_with_numbers_that_give_its_base_parameters(document):

@@ -28,7 +28,7 @@ def test_every_joint_is_drawn_with_what_was_measured_filtered_estimated_and_left
         assert len(lines(page, kind)) == 4  # two joints, each broken at a gap
     assert len(lines(page, "residual")) == 2
     assert "estimated by the identified model" in page.text
-    assert "What was measured, and what the model says" not in Page(compose_page(identified())).text
+    assert "Measured and predicted torque" not in Page(compose_page(identified())).text
 
 
 def test_after_a_diagnosis_the_extended_model_is_drawn():
@@ -100,5 +100,5 @@ def test_every_log_is_named_with_its_hash_and_what_the_motion_is_worth():
     precision = {"equations": 900, "left_out_percent": 2.0, "noise": [0.1, 0.2], "memory_factor": [1.5, 2.5]}
     text = Page(compose_page(identified(precision=precision, condition_number_scaled=8.0))).text
     assert "swing.csv SHA-256 abc123" in text
-    assert "8.00 with columns of equal length" in text
+    assert "8.00 with columns scaled to unit norm" in text
     assert "2 0.200 N 2.50" in text
