@@ -1,4 +1,4 @@
-"""Tell the whole story on one page: from logs to a robot that can exist, and how far it is to be believed.
+"""Tell the whole story on one page: from logs to a physically consistent robot, and how well it is known.
 
 This is the only module that meets every chapter; each step takes what the step before gave.
 """
@@ -167,7 +167,7 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     try:
         extended = proof or fit(_extended(found, plain), options, last)
         after = judge(request.logs, options, extended, last, request.mapper)
-    except SolverError as error:  # what was found stands, whether or not the cure can be computed
+    except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return Extension(before, found, None, (), None, note, as_it_is)
     tell("simulate", 0.95)

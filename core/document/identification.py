@@ -150,7 +150,7 @@ def _solver(found: Identification) -> dict[str, object]:
 
 
 def held_out_spans(found: Identification, keys: Collection[BlockKey]) -> list[dict[str, object]]:
-    """List the spans of the logs that no fit has seen."""
+    """List the spans of the logs that are held out of every fit."""
     return [
         {"log": block.log + 1, "begin_s": block.start, "end_s": block.end}
         for block in found.observation.blocks

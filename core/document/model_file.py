@@ -67,8 +67,8 @@ def read_model(text: str | bytes) -> IdentifiedRobot:
 
 def model_document(identified: IdentifiedRobot) -> dict[str, object]:
     """Write the model as JSON data."""
-    beliefs: list[Prediction] = []
-    terms = _terms(identified.model, identified.standard, beliefs, identified.identifiable)
+    predictions: list[Prediction] = []
+    terms = _terms(identified.model, identified.standard, predictions, identified.identifiable)
     return {
         "format": FORMAT,
         "format_version": FORMAT_VERSION,
@@ -76,7 +76,7 @@ def model_document(identified: IdentifiedRobot) -> dict[str, object]:
         "remarks": list(identified.remarks),
         "robot": to_description(identified.robot),
         "terms": terms,
-        "beliefs": _beliefs(beliefs),
+        "beliefs": _prediction_rows(predictions),
         "base_parameters": [vars(one) for one in identified.base],
     }
 
@@ -90,12 +90,12 @@ def model_from_document(document: Document) -> IdentifiedRobot:
         If something is missing, or does not belong together.
     """
     try:
-        beliefs: list[Prediction] = []
+        predictions: list[Prediction] = []
         for one in document["beliefs"]:
-            model, standard = _model(one, beliefs)
-            joined, values = _model({"robot": one["robot"], "terms": one["joined"]}, beliefs)
-            beliefs.append(Prediction(model, standard, joined=joined.split(values)))
-        model, standard = _model(document, beliefs)
+            model, standard = _model(one, predictions)
+            joined, values = _model({"robot": one["robot"], "terms": one["joined"]}, predictions)
+            predictions.append(Prediction(model, standard, joined=joined.split(values)))
+        model, standard = _model(document, predictions)
         return IdentifiedRobot(
             model=model,
             standard=standard,
@@ -112,10 +112,10 @@ def model_from_document(document: Document) -> IdentifiedRobot:
         raise _unusable("does not hold what it must", f"{type(error).__name__}: {error}") from error
 
 
-def _beliefs(beliefs: list[Prediction]) -> list[dict[str, object]]:
+def _prediction_rows(predictions: list[Prediction]) -> list[dict[str, object]]:
     """Write predictions; what joined their models is built on those before them."""
     written: list[dict[str, object]] = []
-    for one in beliefs:
+    for one in predictions:
         inner: list[Prediction] = []
         terms = _terms(one.model, one.standard, inner)
         if inner:
@@ -130,7 +130,7 @@ def _beliefs(beliefs: list[Prediction]) -> list[dict[str, object]]:
             {
                 "robot": to_description(one.model.robot),
                 "terms": terms,
-                "joined": _terms(joined, values, beliefs),
+                "joined": _terms(joined, values, predictions),
             }
         )
     return written
@@ -139,7 +139,7 @@ def _beliefs(beliefs: list[Prediction]) -> list[dict[str, object]]:
 def _terms(
     model: DynamicModel,
     standard: np.ndarray,
-    beliefs: list[Prediction],
+    predictions: list[Prediction],
     identifiable: Sequence[str] | None = None,
 ) -> list[dict[str, object]]:
     known = iter(identifiable or ())
@@ -147,7 +147,7 @@ def _terms(
         {
             "term": type(term).__name__,
             "name": term.name,
-            "made_with": term_fields(term, beliefs),
+            "made_with": term_fields(term, predictions),
             "parameters": [
                 {"name": parameter.name, "unit": parameter.unit, "value": float(value)}
                 | ({"identifiable": next(known)} if identifiable else {})
@@ -158,10 +158,10 @@ def _terms(
     ]
 
 
-def _model(document: Document, beliefs: Sequence[Prediction]) -> tuple[DynamicModel, np.ndarray]:
+def _model(document: Document, predictions: Sequence[Prediction]) -> tuple[DynamicModel, np.ndarray]:
     robot = robot_from_description(document["robot"])
     rows: Iterable[Document] = [row for term in document["terms"] for row in term["parameters"]]
-    terms = tuple(term_of(str(term["term"]), term["made_with"], beliefs) for term in document["terms"])
+    terms = tuple(term_of(str(term["term"]), term["made_with"], predictions) for term in document["terms"])
     model = DynamicModel(robot, terms)
     names = [parameter.name for parameter in model.parameters]
     if names != [row["name"] for row in rows]:

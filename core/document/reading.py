@@ -58,9 +58,9 @@ def identified_robot(document: Document) -> IdentifiedRobot:
         return _standing(document)
     diagnosis = document["diagnosis"]
     repaired = diagnosis.get("repaired_robot") or document["robot"]
-    mended = [one for one in diagnosis.get("repairs", ()) if one["mends"] == "robot"]
-    remarks = [f"The description was repaired, {one['cause']}: {one['what']}." for one in mended]
-    return _standard_part(extended, _robot(repaired), {one["cause"] for one in mended}, remarks)
+    corrected = [one for one in diagnosis.get("repairs", ()) if one["mends"] == "robot"]
+    remarks = [f"The description was repaired, {one['cause']}: {one['what']}." for one in corrected]
+    return _standard_part(extended, _robot(repaired), {one["cause"] for one in corrected}, remarks)
 
 
 def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
@@ -82,7 +82,7 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
 
 
 def _standing(document: Document) -> IdentifiedRobot:
-    """Give the model as it was identified, before any cure."""
+    """Give the model as it was identified, before any correction."""
     model = model_of_result(document, _robot(document["robot"]))
     rows = {row["name"]: row for row in document["standard_parameters"]}
     own = [rows[parameter.name] for parameter in model.parameters]

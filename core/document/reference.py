@@ -1,8 +1,8 @@
 """Read a result document back as the reference that a later log is compared with.
 
 The document of an identification says what was found and, by `precision.information_factor`, how well all of
-it is known together. What a diagnosis says of the robot before its cure is the same, so that either kind of
-result may be a reference.
+it is known together. What a diagnosis says of the robot before its correction is the same, so that either
+kind of result may be a reference.
 """
 
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import Matrix
 from ..errors import OptionError
-from ..identification.reference import Reference, doubted
+from ..identification.reference import Reference, with_least_deviation
 from ..reduction.base import base_model
 from ..robot.description import robot_from_description
 from ..robot.differences import differences
@@ -57,7 +57,9 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
         )
     values = np.array([one["value"] for one in rows.values()], dtype=float)
     known = np.array([standard[one.name] for one in model.parameters], dtype=float)
-    return Reference(name, base, known, values, doubted(read_factor(factor, len(values)), values))
+    return Reference(
+        name, base, known, values, with_least_deviation(read_factor(factor, len(values)), values)
+    )
 
 
 def written_factor(rows: Matrix) -> list[list[float]]:

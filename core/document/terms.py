@@ -42,12 +42,12 @@ def named_terms(model: DynamicModel) -> list[str]:
     return [term.name for term in model.terms if term.parameters(model.robot)]
 
 
-def term_fields(term: Term, beliefs: list[Prediction]) -> dict[str, object]:
-    """Write what a term was made with; predictions are appended to `beliefs` unless they are there."""
-    return {name: _plain(getattr(term, name), beliefs) for name, _ in _own_fields(type(term))}
+def term_fields(term: Term, predictions: list[Prediction]) -> dict[str, object]:
+    """Write what a term was made with; predictions are appended to `predictions` unless they are there."""
+    return {name: _plain(getattr(term, name), predictions) for name, _ in _own_fields(type(term))}
 
 
-def term_of(kind: str, values: Mapping[str, Any], beliefs: Sequence[Prediction]) -> Term:
+def term_of(kind: str, values: Mapping[str, Any], predictions: Sequence[Prediction]) -> Term:
     """Make a term again.
 
     Raises
@@ -58,13 +58,13 @@ def term_of(kind: str, values: Mapping[str, Any], beliefs: Sequence[Prediction])
     known = known_terms()
     wanted = dict(_own_fields(known[kind])) if kind in known else {}
     if kind not in known or set(values) != set(wanted):
-        told = "is made of other fields" if kind in known else "is not known"
+        fault = "is made of other fields" if kind in known else "is not known"
         raise RobotError(
-            f"the model names a torque term that {told}: {kind[:80]}",
+            f"the model names a torque term that {fault}: {kind[:80]}",
             evidence={"fields": list(values)[:10], "wanted": list(wanted), "known": sorted(known)},
             remedy="read the file with the version that wrote it",
         )
-    made = {name: _read(values[name], annotation, beliefs) for name, annotation in wanted.items()}
+    made = {name: _read(values[name], annotation, predictions) for name, annotation in wanted.items()}
     return cast("Term", known[kind](**made))
 
 
@@ -77,25 +77,25 @@ def _own_fields(kind: type) -> Iterator[tuple[str, object]]:
     return ((one.name, one.type) for one in fields(kind) if one.name != NAME)
 
 
-def _plain(value: object, beliefs: list[Prediction]) -> object:
+def _plain(value: object, predictions: list[Prediction]) -> object:
     if isinstance(value, Prediction):
-        if not any(one is value for one in beliefs):
+        if not any(one is value for one in predictions):
             for term, _ in value.joined:  # what it is built on comes before it
-                term_fields(term, beliefs)
-            beliefs.append(value)
-        return next(place for place, one in enumerate(beliefs) if one is value)
+                term_fields(term, predictions)
+            predictions.append(value)
+        return next(place for place, one in enumerate(predictions) if one is value)
     if isinstance(value, Coupling):
         return asdict(value)
     if isinstance(value, tuple):
-        return [_plain(one, beliefs) for one in value]
+        return [_plain(one, predictions) for one in value]
     if isinstance(value, float | np.floating):
         return float(value) if np.isfinite(value) else str(float(value))  # JSON knows no infinity
     return value
 
 
-def _read(value: Any, annotation: object, beliefs: Sequence[Prediction]) -> object:  # noqa: ANN401  (JSON)
+def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> object:  # noqa: ANN401  (JSON)
     if annotation is Prediction:
-        return beliefs[int(value)]
+        return predictions[int(value)]
     if annotation is Coupling:
         return Coupling(
             str(value["name"]),

@@ -1,4 +1,4 @@
-"""Estimate a robot that can exist.
+"""Estimate a physically consistent robot.
 
 In comes an `Observation` of base columns and a prior, out goes an `Estimate`.
 """

@@ -1,7 +1,7 @@
 """Find the body nearest to ten parameters that belong to none, in units of how well they are known.
 
-Noise moves the parameters of a small body to where no body can be. The nearest one that can exist is what to
-report, and its distance tells whether a body is a tenable explanation at all. Source: Wensing, Kim & Slotine,
+Noise moves the parameters of a small body to where no body can be. The nearest consistent one is reported,
+and its distance says whether a body is a tenable explanation at all. Source: Wensing, Kim & Slotine,
 IEEE RA-L 3(1), 2018.
 """
 
@@ -65,11 +65,11 @@ def _root(covariance: SquareMatrix) -> np.ndarray:
     Directions without any spread were left out of the fit: nothing is known of them either.
     """
     deviation = np.sqrt(np.diag(covariance))
-    told = np.where(deviation > 0.0, np.minimum(deviation, LARGEST_DEVIATION), LARGEST_DEVIATION)
+    known = np.where(deviation > 0.0, np.minimum(deviation, LARGEST_DEVIATION), LARGEST_DEVIATION)
     scale = np.where(deviation > 0.0, deviation, 1.0)
     values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
     spread = np.where(values > LEFT_OUT * max(float(values[-1]), 1e-300), np.maximum(values, 0.0), 1.0)
-    return np.asarray(told[:, None] * vectors * np.sqrt(spread))
+    return np.asarray(known[:, None] * vectors * np.sqrt(spread))
 
 
 def _settings() -> object:

@@ -1,8 +1,8 @@
-"""Say what makes a robot possible, and what makes it plausible, as data that any solver can read.
+"""Say what makes a robot physically consistent, and what makes it plausible, as data for any solver.
 
-Possible: every link's pseudo-inertia is positive definite, rotor inertias and frictions are not negative.
+Consistent: every link's pseudo-inertia is positive definite, rotor inertias and frictions are not negative.
 Plausible: bounds on masses and mass centres, and a pull towards a prior in the directions that the motion
-leaves open. "Possible" alone lets links of tonnes pass, whose effect on the torque cancels. Sources: Sousa &
+leaves open. Consistency alone lets links of tonnes pass, whose effect on the torque cancels. Sources: Sousa &
 Cortesao 2014; Wensing, Kim & Slotine 2018.
 """
 
@@ -148,7 +148,7 @@ def check_links(bounds: Bounds, model: DynamicModel) -> None:
 
 
 def default_prior(model: DynamicModel, torque_rms: Vector, sizes: Mapping[str, float] | None = None) -> Prior:
-    """Believe the robot's own prior; where it has none, small balls in proportion to torques and lengths.
+    """Take the robot's own prior; where it has none, small balls in proportion to torques and lengths.
 
     Parameters
     ----------
@@ -162,11 +162,11 @@ def default_prior(model: DynamicModel, torque_rms: Vector, sizes: Mapping[str, f
         [known.get(parameter.name) or units.get(parameter.unit, effort) for parameter in model.parameters]
     )
     centre = np.zeros(len(model.parameters))
-    believed = model.robot.prior
+    bodies = model.robot.prior
     ball = from_mass_properties(mass, np.zeros(3), 0.4 * mass * (0.3 * length) ** 2 * np.eye(3))
     for number, columns in enumerate(link_columns(model)):
-        centre[list(columns)] = ball if believed is None else believed[number]
-    return Prior(centre, scale, "nominal" if believed is None else "robot")
+        centre[list(columns)] = ball if bodies is None else bodies[number]
+    return Prior(centre, scale, "nominal" if bodies is None else "robot")
 
 
 def congruence(prior: Prior, columns: tuple[int, ...]) -> Vector:

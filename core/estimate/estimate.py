@@ -1,7 +1,7 @@
 """Estimate the parameters: one function for every estimator, one result for everything that follows.
 
-The default is the semidefinite programme on equations weighted per joint; the unconstrained optimum of the
-same equations is always reported beside it, because the difference is the price of feasibility.
+The default is the semidefinite programme on equations weighted per joint. The unconstrained optimum of the
+same equations is always reported beside it: the difference is the cost of the consistency constraint.
 """
 
 from dataclasses import dataclass, replace

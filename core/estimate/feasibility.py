@@ -1,6 +1,6 @@
 """Ask whether base parameters can belong to any robot at all, by the largest margin that one could have.
 
-Base parameters fix only combinations, so their own signs prove nothing; what counts is whether some choice of
+Base parameters fix only combinations, so their own signs say nothing; what counts is whether some choice of
 the open directions makes every pseudo-inertia positive definite. That is a small semidefinite programme with
 a certificate either way. Source: Sousa & Cortesao 2014.
 """

@@ -1,6 +1,6 @@
 """Say how a robot is to be estimated: which estimator, which solver, how strongly the prior pulls.
 
-Apart from what estimates, so that a wish can be checked where nothing is computed.
+Apart from what estimates, so that a request can be checked where nothing is computed.
 """
 
 from dataclasses import dataclass, field
@@ -48,7 +48,7 @@ class EstimateOptions:
         return ESTIMATORS[self.estimator]
 
     def __post_init__(self) -> None:
-        """Refuse unknown names and impossible weights."""
+        """Refuse unknown names and weights that make no sense."""
         if self.estimator not in ESTIMATORS or self.solver not in SOLVERS:
             raise OptionError(
                 "the estimator or solver is not known",
@@ -64,7 +64,7 @@ class EstimateOptions:
             name
             for name, asked in (("bounds", self.bounds != Bounds()), ("entropy", self.entropy > 0.0))
             if asked and not self.method.feasible
-        ] + (["robust"] if self.robust and not self.method.weighted else [])
+        ] + (["robust"] if self.robust and not self.method.row_weights else [])
         if without_effect:
             raise OptionError(
                 f"{' and '.join(without_effect)} would have no effect on this estimator",

@@ -33,7 +33,7 @@ class Programme:
     system
         The weighted equations over the base parameters.
     prior, bounds
-        What is believed and what is allowed.
+        The prior of the standard parameters, and what is allowed.
     pull
         Weight of the squared distance to the prior.
     entropy

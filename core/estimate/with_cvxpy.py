@@ -91,16 +91,16 @@ def _pseudo_inertia(programme: Programme, phi: cvxpy.Variable, columns: tuple[in
 def _entropy(programme: Programme, phi: cvxpy.Variable) -> cvxpy.Expression:
     """Sum the links' divergence from the prior: trace(J J0^-1) - log det(J J0^-1) - 4, frame-independent.
 
-    Links whose believed body could not exist (a frame without mass in a URDF) have none.
+    Links whose prior is not physically consistent (a frame without mass in a URDF) have none.
     """
     total = cvxpy.Constant(0.0)
     for columns in link_columns(programme.base.model):
-        believed = pseudo_inertia(programme.prior.centre[list(columns)])
+        prior = pseudo_inertia(programme.prior.centre[list(columns)])
         weights = np.diag(congruence(programme.prior, columns))
-        if np.linalg.eigvalsh(weights @ believed @ weights)[0] < 1e-9:
+        if np.linalg.eigvalsh(weights @ prior @ weights)[0] < 1e-9:
             continue
         body = weights @ _pseudo_inertia(programme, phi, columns) @ weights
-        inverse = np.linalg.solve(weights @ believed @ weights, np.eye(4))
+        inverse = np.linalg.solve(weights @ prior @ weights, np.eye(4))
         total = (
             total + cvxpy.trace(inverse @ body) - cvxpy.log_det(body) - np.linalg.slogdet(inverse)[1] - 4.0
         )

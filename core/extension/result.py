@@ -16,7 +16,7 @@ class Extension:
     Attributes
     ----------
     before
-        The model as it was believed, identified from the logs.
+        The model as it was stated, identified from the logs.
     after
         The extended model identified again under the same constraints; None where nothing was found. Against
         a reference its base parameters stay as near to the reference's as those are known.

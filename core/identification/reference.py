@@ -36,7 +36,7 @@ class Reference:
     Attributes
     ----------
     name
-        What it is called where it is told of.
+        What it is called in documents.
     base
         Its model and base parameters.
     standard
@@ -62,9 +62,9 @@ class Reference:
     @property
     def left_open(self) -> tuple[str, ...]:
         """Name the base parameters of which it tells nothing by themselves."""
-        told = np.abs(self.rows).max(axis=0, initial=0.0)
+        known = np.abs(self.rows).max(axis=0, initial=0.0)
         return tuple(
-            name for name, one in zip(self.base.names, told, strict=True) if one <= 1e-12 * told.max()
+            name for name, one in zip(self.base.names, known, strict=True) if one <= 1e-12 * known.max()
         )
 
     def completed(self, system: System) -> BaseParameters:
@@ -79,14 +79,14 @@ class Reference:
         return np.asarray(self.values + free @ step)
 
 
-def doubted(rows: Matrix, values: BaseParameters, share: float = LEAST_DEVIATION) -> Matrix:
+def with_least_deviation(rows: Matrix, values: BaseParameters, share: float = LEAST_DEVIATION) -> Matrix:
     """Add to what is known of parameters an independent deviation of a share of each of them.
 
     Examples
     --------
-    Known to 0.003 of 1, doubted by 0.004 of it, one is known to 0.005:
+    Known to 0.003 of 1, with a further deviation of 0.004 of it, one is known to 0.005:
 
-    >>> doubted(np.array([[1.0 / 0.003]]), np.array([1.0]), 0.004).round(6)
+    >>> with_least_deviation(np.array([[1.0 / 0.003]]), np.array([1.0]), 0.004).round(6)
     array([[200.]])
     """
     spread = rows * (share * np.abs(values))
@@ -103,8 +103,8 @@ def reference_from_prior(base: BaseModel) -> Reference:
     RobotError
         If the description brings no bodies, or the model has none.
     """
-    believed, links = base.model.robot.prior, link_columns(base.model)
-    if believed is None or not links:
+    bodies, links = base.model.robot.prior, link_columns(base.model)
+    if bodies is None or not links:
         raise RobotError(
             "the robot has no prior to be compared with",
             evidence={"robot": base.model.robot.name, "prior": None, "links": len(links)},
@@ -113,14 +113,14 @@ def reference_from_prior(base: BaseModel) -> Reference:
     standard = np.zeros(len(base.model.parameters))
     spread: list[EquationRows] = []
     known: set[int] = set()
-    for body, columns in zip(believed, links, strict=True):
+    for body, columns in zip(bodies, links, strict=True):
         standard[list(columns)] = body
         known |= set(columns)
         spread.append(base.grouping[:, list(columns)] @ _body_spread(body))
     unknown = [column for column in range(len(standard)) if column not in known]
-    told = null_space(base.grouping[:, unknown].T).T if unknown else np.eye(len(base.kept))
+    combinations = null_space(base.grouping[:, unknown].T).T if unknown else np.eye(len(base.kept))
     values = base.base_of(standard)
-    return Reference(PRIOR, base, standard, values, _whitened(told, np.hstack(spread)))
+    return Reference(PRIOR, base, standard, values, _whitened(combinations, np.hstack(spread)))
 
 
 def _body_spread(body: LinkParameters) -> EquationRows:
@@ -135,8 +135,8 @@ def _body_spread(body: LinkParameters) -> EquationRows:
     return np.array(directions).T
 
 
-def _whitened(told: EquationRows, spread: EquationRows) -> EquationRows:
+def _whitened(combinations: EquationRows, spread: EquationRows) -> EquationRows:
     """Give combinations of base parameters in units of their deviation; those without one are left out."""
-    values, vectors = np.linalg.eigh(told @ spread @ spread.T @ told.T)
+    values, vectors = np.linalg.eigh(combinations @ spread @ spread.T @ combinations.T)
     kept = values > 1e-12 * max(float(values[-1]), 1e-300) if len(values) else np.zeros(0, dtype=bool)
-    return np.asarray((vectors[:, kept] / np.sqrt(values[kept])).T @ told)
+    return np.asarray((vectors[:, kept] / np.sqrt(values[kept])).T @ combinations)

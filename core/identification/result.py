@@ -45,7 +45,7 @@ class Identification:
 
     @property
     def feasible(self) -> bool:
-        """Tell whether the robot can exist; its mass matrix counts where links are modelled."""
+        """Tell whether the robot is consistent; its mass matrix counts where links are modelled."""
         if not self.pseudo_inertia_eigenvalues:
             return self.estimate_feasibility.feasible
         return self.estimate_feasibility.feasible and self.trajectory.positive and self.workspace.positive

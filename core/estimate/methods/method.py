@@ -76,8 +76,8 @@ class Estimator(Protocol):
         """Tell whether the equations are solved under the constraints of physical consistency."""
 
     @property
-    def weighted(self) -> bool:
-        """Tell whether rows are weighted, so that robust weights have an effect."""
+    def row_weights(self) -> bool:
+        """Tell whether the option `robust`, which weights rows, has an effect."""
 
     def equations(self, at: BaseParameters | None, data: FitData) -> Step:
         """Write the equations at a robot; at None before there is any."""

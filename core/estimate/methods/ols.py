@@ -14,7 +14,7 @@ class OrdinaryLeastSquares:
     name: str = "ols"
     needs: tuple[str, ...] = ()
     feasible: bool = False
-    weighted: bool = False
+    row_weights: bool = False
 
     def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""

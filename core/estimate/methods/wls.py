@@ -18,7 +18,7 @@ class WeightedLeastSquares:
     name: str = "wls"
     needs: tuple[str, ...] = ()
     feasible: bool = False
-    weighted: bool = True
+    row_weights: bool = True
 
     def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""

@@ -15,7 +15,11 @@ from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import RobotError
 from veritorque.core.estimate.gaussian_prior import GaussianPrior
 from veritorque.core.estimate.system import System
-from veritorque.core.identification.reference import PRIOR_DEVIATION, doubted, reference_from_prior
+from veritorque.core.identification.reference import (
+    PRIOR_DEVIATION,
+    reference_from_prior,
+    with_least_deviation,
+)
 from veritorque.core.reduction.base import base_model
 from veritorque.core.robot.inertia import pseudo_inertia
 
@@ -71,12 +75,12 @@ def test_a_column_that_the_model_has_already_is_told_only_where_its_own_coeffici
 
 @given(st.floats(1e-4, 1.0), st.floats(1e-4, 1.0), st.floats(0.1, 100.0))
 def test_doubt_adds_to_the_variance(known, share, value):
-    rows = doubted(np.array([[1.0 / known]]), np.array([value]), share)
+    rows = with_least_deviation(np.array([[1.0 / known]]), np.array([value]), share)
     assert 1.0 / rows[0, 0] == pytest.approx(np.hypot(known, share * value), rel=1e-9)
 
 
 def test_doubt_leaves_open_what_was_open():
-    rows = doubted(np.array([[2.0, 0.0]]), np.array([1.0, 5.0]))
+    rows = with_least_deviation(np.array([[2.0, 0.0]]), np.array([1.0, 5.0]))
     assert rows[0, 1] == 0.0
 
 
