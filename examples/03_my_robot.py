@@ -10,7 +10,7 @@ from math import pi
 from pathlib import Path
 
 from veritorque import base_parameters, robot_from_description
-from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.plausibility import plausibility_warnings
 
 #        alpha     d     r   theta_offset   position limits, rad
 TABLE = (
@@ -41,8 +41,8 @@ def description() -> dict[str, object]:
 def main() -> None:
     """Describe, check, and list what can be told apart."""
     robot = robot_from_description(description())
-    for suspicion in suspicions(robot):
-        print(f"rarely meant: {suspicion}")
+    for warning in plausibility_warnings(robot):
+        print(f"rarely meant: {warning}")
 
     told = base_parameters(robot)
     counts = told["counts"]

@@ -7,7 +7,7 @@ from pathlib import PurePath
 
 from ...core.log.formats.content import recognise
 from ...core.robot.model import RobotModel
-from ...core.robot.plausibility import suspicions
+from ...core.robot.plausibility import plausibility_warnings
 from ..inspection.inspector import Inspector
 from ..inspection.log_reading import ChannelSelection, LogFile
 from ..kinds.base_parameters import base_parameters
@@ -173,7 +173,7 @@ class Catalogue:
             name=robot.name,
             joints=len(robot.joints),
             description=description,
-            suspicions=suspicions(robot),
+            suspicions=plausibility_warnings(robot),
         )
 
 
@@ -202,7 +202,7 @@ def _built_in(name: str, description: Document) -> RobotRecord:
         joints=len(robot.joints),
         built_in=True,
         description=written,
-        suspicions=suspicions(robot),
+        suspicions=plausibility_warnings(robot),
         created_at=None,
     )
 

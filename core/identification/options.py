@@ -1,6 +1,6 @@
 """Read a study's options from plain data, strictly: what is not known is refused with the list of what is.
 
-Kept beside `study` because it names the options of several chapters and belongs to none of them.
+The options of several packages are read here; each package keeps its own as a frozen dataclass.
 """
 
 from collections.abc import Mapping
@@ -136,7 +136,7 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     held = parsed.validation
     if not held.logs and not round(held.fraction * held.blocks):
         raise OptionError(
-            "a diagnosis needs data that no fit has seen, and none would be held out",
+            "a diagnosis needs held-out data, and none would be held out",
             evidence={"fraction": held.fraction, "blocks": held.blocks},
             remedy="leave validation out, or hold out a fraction of at least one block",
         )

@@ -1,4 +1,1 @@
-"""Hold what was measured.
-
-In comes a file and a mapping, out goes a `JointLog` in SI with its defects listed.
-"""
+"""Read a file with a mapping into a `JointLog` in SI, with its defects listed."""

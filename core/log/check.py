@@ -1,6 +1,6 @@
-"""Look at a log before anything is identified from it: what was recognised, what moved, what is wrong.
+"""Check a log before anything is identified from it: what was recognised, what moved, what is wrong.
 
-A file that cannot be used yet is no error here: why, and which mapping would mend it, is the answer.
+A file that cannot be used yet is no error here: the answer holds the reason and a mapping that would help.
 """
 
 from collections.abc import Mapping
@@ -21,7 +21,7 @@ PIECE_ROWS = 1 << 16
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """Say between which values a channel moved, joint by joint, in SI."""
+    """Hold the smallest and largest value of a channel, joint by joint, in SI."""
 
     channel: str
     low: JointVector
@@ -30,7 +30,7 @@ class Reach:
 
 @dataclass(frozen=True, eq=False)
 class LogCheck:
-    """Say what is in a file.
+    """Describe what is in a file.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class LogCheck:
 
 
 def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> LogCheck:
-    """Look at a file.
+    """Check a file.
 
     Raises
     ------

@@ -1,7 +1,6 @@
 """Refuse samples that no study can use: not finite, out of order, too few, or without any motion or torque.
 
-All of it is counted in the one pass over the log, so that an error tells how much is wrong and where it
-starts.
+All of it is counted in one pass over the log, so that an error states how much is wrong and where it starts.
 """
 
 import numpy as np
@@ -15,7 +14,7 @@ from .layout import Layout
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0
 WHOLE_TURN_TOLERANCE = 0.1
-"""Rad that a joint may move between two samples and still be said to have been wrapped by a turn."""
+"""Rad that a joint may move between two samples and still count as wrapped by a turn."""
 LARGEST = 1e15
 SHORTEST_STEP = 1e-6
 """Of time, in s: no drive is sampled at a megahertz."""

@@ -1,7 +1,6 @@
 """Bind a mapping to a file's columns: which column is which joint's channel, and how its numbers become SI.
 
-Where a channel is not mapped its default names hold (`time`, `q_1`, `tau_1`, ...). What cannot be bound is
-answered with what was looked for, what is there, and what it might have been.
+Where a channel is not mapped its default names hold (`time`, `q_1`, `tau_1`, ...). A refusal lists the columns looked for, those that are there, and plausible readings.
 """
 
 import re
@@ -47,7 +46,7 @@ class Binding:
 
 @dataclass(frozen=True)
 class Layout:
-    """Say where each channel is. Without a time column the rows follow a uniform clock of `rate_hz`."""
+    """Map channels to columns. Without a time column the rows follow a uniform clock of `rate_hz`."""
 
     time: Binding | None
     rate_hz: float

@@ -1,7 +1,7 @@
-"""Say in which units a column could plausibly be, with the numbers that speak for it; never decide.
+"""Rank the units in which a column could plausibly be, with the numbers that support each; never decide.
 
-A column of positions that spans 340 is degrees to any reader, yet converting it silently would hide the one
-case where it is not. So the readings are ranked and shown, and whoever knows the robot declares one.
+A column of positions that spans 340 is degrees to any reader, yet a silent conversion would hide the one case
+where it is not. So the readings are ranked and shown, and the user declares one.
 """
 
 from collections.abc import Sequence

@@ -1,7 +1,7 @@
-"""Thin long traces for the eye: of every stretch of rows the smallest and the largest value are kept.
+"""Thin long traces for display: of every stretch of rows the smallest and the largest value are kept.
 
 A screen is some thousand points wide and a log is millions of rows long. Every n-th row would lose spikes and
-fold vibration into slow waves; the extremes of each stretch draw the same picture as all rows would.
+alias vibration into slow waves; the extremes of each stretch draw the same picture as all rows would.
 All traces share one time axis, so that plots of them can share a cursor.
 """
 
@@ -81,7 +81,7 @@ def preview(
         rows = log.source.rows(start, stop)
         return rows.time, np.hstack([getattr(rows, channel) for channel in channels])
 
-    return thin(read, [one for one in inside if one[0] < one[1]], points=points)
+    return thin(read, [(start, stop) for start, stop in inside if start < stop], points=points)
 
 
 def rows_between(

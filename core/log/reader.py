@@ -1,6 +1,6 @@
-"""Read a robot's log into a `JointLog`: format by content, units at the door, defects found and listed.
+"""Read a robot's log into a `JointLog`: format by content, units converted at once, defects listed.
 
-This is the chapter's front door. Formats know columns, the layout knows joints and units, and one pass over
+This is where reading starts. Formats know columns, the layout knows joints and units, and one pass over
 the samples refuses what cannot be used and lists what is wrong but usable.
 """
 
@@ -88,7 +88,7 @@ def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:
 
 
 def lay_out(table: Table, mapping: Mapping[str, object] | None) -> Layout:
-    """Say which column is which joint's channel.
+    """Bind columns to channels and joints.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> Joint
     LogError
         If the samples cannot be used.
     """
-    return _examined(name, _source(table, layout), layout, sha256)
+    return _log_of(name, _source(table, layout), layout, sha256)
 
 
 def log_from_arrays(
@@ -172,7 +172,7 @@ def log_from_arrays(
             Binding(key, tuple(f"{CHANNELS[key].prefix}_{j}" for j in joints), *plain) for key in arrays
         ),
     )
-    return _examined(name, ArraySource(LogRows(clock, **arrays)), layout, "")
+    return _log_of(name, ArraySource(LogRows(clock, **arrays)), layout, "")
 
 
 def _source(table: Table, layout: Layout) -> LogSource:
@@ -183,7 +183,7 @@ def _source(table: Table, layout: Layout) -> LogSource:
     return ArraySource(layout.convert(whole, 0))
 
 
-def _examined(name: str, source: LogSource, layout: Layout, sha256: str) -> JointLog:
+def _log_of(name: str, source: LogSource, layout: Layout, sha256: str) -> JointLog:
     seen = examine(source, layout)
     return JointLog(
         name=name,

@@ -1,8 +1,7 @@
-"""Suggest a mapping for a file whose columns go by other names; whoever knows the recorder confirms it.
+"""Suggest a mapping for a file whose columns have other names; the user confirms it.
 
-A profile that fits says it best. Otherwise columns which differ in a number only are taken for the joints of
-one channel, their words tell which, and their sizes tell the unit. Nothing is read by a suggestion: it is
-shown.
+A profile that fits comes first. Otherwise columns that differ in a number only are taken for the joints of
+one channel. Words in the names give the channel, sizes the unit. A suggestion is shown, never applied.
 """
 
 import re
@@ -22,9 +21,9 @@ IMPLAUSIBLE = "implausible_unit"
 
 
 def suggested_mapping(table: Table) -> dict[str, object] | None:
-    """Give a mapping that fits the names of the columns; None where they tell too little.
+    """Give a mapping that fits the names of the columns; None where the names are not enough.
 
-    Units are the most plausible by size, or `UNKNOWN` where the size tells none; so is the rate of a log
+    Units are the most plausible by size, or `UNKNOWN` where no unit fits the size; so is the rate of a log
     without a clock.
 
     Examples
@@ -88,7 +87,7 @@ def _profile(names: Sequence[str]) -> str | None:
     for name in PROFILES:
         try:
             filled = fill_in({PROFILE: name}, names)
-        except LogError:  # the order of the joints is not known, and would have to be told as well
+        except LogError:  # the order of the joints is not known, and would have to be given as well
             continue
         if isinstance(filled, dict) and {"position"} < filled.keys() & CHANNELS.keys():
             return name

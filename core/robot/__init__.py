@@ -1,1 +1,1 @@
-"""Describe what is believed before measuring: in comes an MDH table or a URDF, out goes a `RobotModel`."""
+"""Read a modified DH table or a URDF into a `RobotModel`, and write it again."""

@@ -1,7 +1,7 @@
-"""Tell in what two robots differ as far as their torque knows: names and limits do not count.
+"""List the differences of two robots that change their torque; names and limits do not.
 
 A simulation can only be compared with a log where both are of one robot: the same tree, the same table, the
-same way down, the same declared friction, rotors and couplings.
+same gravity, the same declared friction, rotors and couplings.
 """
 
 import numpy as np
@@ -12,37 +12,39 @@ TOLERANCE = 1e-8
 """In m, rad and m/s2: documents are written with ten digits."""
 
 
-def differences(one: RobotModel, other: RobotModel) -> tuple[str, ...]:
-    """List what differs, in words; empty where the same motion asks for the same torque.
+def differences(first: RobotModel, second: RobotModel) -> tuple[str, ...]:
+    """List what differs, in words; empty where the same motion needs the same torque.
 
     Bodies are not compared: they are what an identification finds.
     """
-    if len(one.joints) != len(other.joints) or len(one.links) != len(other.links):
+    if len(first.joints) != len(second.joints) or len(first.links) != len(second.links):
         return ("the number of joints or links",)
     found = []
-    for number, (own, else_) in enumerate(zip(one.links, other.links, strict=True), start=1):
-        if not _alike(own, else_):
+    for number, (link, other) in enumerate(zip(first.links, second.links, strict=True), start=1):
+        if not _alike(link, other):
             found.append(f"the placement of link {number}")
-    for number, (mine, its) in enumerate(zip(one.joints, other.joints, strict=True), start=1):
-        if (mine.rotor_inertia, set(mine.friction)) != (its.rotor_inertia, set(its.friction)):
+    for number, (joint, other_joint) in enumerate(zip(first.joints, second.joints, strict=True), start=1):
+        if (joint.rotor_inertia, set(joint.friction)) != (
+            other_joint.rotor_inertia,
+            set(other_joint.friction),
+        ):
             found.append(f"the declared rotor inertia or friction of joint {number}")
-    if not _near(one.gravity, other.gravity):
+    if not _near(first.gravity, second.gravity):
         found.append("gravity")
-    if [(c.number, c.joints, c.weights) for c in one.couplings] != [
-        (c.number, c.joints, c.weights) for c in other.couplings
+    if [(c.number, c.joints, c.weights) for c in first.couplings] != [
+        (c.number, c.joints, c.weights) for c in second.couplings
     ]:
         found.append("the couplings")
     return tuple(found)
 
 
-def _alike(one: Link, other: Link) -> bool:
-    same = (one.kind, one.antecedent, one.joint) == (other.kind, other.antecedent, other.joint)
+def _alike(link: Link, other: Link) -> bool:
+    same = (link.kind, link.antecedent, link.joint) == (other.kind, other.antecedent, other.joint)
     numbers = [
-        np.array([*link.rotation.ravel(), *link.translation, link.ratio, link.offset])
-        for link in (one, other)
+        np.array([*own.rotation.ravel(), *own.translation, own.ratio, own.offset]) for own in (link, other)
     ]
     return same and _near(*numbers)
 
 
-def _near(one: np.ndarray, other: np.ndarray) -> bool:
-    return bool(np.abs(one - other).max() <= TOLERANCE)
+def _near(values: np.ndarray, others: np.ndarray) -> bool:
+    return bool(np.abs(values - others).max() <= TOLERANCE)

@@ -1,9 +1,9 @@
-"""Say what a rigid body is: ten numbers, and the one matrix that tells whether they can belong to a body.
+"""Describe a rigid body by ten numbers, and test their physical consistency by one matrix.
 
-A body can exist when its 4x4 pseudo-inertia is positive definite; the 6x6 spatial inertia is weaker, it lets
-bodies pass whose principal moments break the triangle inequality. The matrix is defined once, as ten constant
-basis matrices, and numpy and the solver both use that definition. Source: Wensing, Kim & Slotine, IEEE RA-L
-3(1), 2018.
+A body is physically consistent when its 4x4 pseudo-inertia is positive definite. The 6x6 spatial inertia is a
+weaker test: it accepts bodies whose principal moments break the triangle inequality. The matrix is defined
+once, as ten constant basis matrices, and numpy and the solver both use that definition. Source: Wensing, Kim
+& Slotine, IEEE RA-L 3(1), 2018.
 """
 
 import numpy as np

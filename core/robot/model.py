@@ -1,4 +1,4 @@
-"""Hold a robot's kinematics in the one form that all chapters use, whatever convention it was described in.
+"""Hold a robot's kinematics in one form, whatever convention it was described in.
 
 A robot is a tree of links. Frame j sits at a fixed placement on its antecedent and moves along or about its
 own z axis. Joint coordinates and links are kept apart, because a mimic joint moves a link without having a
@@ -33,7 +33,7 @@ class Joint:
     """Describe one joint coordinate and its drive.
 
     `torque_constant` (N m/A, motor side) and `gear_ratio` turn a logged current into joint torque; None where
-    undeclared. `rotor_inertia` and `friction` say which of these the model has on this joint.
+    undeclared. `rotor_inertia` and `friction` declare which of these the model has on this joint.
     """
 
     name: str
@@ -53,7 +53,7 @@ class Link:
     name
         The body's name.
     kind
-        Whether it turns about or slides along its z axis.
+        Revolute (about its z axis) or prismatic (along it).
     antecedent
         Number of the link that carries it, 0 for the base.
     joint
@@ -79,7 +79,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Coupling:
-    """Describe a motor that turns with a weighted sum of joints (Staubli TX40: motor 6 turns with q5 + q6).
+    """Describe a motor whose angle is a weighted sum of joint positions (Staubli TX40, motor 6: q5 + q6).
 
     Its inertia, viscous and Coulomb friction act on that sum; by virtual work the torque on joint i is
     `weights[i]` times it.
@@ -100,8 +100,7 @@ class RobotModel:
     gravity
         Gravitational acceleration in the base frame, m/s2, pointing down.
     prior
-        Ten inertial parameters per link believed beforehand, in each link's frame; None where nothing is
-        believed.
+        Ten inertial parameters per link, in each link's frame; None without a prior.
     """
 
     name: str

@@ -1,6 +1,6 @@
-"""Notice what is allowed but rarely meant: degrees for radians, millimetres for metres, another convention.
+"""Warn of what is allowed but rarely meant: degrees for radians, millimetres for metres, another convention.
 
-None of this is refused, because robots hang from ceilings and cranes are long; it is said, with the numbers.
+None of this is refused, because robots hang from ceilings and cranes are long. A warning gives the numbers.
 """
 
 import numpy as np
@@ -9,13 +9,13 @@ from .inertia import pseudo_inertia
 from .model import Joint, Link, RobotModel
 
 
-def suspicions(robot: RobotModel) -> tuple[str, ...]:
-    """List, in sentences with numbers, what looks wrong about a description that can be used.
+def plausibility_warnings(robot: RobotModel) -> tuple[str, ...]:
+    """List, in sentences with numbers, what is probably wrong in a description that can be used.
 
     Examples
     --------
     >>> from veritorque.core.robot.builtin import builtin_robot
-    >>> suspicions(builtin_robot("yumi"))
+    >>> plausibility_warnings(builtin_robot("yumi"))
     ()
     """
     found = _about_gravity(robot)
@@ -72,7 +72,7 @@ def _about_limits(number: int, joint: Joint) -> list[str]:
 
 
 def _about_letters(robot: RobotModel) -> list[str]:
-    """Look for Craig's or standard (distal) Denavit-Hartenberg tables by their first and last rows."""
+    """Find Craig's or standard (distal) Denavit-Hartenberg tables by their first and last rows."""
     rows = [link.row for link in robot.links]
     first, last = rows[0], rows[-1]
     if first is None or last is None or len(rows) < 2:
@@ -86,8 +86,8 @@ def _about_letters(robot: RobotModel) -> list[str]:
         )
     if plain and first.alpha != 0.0 and last.alpha == 0.0 and last.d == 0.0:
         found.append(
-            f"joint 1: alpha is {first.alpha:.4g} rad and the last row has alpha = d = 0: this is how a "
-            "standard Denavit-Hartenberg table looks, whose rows place the next joint, not their own"
+            f"joint 1: alpha is {first.alpha:.4g} rad and the last row has alpha = d = 0: a "
+            "standard Denavit-Hartenberg table has this form, whose rows place the next joint, not their own"
         )
     return found
 
@@ -100,7 +100,7 @@ def _about_bodies(robot: RobotModel) -> list[str]:
         eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))
         if eigenvalues[0] < -1e-12 * float(np.abs(eigenvalues).max()):
             found.append(
-                f"link {number} ({link.name}): the believed body cannot exist, "
+                f"link {number} ({link.name}): the body of the prior is not physically consistent, "
                 f"its pseudo-inertia has the eigenvalue {eigenvalues[0]:.3g}"
             )
     return found

@@ -28,7 +28,7 @@ _EXPAND = "expand it first: xacro robot.urdf.xacro > robot.urdf"
 
 @dataclass(frozen=True)
 class Mimic:
-    """Say that a joint's coordinate is ratio times another joint's plus offset (rad or m)."""
+    """State that a joint's coordinate is ratio times another joint's plus offset (rad or m)."""
 
     joint: str
     ratio: float
@@ -230,7 +230,7 @@ def _required(element: Element, tag: str, where: str) -> Element:
     if child is None:
         raise RobotError(
             f"{where} has no {tag} element",
-            evidence={"found": [_tag(one) for one in element][:10]},
+            evidence={"found": [_tag(child) for child in element][:10]},
             remedy=f"add the {tag} element",
         )
     return child

@@ -1,8 +1,8 @@
 """Write a `RobotModel` as the JSON document it can be read from again, number for number.
 
 A robot whose every link still agrees with its modified DH row is written as a table, any other one by frames.
-A row that no longer gives its link's placement is not believed, so that a repaired robot is never written as
-the unrepaired one.
+A row that no longer gives its link's placement is not written, so that a corrected robot is never written as
+the uncorrected one.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ def to_description(robot: RobotModel) -> dict[str, object]:
     Raises
     ------
     RobotError
-        If the joints are numbered against the order of their links, which a description cannot say.
+        If the joints are numbered against the order of their links, which a description cannot express.
     """
     owners = _owners(robot)
     tabular = owners == list(range(len(robot.links))) and all(map(_follows_its_row, robot.links))
@@ -42,8 +42,13 @@ def to_description(robot: RobotModel) -> dict[str, object]:
         "joints": joints,
         "gravity": _floats(robot.gravity),
         "couplings": [
-            {"name": one.name, "number": one.number, "joints": list(one.joints), "weights": list(one.weights)}
-            for one in robot.couplings
+            {
+                "name": coupling.name,
+                "number": coupling.number,
+                "joints": list(coupling.joints),
+                "weights": list(coupling.weights),
+            }
+            for coupling in robot.couplings
         ],
         "prior": None if robot.prior is None else [_body(body) for body in robot.prior],
     }

@@ -1,6 +1,6 @@
-"""Decide how signals are conditioned: the seed's chain, with cut-offs read off the motion's own spectrum.
+"""Decide how signals are conditioned, with cut-offs read off the motion's own spectrum.
 
-Nothing here looks at the torque: a cut-off chosen to make the residual small would be tuned on what it is
+Nothing here uses the torque: a cut-off chosen to make the residual small would be tuned on what it is
 judged by.
 """
 
@@ -34,8 +34,8 @@ TREMBLE_SHARE = 0.01
 """A joint slower than this share of the fastest one only trembles; its spectrum is its encoder's."""
 LOWEST_SHARE = 0.05
 """A cut-off below this share of the motion's band leaves no motion, and its kernel outgrows any log."""
-_LOOK_SECONDS = 60.0
-_LOOKS = 8
+_SURVEY_SECONDS = 60.0
+_SURVEYS = 8
 
 
 @dataclass(frozen=True)
@@ -174,23 +174,23 @@ def _given(asked: float | None, chosen: float) -> float:
 
 
 def _survey(log: JointLog, median_order: int) -> tuple[JointVector, JointVector, float]:
-    """Give band (Hz) and RMS speed of every joint, from up to eight looks over the longest segment.
+    """Give band (Hz) and RMS speed of every joint, from up to eight windows of the longest segment.
 
-    Last comes the mean rate (Hz) of the slowest look: rows that were never recorded make it less than the
+    Last comes the mean rate (Hz) of the slowest window: rows that were never recorded make it less than the
     log's.
     """
-    start, stop = max(log.segments, key=lambda one: one[1] - one[0])
-    length = min(stop - start, int(_LOOK_SECONDS * log.rate_hz))
-    count = min(_LOOKS, max(1, (stop - start) // length))
+    start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
+    length = min(stop - start, int(_SURVEY_SECONDS * log.rate_hz))
+    count = min(_SURVEYS, max(1, (stop - start) // length))
     firsts = np.linspace(start, stop - length, count).astype(int)
-    seen = [log.source.rows(int(first), int(first) + length) for first in firsts]
-    slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in seen)
-    looks = [_velocity(rows, log.rate_hz, median_order) for rows in seen]
-    speeds = np.sqrt(np.mean([np.mean(look**2, axis=0) for look in looks], axis=0))
-    power = np.mean([_power(look, log.rate_hz) for look in looks], axis=0)
+    read = [log.source.rows(int(first), int(first) + length) for first in firsts]
+    slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in read)
+    velocities = [_velocity(rows, log.rate_hz, median_order) for rows in read]
+    speeds = np.sqrt(np.mean([np.mean(velocity**2, axis=0) for velocity in velocities], axis=0))
+    power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
     held = np.cumsum(power, axis=0) / np.maximum(power.sum(axis=0), np.finfo(float).tiny)
-    return np.array([frequency[np.argmax(one >= MOTION_SHARE)] for one in held.T]), speeds, slowest
+    return np.array([frequency[np.argmax(share >= MOTION_SHARE)] for share in held.T]), speeds, slowest
 
 
 def _velocity(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:

@@ -24,7 +24,7 @@ from veritorque.core.robot.description import (
     ROW_FIELDS,
     robot_from_description,
 )
-from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.plausibility import plausibility_warnings
 from veritorque.core.robot.urdf import robot_from_urdf
 
 ROOT = Path(__file__).parents[2]
@@ -55,8 +55,8 @@ def table_names(text: str) -> set[str]:
 
 
 @pytest.mark.parametrize("text", blocks(ROBOTS, "json"), ids=lambda text: json.loads(text)["name"])
-def test_every_robot_of_the_guide_is_accepted_without_suspicion(text):
-    assert suspicions(robot_from_description(json.loads(text))) == ()
+def test_every_robot_of_the_guide_is_accepted_without_a_warning(text):
+    assert plausibility_warnings(robot_from_description(json.loads(text))) == ()
 
 
 def test_the_urdf_of_the_guide_is_accepted_and_its_inertials_become_the_belief():

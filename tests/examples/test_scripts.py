@@ -59,7 +59,7 @@ def test_the_service_gives_report_and_urdf(folder, capsys, monkeypatch, science)
     assert "<robot" in (folder / "robot.urdf").read_text(encoding="utf-8")
 
 
-def test_a_robot_of_ones_own_is_described_without_suspicion(folder, capsys):
+def test_a_robot_of_ones_own_is_described_without_a_warning(folder, capsys):
     from veritorque.core import robot_from_description
 
     told = ran("03", capsys)

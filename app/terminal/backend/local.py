@@ -34,7 +34,7 @@ class LocalBackend:
         RobotError
             If there is none, or it cannot be used.
         """
-        from ....core.robot.plausibility import suspicions
+        from ....core.robot.plausibility import plausibility_warnings
         from ...services.robot_descriptions import built_in_descriptions, read_description, read_urdf
 
         known = built_in_descriptions()
@@ -55,7 +55,7 @@ class LocalBackend:
             "name": model.name,
             "joints": len(model.joints),
             "built_in": given in known,
-            "suspicions": list(suspicions(model)),
+            "suspicions": list(plausibility_warnings(model)),
             "description": description,
         }
 

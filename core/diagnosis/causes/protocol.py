@@ -13,7 +13,7 @@ from typing import ClassVar, Literal, Protocol, runtime_checkable
 from ...arrays import SquareMatrix, Vector
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...robot.joint_units import along_slide
+from ...robot.joint_units import prismatic_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .traits import SearchTraits
@@ -59,7 +59,7 @@ class FittedCause:
 
     def unit(self, turning: str) -> str:
         """Give the unit of a number of the joint, from its unit on a revolute joint."""
-        return along_slide(turning) if self.slides else turning
+        return prismatic_unit(turning) if self.slides else turning
 
 
 @runtime_checkable

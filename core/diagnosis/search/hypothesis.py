@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import SquareMatrix, Vector
 from ...numerics.chi2_tail import log_chi2_tail
-from ...robot.joint_units import slides
+from ...robot.joint_units import is_prismatic
 from ...robot.model import RobotModel
 from ..causes.protocol import Cause, FittedCause, Scalars, Site
 from ..regression.gls import OPEN_SHARE, Fit
@@ -114,7 +114,7 @@ class Hypothesis:
     def in_joint_units(self, index: int, robot: RobotModel) -> FittedCause:
         """Give a member's estimates in the units of its joint."""
         found = self.solved(index)
-        return replace(found, slides=bool(found.site) and slides(robot, found.site[0]))
+        return replace(found, slides=bool(found.site) and is_prismatic(robot, found.site[0]))
 
     @property
     def possible(self) -> bool:

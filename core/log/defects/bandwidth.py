@@ -1,4 +1,4 @@
-"""Tell when the motion is too quick for the rate at which it was sampled.
+"""Find joints whose motion is too quick for the rate at which it was sampled.
 
 Derivatives by differences need about ten samples per period of the motion. The velocity's spectrum, averaged
 over windows of the log, says up to which frequency the motion reaches.

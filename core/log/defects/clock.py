@@ -1,4 +1,4 @@
-"""Look at the stamps: how fast the log was sampled, where samples are missing, and how even the steps are.
+"""Examine the stamps: how fast the log was sampled, where samples are missing, and how even the steps are.
 
 Real stamps are used as they are; nothing is put on a uniform grid. A gap in which the motion is lost splits
 the log, because no derivative holds across it; over a few milliseconds a spline is as good as a sample.

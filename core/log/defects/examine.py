@@ -1,7 +1,6 @@
 """Pass over a log once: refuse what cannot be used, and collect everything else that is wrong with it.
 
-The contract looks first; the finders see only samples that it accepts, hence none of them meets a value that
-is not finite.
+The contract is checked first; the finders get only samples that it accepts, so that all values are finite.
 """
 
 from dataclasses import dataclass

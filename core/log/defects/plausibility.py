@@ -1,7 +1,6 @@
-"""Tell when numbers are unlikely in the unit that they are said to have, or say nothing at all.
+"""Find numbers that are unlikely in their declared unit, and channels that measure nothing.
 
-Nothing is converted here: a number that looks like degrees is reported as such, and whoever knows the robot
-decides.
+Nothing is converted here: numbers of the size of degrees are reported as such, and the user decides.
 """
 
 import numpy as np
@@ -10,7 +9,7 @@ from ..model import Defect
 from .stretch import Facts
 
 LARGEST_SPAN = 13.0
-"""A joint that turns from minus one turn to plus one spans 12.6 rad."""
+"""A revolute joint that moves from minus one turn to plus one spans 12.6 rad."""
 
 LARGEST_TORQUE = 2e4
 RATES_HZ = (2.0, 1e5)
@@ -18,7 +17,7 @@ SHORTEST_SECONDS = 10.0
 
 
 def plausibility_defects(facts: Facts) -> list[Defect]:
-    """State what the extremes, the rate and the length of the log give away."""
+    """State what the extremes, the rate and the length of the log show."""
     return [*_positions(facts), *_torques(facts), *_missing_torques(facts), *_times(facts), *_short(facts)]
 
 
@@ -27,8 +26,8 @@ def _positions(facts: Facts) -> list[Defect]:
     for joint, span in enumerate(facts.span("position")):
         if span > LARGEST_SPAN:
             statement = (
-                f"Joint {joint + 1} spans {span:.4g} rad, which is {span / (2 * np.pi):.3g} turns; read as "
-                f"degrees it would be {np.deg2rad(span):.3g} rad. Nothing was converted."
+                f"Joint {joint + 1} spans {span:.4g} rad, which is {span / (2 * np.pi):.3g} revolutions; "
+                f"read as degrees it would be {np.deg2rad(span):.3g} rad. Nothing was converted."
             )
             found.append(Defect("implausible_unit", "position", joint + 1, facts.samples, (), statement))
     return found
@@ -80,7 +79,7 @@ def _short(facts: Facts) -> list[Defect]:
     if facts.duration >= SHORTEST_SECONDS:
         return []
     statement = (
-        f"The log lasts {facts.duration:.3g} s; ten or more of varied motion tell parameters apart better."
+        f"The log lasts {facts.duration:.3g} s; 10 s or more of varied motion separate parameters better."
     )
     return [
         Defect(

@@ -14,7 +14,7 @@ from .runs import LongRuns, Runs
 from .stretch import Facts, Stretch, counted, repeats_previous
 
 NOTICED = 1e-3
-"""A smaller share of repeated rows is not worth a word."""
+"""A smaller share of repeated rows is not reported."""
 JUMP = 5.0
 """A joint that is farther on after a standstill, in mean increments, has not stood still."""
 

@@ -1,4 +1,4 @@
-"""Find the grid that a signal lies on, and tell when the grid is coarse against what the signal does.
+"""Find the quantisation step of a signal, and whether it is coarse against the signal itself.
 
 On a grid every increment is a whole number of steps; the smallest increment is then the step. Velocity
 inherits the step divided by the sample time, which is why a fast log of a coarse encoder needs filtering.

@@ -63,7 +63,7 @@ class Rest:
             seconds = sum(stop - start for start, stop in rests)
             if span < FROZEN_SPAN or seconds > 0.99 * facts.duration:
                 statement = (
-                    f"Joint {joint + 1} never moves: this log cannot tell what depends on its own motion."
+                    f"Joint {joint + 1} never moves: this log cannot identify what depends on its own motion."
                 )
                 whole = ((facts.start, facts.start + facts.duration),)
                 found.append(Defect("standstill", "position", joint + 1, facts.samples, whole, statement))

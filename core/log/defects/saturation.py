@@ -58,7 +58,7 @@ class _Limit:
 
 
 class Saturation:
-    """Look for limits at both ends of every joint's torque."""
+    """Find limits at both ends of every joint's torque."""
 
     def __init__(self, joints: int) -> None:
         self._limits = [(_Limit(), _Limit()) for _ in range(joints)]

@@ -1,6 +1,6 @@
 """Cut a log into stretches that fit the cache, each with a few samples of the one before.
 
-All finders look at the same stretch before the next one is read, so that a file is decoded once, and what
+All finders process the same stretch before the next one is read, so that a file is decoded once, and what
 they find does not depend on whether the log lies in memory or on disk.
 """
 
@@ -126,7 +126,7 @@ def stretches(source: LogSource) -> Iterator[Stretch]:
     samples = source.samples
     starts = list(range(0, samples, STRETCH_ROWS))
     if len(starts) > 1 and samples - starts[-1] < STRETCH_ROWS // 4:
-        starts.pop()  # a stub tells too little of its own scale
+        starts.pop()  # a stub is too short to estimate its own scale
     for start, stop in zip(starts, [*starts[1:], samples], strict=True):
         context = min(start, CONTEXT_ROWS)
         rows = source.rows(start - context, stop)
@@ -150,7 +150,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def sampled_share(samples: int, at_most: int = SAMPLED_ROWS) -> float:
-    """Tell which share of each stretch a bounded sample of the log may take."""
+    """Give the share of each stretch a bounded sample of the log may take."""
     return min(1.0, at_most / max(samples, 1))
 
 

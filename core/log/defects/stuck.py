@@ -37,7 +37,7 @@ class Stuck:
     Parameters
     ----------
     repeats
-        Knows the rows in which all channels stood still at once; they are told there.
+        Knows the rows in which all channels stood still at once; they are reported there.
     """
 
     def __init__(self, joints: int, repeats: Repeats) -> None:
@@ -72,14 +72,14 @@ class Stuck:
             *(("position", joint + 1, self._positions[joint].jumped()) for joint in moved),
             *((self._effort, joint + 1, self._efforts[joint].hung()) for joint in moved),
         ]
-        own = [(channel, joint, runs[~self._told(runs)]) for channel, joint, runs in pairs]
-        return [one for one in own if len(one[2])]
+        own = [(channel, joint, runs[~self._reported(runs)]) for channel, joint, runs in pairs]
+        return [(channel, joint, runs) for channel, joint, runs in own if len(runs)]
 
-    def _told(self, runs: np.ndarray) -> np.ndarray:
-        told = np.zeros(len(runs), dtype=bool)
+    def _reported(self, runs: np.ndarray) -> np.ndarray:
+        reported = np.zeros(len(runs), dtype=bool)
         for begin, stop in self._repeats.frozen:
-            told |= (runs[:, 0, _ROW] >= begin - 1) & (runs[:, 1, _ROW] <= stop + 1)
-        return told
+            reported |= (runs[:, 0, _ROW] >= begin - 1) & (runs[:, 1, _ROW] <= stop + 1)
+        return reported
 
 
 _ROW, _TIME, _WAY, _VALUE, _STEP, _NEXT, _BEFORE, _ELAPSED = _KNOWN = range(8)
@@ -134,7 +134,7 @@ class _Signal:
         """Give the runs of a noisy channel in which the joint got on, one to the log's end among them."""
         self._runs.close()
         runs = self._exceptional()
-        lasted, way = (runs[:, 1, one] - runs[:, 0, one] for one in (_ROW, _WAY))
+        lasted, way = (runs[:, 1, value] - runs[:, 0, value] for value in (_ROW, _WAY))
         others = self._rows - float(lasted.sum())
         noisy = self._repeats - lasted.sum() < RARELY * others and self._turns > OFTEN * others
         value = runs[:, 1, _VALUE]

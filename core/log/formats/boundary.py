@@ -1,4 +1,4 @@
-"""Turn whatever a file format's library raises into a `LogError`: no foreign exception leaves the chapter.
+"""Turn whatever a file format's library raises into a `LogError`: no foreign exception leaves the package.
 
 Damaged files make these libraries raise nearly anything; one gate per format says which format it was and
 what was seen.
@@ -20,7 +20,7 @@ def reading(form: str, path: Path) -> Iterator[None]:
     form
         The format's name, for the message.
     path
-        The file; only its size is told, never where it lies.
+        The file; only its size is reported, never its path.
 
     Raises
     ------
@@ -33,9 +33,9 @@ def reading(form: str, path: Path) -> Iterator[None]:
         raise
     except Exception as error:
         size = path.stat().st_size if path.exists() else 0
-        said = " ".join(str(error).replace(str(path), "the file").split())
+        text = " ".join(str(error).replace(str(path), "the file").split())
         raise LogError(
             f"the {form} file cannot be read: it is damaged, cut short or not written as the format demands",
-            evidence={"format": form, "bytes": size, "detail": f"{type(error).__name__}: {said[:300]}"},
+            evidence={"format": form, "bytes": size, "detail": f"{type(error).__name__}: {text[:300]}"},
             remedy="write the file again and upload it whole",
         ) from error

@@ -1,4 +1,4 @@
-"""Tell a file's format from its first bytes, and compare that with what its name and media type claim.
+"""Recognise a file's format by its first bytes, and compare that with what its name and media type claim.
 
 The bytes decide. A claim which contradicts them is refused rather than ignored, since one of the two must be
 a mistake.

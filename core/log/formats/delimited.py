@@ -223,20 +223,20 @@ def _is_numbers(line: str) -> bool:
 
 
 def _is_spaced(header: str, first_row: str) -> bool:
-    """Tell a table that blanks set apart: as many words in the header as numbers below it."""
+    """Recognise a table whose cells blanks separate: as many words in the header as numbers below it."""
     cells = first_row.split()
     return len(header.split()) == len(cells) > 1 and all(map(_is_numbers, cells))
 
 
 def _advice(found: str) -> str:
-    """Say what to do about a cell that is no number."""
+    """Describe the remedy for a cell that is no number."""
     if re.fullmatch(r"[-+]?\d+,\d*(e[-+]?\d+)?", found, re.IGNORECASE):
         return "write decimal points in every row, or decimal commas in every row between semicolons or tabs"
     return "store plain numbers, or map another column; a line of units below the header starts with #"
 
 
 def _uneven(row: re.Match[str], delimiter: str) -> LogError:
-    """Say that a row has more or fewer cells than there are columns."""
+    """Report that a row has more or fewer cells than there are columns."""
     more = int(row["cells"]) > int(row["columns"])
     commas = more and delimiter == "," and "." not in row["text"]
     remedy = "write one cell per column in every row"

@@ -76,7 +76,7 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
 
 
 def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # h5py gives any type
-    """Tell MATLAB's text, which is stored as 16-bit numbers."""
+    """Recognise MATLAB's text, which is stored as 16-bit numbers."""
     if "MATLAB_class" not in dataset.attrs:
         return False
     named = dataset.attrs.get_id("MATLAB_class")

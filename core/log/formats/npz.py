@@ -43,7 +43,7 @@ def open_npz(path: Path) -> MemoryTable:
     """
     _check_directory(path)
     with reading(FORM, path), warnings.catch_warnings(), zipfile.ZipFile(path) as archive:
-        warnings.simplefilter("ignore")  # numpy tells when an array was written by Python 2
+        warnings.simplefilter("ignore")  # numpy warns when an array was written by Python 2
         members = [item for item in archive.infolist() if item.filename.endswith(".npy")]
         if not members:
             raise LogError(

@@ -131,7 +131,7 @@ def _table(states: Iterator[State]) -> MemoryTable:
 def _row(state: State, first: State, fields: list[str]) -> np.ndarray:
     if state.joints != first.joints or any(len(state.values[field]) != len(first.joints) for field in fields):
         raise LogError(
-            "the messages of the recording do not all tell of the same joints",
+            "the messages of the recording do not all name the same joints",
             evidence={"first": list(first.joints[:20]), "later": list(state.joints[:20])},
             remedy="record one publisher of joint states, or export its messages as CSV or Parquet",
         )

@@ -185,7 +185,7 @@ def check_density(unpacked: int, packed: int) -> None:
 
 
 def duplicate_columns(names: Sequence[str]) -> LogError:
-    """Say which column names occur more than once."""
+    """Report which column names occur more than once."""
     return LogError(
         "two columns carry the same name, so that neither can be meant",
         evidence={"duplicates": list(names)[:20]},
@@ -194,7 +194,7 @@ def duplicate_columns(names: Sequence[str]) -> LogError:
 
 
 def not_numeric(name: str, found: str, advice: str = "") -> LogError:
-    """Say that a column which is needed holds something else than numbers."""
+    """Report that a column which is needed holds something else than numbers."""
     return LogError(
         f"the column {name!r} is not made of numbers",
         evidence={"column": name, "found": found},

@@ -176,7 +176,7 @@ def test_the_options_that_were_given_are_kept_for_provenance_and_not_changed():
 @pytest.mark.parametrize("validation", [{"fraction": 0.0}, {"fraction": 0.1, "blocks": 4}])
 def test_a_diagnosis_that_would_hold_nothing_out_is_refused_where_an_identification_is_not(validation):
     assert parse_options({"validation": validation}).validation.chosen(1) == frozenset()
-    with pytest.raises(OptionError, match="no fit has seen"):
+    with pytest.raises(OptionError, match="held-out data"):
         parse_diagnose_options({"validation": validation})
 
 

@@ -279,13 +279,13 @@ def test_a_rest_of_one_joint_is_found_with_its_length(start, seconds):
 
 
 @pytest.mark.parametrize("chatter", [0.0, 1e-4])
-def test_a_frozen_joint_is_a_defect_that_says_what_cannot_be_told(chatter):
+def test_a_frozen_joint_is_a_defect_that_says_what_cannot_be_identified(chatter):
     time, position, torque = healthy()
     position[:, 0] = 0.3 + chatter * (np.random.default_rng(0).random(len(time)) < 0.05)
     (rest,) = only(log_of(time, position, torque), "standstill")
     assert rest.joint == 1
     assert rest.count == len(time)
-    assert "never moves: this log cannot tell" in rest.statement
+    assert "never moves: this log cannot identify" in rest.statement
 
 
 def test_a_log_of_a_few_seconds_is_short():

@@ -107,5 +107,5 @@ def test_joints_that_the_file_does_not_have_are_refused(joints):
 
 
 def test_joints_without_a_profile_are_a_field_that_is_not_known(tmp_path):
-    with pytest.raises(LogError, match="not known: 'joints'"):
+    with pytest.raises(LogError, match="does not exist: joints"):
         read_log(write_csv(tmp_path / "log.csv", COLUMNS), mapping={"joints": ["1"]})

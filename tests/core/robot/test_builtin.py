@@ -6,7 +6,7 @@ import pytest
 from tests.tools import Motion, pinocchio_model, pinocchio_torque, random_bodies, random_motion
 from veritorque.core.errors import RobotError
 from veritorque.core.robot.builtin import builtin_description, builtin_robot, builtin_robots
-from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.plausibility import plausibility_warnings
 from veritorque.core.robot.writing import to_description
 
 # Gravity in the frames of the tilted arm bases, m/s2, given to three decimals with the mounts' rpy.
@@ -28,8 +28,8 @@ def test_a_yumi_arm_feels_gravity_along_its_tilted_base(name):
 
 
 @pytest.mark.parametrize("name", builtin_robots())
-def test_a_builtin_robot_raises_no_suspicion_and_is_its_own_description(name):
-    assert suspicions(builtin_robot(name)) == ()
+def test_a_builtin_robot_raises_no_warning_and_is_its_own_description(name):
+    assert plausibility_warnings(builtin_robot(name)) == ()
     assert to_description(builtin_robot(name)) == builtin_description(name)
 
 

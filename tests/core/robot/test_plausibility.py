@@ -6,48 +6,48 @@ import pytest
 
 from tests.tools import shared
 from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.plausibility import suspicions
+from veritorque.core.robot.plausibility import plausibility_warnings
 from veritorque.core.robot.urdf import robot_from_urdf
 
 # KUKA-like proportions in Khalil's convention.
 ROWS = [(0.0, 0.0, 0.34, 0.0), (-1.5708, 0.0, 0.0, 0.0), (1.5708, 0.05, 0.4, 3.1416)]
 
 
-def _suspicions(rows: list[tuple[float, ...]] = ROWS, **others: object) -> tuple[str, ...]:
+def _warnings(rows: list[tuple[float, ...]] = ROWS, **others: object) -> tuple[str, ...]:
     joints = [
         {"type": "revolute", **dict(zip(("alpha", "d", "r", "theta_offset"), row, strict=True))}
         for row in rows
     ]
-    return suspicions(robot_from_description({"name": "arm", "joints": joints} | others))
+    return plausibility_warnings(robot_from_description({"name": "arm", "joints": joints} | others))
 
 
-def test_a_plain_table_raises_no_suspicion():
-    assert _suspicions() == ()
+def test_a_plain_table_raises_no_warning():
+    assert _warnings() == ()
 
 
 @pytest.mark.parametrize("name", ["franka_panda", "rokae_xmate3", "staubli_tx40"])
-def test_the_tables_of_real_robots_raise_no_suspicion(name):
+def test_the_tables_of_real_robots_raise_no_warning(name):
     table = json.loads(shared(f"data/{name}/model_mdh.json").read_text())
     rows = [(row["alpha"], row["d"], row["r"], row["theta"]) for row in table["mdh"]]
-    assert _suspicions(rows, gravity=table["gravity"]) == ()
+    assert _warnings(rows, gravity=table["gravity"]) == ()
 
 
 def test_a_table_written_in_degrees_and_millimetres_are_suspected():
     rows = [(90.0 if row[0] else 0.0, 1000 * row[1], 1000 * row[2], 180.0 if row[3] else 0.0) for row in ROWS]
-    said = _suspicions(rows)
+    said = _warnings(rows)
     assert sum("were degrees meant" in line for line in said) == 3
     assert sum("millimetres or centimetres meant" in line for line in said) == 2
 
 
 def test_letters_of_craig_are_suspected():
     rows = [(alpha, r, d, theta) for alpha, d, r, theta in ROWS]
-    assert any("Khalil's d is Craig's a" in line for line in _suspicions(rows))
+    assert any("Khalil's d is Craig's a" in line for line in _warnings(rows))
 
 
 def test_a_standard_table_is_suspected():
     # The same arm with alpha of the next joint in every row, as in distal Denavit-Hartenberg.
     rows = [(-1.5708, 0.0, 0.34, 0.0), (1.5708, 0.05, 0.0, 0.0), (0.0, 0.0, 0.4, 3.1416)]
-    assert any("standard Denavit-Hartenberg" in line for line in _suspicions(rows))
+    assert any("standard Denavit-Hartenberg" in line for line in _warnings(rows))
 
 
 @pytest.mark.parametrize(
@@ -59,13 +59,13 @@ def test_a_standard_table_is_suspected():
     ],
 )
 def test_gravity_that_points_up_or_is_not_that_of_the_earth_is_suspected(gravity, words):
-    said = _suspicions(gravity=list(gravity))
+    said = _warnings(gravity=list(gravity))
     assert len(said) == 1
     assert words in said[0]
 
 
 def test_a_tilted_base_is_not_suspected():
-    assert _suspicions(gravity=[-5.307, -6.843, -4.609]) == ()
+    assert _warnings(gravity=[-5.307, -6.843, -4.609]) == ()
 
 
 def test_position_limits_in_degrees_are_suspected():
@@ -77,14 +77,14 @@ def test_position_limits_in_degrees_are_suspected():
         "theta_offset": 0,
         "limits": {"position": [-170, 170]},
     }
-    said = suspicions(robot_from_description({"name": "arm", "joints": [row]}))
+    said = plausibility_warnings(robot_from_description({"name": "arm", "joints": [row]}))
     assert len(said) == 1
     assert "were degrees or mm meant" in said[0]
 
 
 @pytest.mark.parametrize("name", ["ur10e_open", "staubli_tx40"])
-def test_the_urdfs_of_real_robots_raise_no_suspicion(name):
-    assert suspicions(robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())) == ()
+def test_the_urdfs_of_real_robots_raise_no_warning(name):
+    assert plausibility_warnings(robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())) == ()
 
 
 def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected():
@@ -92,6 +92,6 @@ def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected():
         row = {"type": "revolute", "d": 0.0, "r": 0.2, "theta_offset": 0.0}
         return {"name": "arm", "joints": [row | {"alpha": 0.0}, row | {"alpha": alpha}]}
 
-    assert any("right angle" in one for one in suspicions(robot_from_description(arm(1.571))))
-    assert not any("right angle" in one for one in suspicions(robot_from_description(arm(1.5708))))
-    assert not any("right angle" in one for one in suspicions(robot_from_description(arm(0.98))))
+    assert any("right angle" in one for one in plausibility_warnings(robot_from_description(arm(1.571))))
+    assert not any("right angle" in one for one in plausibility_warnings(robot_from_description(arm(1.5708))))
+    assert not any("right angle" in one for one in plausibility_warnings(robot_from_description(arm(0.98))))
