@@ -1,6 +1,7 @@
 """Bind a mapping to a file's columns: which column is which joint's channel, and how its numbers become SI.
 
-Where a channel is not mapped its default names hold (`time`, `q_1`, `tau_1`, ...). A refusal lists the columns looked for, those that are there, and plausible readings.
+Where a channel is not mapped its default names hold (`time`, `q_1`, `tau_1`, ...). A refusal lists the
+columns looked for, those that are there, and plausible readings.
 """
 
 import re

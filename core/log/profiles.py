@@ -1,8 +1,8 @@
 """Name the columns that well-known recorders write, so that a mapping need not list them.
 
 A profile fills in what a mapping leaves open. Units that a recorder does not fix have to be declared.
-`{"profile": "ur-rtde"}` is a whole mapping; with a profile a channel may give unit, scale or offset alone, and
-`"joints"` names the joints in the robot's order.
+`{"profile": "ur-rtde"}` is a whole mapping; with a profile a channel may give unit, scale or offset alone,
+and `"joints"` names the joints in the robot's order.
 Sources: Universal Robots, RTDE guide, output names; libfranka, `logToCSV`; ROS, sensor_msgs/JointState and
 REP 103; LeRobot, dataset format v2 and v3; ABB, application manual of Test Signal Viewer, signal names.
 """

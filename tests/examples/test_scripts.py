@@ -60,7 +60,7 @@ def test_the_service_gives_report_and_urdf(folder, capsys, monkeypatch, science)
 
 
 def test_a_robot_of_ones_own_is_described_without_a_warning(folder, capsys):
-    from veritorque.core import robot_from_description
+    from veritorque import robot_from_description
 
     told = ran("03", capsys)
     assert "rarely meant" not in told
