@@ -9,8 +9,8 @@ import numpy as np
 from ..dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
-from ..dynamics.terms.missing_coupling import MissingCoupling
-from ..dynamics.terms.missing_rotor import MissingRotor
+from ..dynamics.terms.joint_coupling import MissingCoupling
+from ..dynamics.terms.rotor_inertia_missing import MissingRotor
 from ..errors import RobotError
 from ..extension.fold import folded
 from ..robot.description import robot_from_description

@@ -1,4 +1,4 @@
-"""Say what torque is made of.
+"""Model the joint torque as a sum of terms that are linear in their parameters.
 
-In comes a `RobotModel` and a choice of terms, out goes a `DynamicModel`, linear in its parameters.
+Input: a `RobotModel` and a choice of terms. Output: a `DynamicModel`. One file per effect is in `terms`.
 """

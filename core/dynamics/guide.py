@@ -1,7 +1,7 @@
-"""Write the reader's list of torque terms from the terms themselves, so that the document cannot drift.
+"""Write docs/terms.md from the terms themselves, so that the document cannot drift.
 
-What a term is stands in its module, its parameters with their units in its class; `make reference` writes
-docs/terms.md from them, and a test compares the two.
+The effect is in a term's module, parameters with their units in its class. `make reference` writes the page,
+and a test compares the two.
 """
 
 import inspect
@@ -21,18 +21,18 @@ OPENING = """\
 Written by `make reference` from the files of `core/dynamics/terms`; change those, not this page.
 
 A model is a robot and a list of terms; every term is linear in its parameters. A parameter's name is its
-symbol and the number of its joint or link, `ZZ3`. Those that cannot be negative are held so by the
-programme.
+symbol and the number of its joint or link, `ZZ3`. The programme constrains parameters that cannot be
+negative.
 
 ## Terms of the standard model
 
-The option `terms` chooses among them; all that the robot declares are there by default.
+The option `terms` chooses among them; by default, all that the robot declares are used.
 """
 FURTHER = """
 ## Terms that a diagnosis adds
 
 Each stands for the [cause](causes.md) of its name, on the joint that the finding names. Numbers in
-*scanned* are not linear: they are looked for first and settled when the term joins the model.
+*scanned* are nonlinear: they are estimated first and fixed when the term is added to the model.
 
 | term | what its torque is | parameters | scanned |
 |---|---|---|---|
@@ -55,51 +55,54 @@ Effect = type[OneJointTerm] | type[AllJointsTerm]
 def guide() -> str:
     """Write the document in Markdown."""
     standard = "".join(_standard(name) for name in STANDARD_TERMS)
-    further = "".join(_further(one) for one in sorted(_effects(), key=lambda one: (one.kind, one.__name__)))
+    effects = sorted(_effects(), key=lambda effect: (effect.kind, effect.__name__))
+    further = "".join(_further(effect) for effect in effects)
     return f"{OPENING}{standard}{FURTHER}{further}"
 
 
 def _standard(name: str) -> str:
     robot = robot_from_description(_SPECIMEN)
     listed = DynamicModel(robot, (STANDARD_TERMS[name](),)).parameters
-    units = {one.symbol: (one.unit, "no" if one.lower is not None else "yes") for one in listed}
+    units = {
+        parameter.symbol: (parameter.unit, "no" if parameter.lower is not None else "yes")
+        for parameter in listed
+    }
     rows = "".join(f"| `{symbol}` | {unit} | {negative} |\n" for symbol, (unit, negative) in units.items())
-    told = _sentence(inspect.getmodule(STANDARD_TERMS[name]))
-    return f"\n### {name}\n\n{told}\n\n| parameter | unit | may be negative |\n|---|---|---|\n{rows}"
+    effect = _sentence(inspect.getmodule(STANDARD_TERMS[name]))
+    return f"\n### {name}\n\n{effect}\n\n| parameter | unit | may be negative |\n|---|---|---|\n{rows}"
 
 
 def _effects() -> Iterator[Effect]:
-    """Go through the classes of the folder that stand for a cause, each where it is defined."""
+    """List the classes of the folder that belong to a cause, each where it is defined."""
     for found in iter_modules(terms.__path__, f"{terms.__name__}."):
-        for one in vars(import_module(found.name)).values():
-            own = inspect.isclass(one) and one.__module__ == found.name
-            if own and issubclass(one, OneJointTerm | AllJointsTerm) and one.kind not in _WITHOUT_CAUSE:
-                yield one
+        for effect in vars(import_module(found.name)).values():
+            own = inspect.isclass(effect) and effect.__module__ == found.name
+            if own and issubclass(effect, OneJointTerm | AllJointsTerm) and effect.kind not in _WITHOUT_CAUSE:
+                yield effect
 
 
-def _further(one: Effect) -> str:
-    symbols: object = one.symbols
+def _further(effect: Effect) -> str:
+    symbols: object = effect.symbols
     known = symbols if isinstance(symbols, tuple) else ()  # of some the unit depends on the joint
     numbers = ", ".join(f"`{name}` ({'no unit' if unit == '1' else unit})" for name, unit, _ in known)
-    scanned = ", ".join(f"`{name}`" for name in _scanned(one))
-    told = _sentence(one)
-    link = f"[`{one.kind}`](causes.md#{one.kind})"
-    return f"| {link} | {told} | {numbers or 'as the cause has them'} | {scanned} |\n"
+    scanned = ", ".join(f"`{name}`" for name in _scanned(effect))
+    link = f"[`{effect.kind}`](causes.md#{effect.kind})"
+    return f"| {link} | {_sentence(effect)} | {numbers or 'as the cause has them'} | {scanned} |\n"
 
 
-def _scanned(one: Effect) -> list[str]:
+def _scanned(effect: Effect) -> list[str]:
     return [
         name
-        for name, kind in inspect.get_annotations(one).items()
+        for name, kind in inspect.get_annotations(effect).items()
         if kind in (float, int) and name not in _NOT_SCANNED
     ]
 
 
 def _sentence(documented: object) -> str:
-    """Give what a term is, without the verb of the code."""
-    told = " ".join((inspect.getdoc(documented) or "").split("\n\n")[0].split())
-    told = told.removeprefix("Give ").removeprefix("Model ")
-    return told[:1].upper() + told[1:]
+    """Give the first paragraph of a docstring, without its verb."""
+    text = " ".join((inspect.getdoc(documented) or "").split("\n\n")[0].split())
+    text = text.removeprefix("Give ").removeprefix("Model ")
+    return text[:1].upper() + text[1:]
 
 
 if __name__ == "__main__":

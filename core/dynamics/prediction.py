@@ -1,8 +1,8 @@
-"""Freeze a model with its parameters, so that an effect can be written in terms of what is predicted.
+"""Hold a model with its parameters: the operating point at which effects are linearised.
 
-Friction that grows with the load, a compliant gear or a late torque channel change the torque in proportion
-to the torque itself. The measured one would bring its own noise into the columns and bias them; so these
-effects are built on the torque that a believed model predicts. Source: Ljung, System Identification (1999),
+Load-dependent friction, joint elasticity or a delayed torque channel change the torque in proportion to the
+torque itself. The measured torque would bring its noise into the columns and bias the estimates, so columns
+are functions of the torque that the operating point predicts. Source: Ljung, System Identification (1999),
 ch. 7, on endogenous regressors.
 """
 
@@ -23,7 +23,7 @@ from .term import Term
 from .terms.rigid_body import RigidBody
 
 STEPS = (1e-5, 1.0, 1.0)
-"""Of the differences by position, velocity and acceleration, rad (m), per s, per s2."""
+"""Steps of the differences by position, velocity and acceleration, rad (m), per s, per s2."""
 
 Slopes = tuple[JointSeries, JointSeries, JointSeries]
 """Derivatives of the load by position, velocity and acceleration of one joint."""
@@ -34,19 +34,19 @@ InverseDynamics = Callable[[RobotModel, LinkTable, MotionState], JointSeries]
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """Predict torque from a model whose parameters are settled.
+    """Predict torque from a model with fixed parameters.
 
-    What several effects ask for of one state is computed once; such series are read-only.
+    A series that several effects use is computed once per state; such series are read-only.
 
     Attributes
     ----------
     standard
         One value per parameter of the model.
     newton_euler
-        How to compute the torque that moves the links: the plain recursion unless a faster one is handed in.
+        Inverse dynamics of the links: the plain recursion unless a faster one is passed.
     joined
-        Terms that joined the model, with their parameters. Gears transmit what of theirs acts on the links, a
-        torque channel scales and delays all of it; everything else is the model's alone.
+        Terms added to the model, with their parameters. Transmissions carry those that act on the links, a
+        torque channel scales and delays all of them.
     """
 
     model: DynamicModel
@@ -74,23 +74,23 @@ class Prediction:
         return self._torques[state]
 
     def transmitted(self, state: MotionState, robot: RobotModel | None = None) -> JointSeries:
-        """Give the torque that gears transmit, N m or N: the load, and what joined it on the links.
+        """Give the torque that transmissions carry, N m or N: the load, and added terms on the links.
 
         Parameters
         ----------
         robot
-            The robot to move the model's bodies on, where it is not the believed one.
+            The robot that moves the model's bodies, where it is not the model's.
         """
         joined = self._joined("loads", state, [part for part in self.joined if part[0].loads])
         return np.asarray(self.load(state, robot) + joined)
 
     def applied(self, state: MotionState) -> JointSeries:
-        """Give the torque of the model and of what joined it in the robot, N m or N: what channels scale."""
+        """Give the torque of the model and of added terms in the robot, N m or N, before its channels."""
         joined = self._joined("robot", state, [part for part in self.joined if not part[0].channel])
         return np.asarray(self.torque(state) + joined)
 
     def scaled(self, state: MotionState) -> JointSeries:
-        """Give the same as its channel scales it, N m or N: what may come late."""
+        """Give the torque with the channel errors, N m or N: what may be delayed."""
         return np.asarray(self.torque(state) + self._joined("all", state, self.joined))
 
     def load(self, state: MotionState, robot: RobotModel | None = None) -> JointSeries:
@@ -99,7 +99,7 @@ class Prediction:
         Parameters
         ----------
         robot
-            The robot to move the same bodies on, where it is not the believed one.
+            The robot that moves the same bodies, where it is not the model's.
         """
         if robot is not None and robot is not self.model.robot:
             return self._moved_bodies(robot, state)
@@ -108,11 +108,11 @@ class Prediction:
         return self._loads[state]
 
     def rotor(self, joint: int) -> float:
-        """Give the inertia of a joint's rotor, counted from 1; zero where it is one with the link's."""
+        """Give the inertia of a joint's rotor (joint from 1); zero where it is part of the link's."""
         return math.fsum(
             value
-            for one, value in zip(self.model.parameters, self.standard, strict=True)
-            if one.symbol == "IA" and one.joint == joint
+            for parameter, value in zip(self.model.parameters, self.standard, strict=True)
+            if parameter.symbol == "IA" and parameter.joint == joint
         )
 
     def friction(self, state: MotionState) -> JointSeries:
@@ -125,14 +125,14 @@ class Prediction:
         return self._sum(light, state)
 
     def change(self, state: MotionState, joint: int, shift: MotionState) -> JointSeries:
-        """Give how the load changes, to first order, when one joint's motion is not the measured one.
+        """Give the first-order change of the load where one joint's motion differs from the measured one.
 
         Parameters
         ----------
         joint
             Counted from 0.
         shift
-            What to add to that joint's position, velocity and acceleration, one column each.
+            Difference of that joint's position, velocity and acceleration, one column each.
         """
         by_position, by_velocity, by_acceleration = self.slopes(state, joint)
         change = by_position * shift.position
@@ -146,7 +146,8 @@ class Prediction:
         Notes
         -----
         Loads are quadratic in velocity and linear in acceleration: their central differences are exact for
-        any step. That by position errs by the step squared, and by rounding over the step: both are 1e-11.
+        any step. The error of that by position is the step squared, and rounding over the step: both are
+        1e-11.
         """
         known = self._slopes.setdefault(state, {})
         if joint not in known:
@@ -172,14 +173,14 @@ class Prediction:
 
     def _slope(self, state: MotionState, joint: int, step: tuple[float, float, float]) -> JointSeries:
         """Give the central difference of the load over a step of one joint's motion."""
-        one = np.ones((len(state.position), 1))
+        ones = np.ones((len(state.position), 1))
         ahead, behind = (
             self._moved_bodies(
-                self.model.robot, moved(state, joint, MotionState(*(side * size * one for size in step)))
+                self.model.robot, moved(state, joint, MotionState(*(side * size * ones for size in step)))
             )
             for side in (1.0, -1.0)
         )
-        # Joint after joint, because what they are multiplied by is one column.
+        # Joint after joint in memory, because the factor is one column.
         return _kept(np.asfortranarray((ahead - behind) / (2.0 * sum(step))))
 
     def _sum(self, parts: Iterable[tuple[Term, Weights]], state: MotionState) -> JointSeries:

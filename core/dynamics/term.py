@@ -1,7 +1,7 @@
-"""Define what every torque effect must offer, so that a new effect is one file and later chapters stay.
+"""Define what every torque effect offers, so that a new effect is one file.
 
-A term is linear in its parameters. It says which (joint, parameter) pairs can differ from zero and gives one
-time series for each of them; everything that is structurally zero is never computed, filtered or stored.
+A term is linear in its parameters. It lists the (joint, parameter) pairs that can differ from zero and gives
+one time series for each; structural zeros are never computed, filtered or stored.
 """
 
 from typing import ClassVar, Protocol, runtime_checkable
@@ -17,16 +17,16 @@ Entry = tuple[int, int]
 
 @runtime_checkable
 class Term(Protocol):
-    """Offer the columns of one torque effect.
+    """Define the columns of one torque effect.
 
     Attributes
     ----------
     remembers
-        Whether the torque depends on the motion before the instant, and not on the instant alone.
+        Whether the torque depends on the motion before the instant.
     channel
-        Whether the torque is only logged and moves nothing: a fault of the torque channel.
+        Whether the torque is an error of the torque channel, which moves nothing.
     loads
-        Whether it acts on the links, so that the gears transmit it.
+        Whether it acts on the links, so that transmissions carry it.
     """
 
     remembers: ClassVar[bool]

@@ -12,8 +12,8 @@ import numpy as np
 from ..arrays import LinkTable, Parameters, Samples
 from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
-from ..dynamics.terms.link_change import LinkChange
-from ..dynamics.terms.payload import Payload
+from ..dynamics.terms.link_parameters import LinkChange
+from ..dynamics.terms.payload_change import Payload
 from ..dynamics.terms.rigid_body import RigidBody
 from .inverse import Bodies, bodies_of
 

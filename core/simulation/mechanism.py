@@ -15,11 +15,11 @@ from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
-from ..dynamics.terms.missing_coupling import MissingCoupling
-from ..dynamics.terms.missing_rotor import MissingRotor
+from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.offset import Offset
 from ..dynamics.terms.rigid_body import RigidBody
 from ..dynamics.terms.rotor_inertia import RotorInertia
+from ..dynamics.terms.rotor_inertia_missing import MissingRotor
 from ..dynamics.terms.viscous import Viscous
 from ..errors import OptionError
 from ..robot.model import Coupling, RobotModel

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.cable import Cable
+from ...dynamics.terms.cable_force import Cable
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.own_joint import OwnJointCause

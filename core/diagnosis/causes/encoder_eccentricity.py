@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.encoder import EncoderEccentricity as EncoderEccentricityTerm
+from ...dynamics.terms.encoder_error import EncoderEccentricity as EncoderEccentricityTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.encoder import EncoderOffset as EncoderOffsetTerm
+from ...dynamics.terms.encoder_error import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
 from ..dataset.dataset import Dataset

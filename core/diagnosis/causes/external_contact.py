@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.contact import WRENCH, Contact, Span, pushed
+from ...dynamics.terms.external_contact import WRENCH, Contact, Span, pushed
 from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
@@ -20,7 +20,7 @@ from .traits import SearchTraits
 SPANS_TRIED = 1200
 """Spans of time that are tried in a log of half a minute."""
 MOST = 5
-"""Contacts that are told apart."""
+"""Largest number of contacts in a log."""
 STRONGEST = 1e3
 """Force in N that would break a robot."""
 LONGEST_LEVER = 0.5

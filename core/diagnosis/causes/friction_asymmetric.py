@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from ...dynamics.terms.friction_asymmetric import AsymmetricViscous
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause

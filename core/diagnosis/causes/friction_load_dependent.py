@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.load_friction import LoadFriction
+from ...dynamics.terms.friction_load_dependent import LoadFriction
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause, motor_inertias

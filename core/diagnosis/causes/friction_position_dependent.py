@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.position_friction import PositionFriction
+from ...dynamics.terms.friction_position_dependent import PositionFriction
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.harmonics import harmonics, wave_quantities

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.stribeck import Stribeck
+from ...dynamics.terms.friction_stribeck import Stribeck
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause, geometric_grid

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
+from ...dynamics.terms.friction_temperature import TemperatureFriction, WarmUpFriction
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.own_joint import NOTHING, OwnJointCause

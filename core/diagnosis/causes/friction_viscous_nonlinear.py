@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.nonlinear_viscous import NonlinearViscous
+from ...dynamics.terms.friction_viscous_nonlinear import NonlinearViscous
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.tilt import Tilt, tilt_axes
+from ...dynamics.terms.gravity_misalignment import Tilt, tilt_axes
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site

@@ -125,14 +125,14 @@ IMITATIONS: tuple[Imitation, ...] = (
     Imitation(
         "joint_coupling",
         "friction_asymmetric",
-        "while the other joint always moves alike, its friction looks like this joint's own",
+        "while both joints always move alike, the other joint's friction is not separable from this joint's",
         "move each of the two joints alone, then both in the same and in opposite directions",
         mutual=False,
     ),
     Imitation(
         "torque_gain",
         "torque_gain_nonlinear",
-        "a nonlinear gain looks like another linear gain where the torque keeps its size",
+        "a nonlinear gain equals another linear gain where the torque keeps its size",
         "hold postures of little, half and full gravity torque",
         mutual=False,
     ),

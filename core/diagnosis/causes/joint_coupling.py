@@ -8,7 +8,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.missing_coupling import MissingCoupling
+from ...dynamics.terms.joint_coupling import MissingCoupling
 from ...robot.model import Coupling, RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.elasticity import Elasticity
+from ...dynamics.terms.joint_elasticity import Elasticity
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias

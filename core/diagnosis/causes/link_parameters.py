@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.link_change import LinkChange
+from ...dynamics.terms.link_parameters import LinkChange
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ..dataset.dataset import Dataset

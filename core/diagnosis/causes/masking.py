@@ -18,7 +18,7 @@ class Masking:
 
 _LATE_TORQUE = Masking(
     ("friction_presliding", "friction_stribeck", "joint_elasticity"),
-    "A first-order column is late where velocities reverse, which looks like friction, and it lacks the term "
+    "A first-order column is late where velocities reverse, which resembles friction, and it lacks the term "
     "in frequency squared. Of five examined logs (of 686) with Stribeck friction named beside a delay or "
     "filter, one had it.",
 )

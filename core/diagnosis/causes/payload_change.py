@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.payload import Payload
+from ...dynamics.terms.payload_change import Payload
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS
 from ..dataset.dataset import Dataset

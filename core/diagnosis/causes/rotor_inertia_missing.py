@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.missing_rotor import MissingRotor
+from ...dynamics.terms.rotor_inertia_missing import MissingRotor
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Numbers, Scalars, Site

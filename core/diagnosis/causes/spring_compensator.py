@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.spring import Spring
+from ...dynamics.terms.spring_compensator import Spring
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause

@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.delay import Delay
+from ...dynamics.terms.time_delay import Delay
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset

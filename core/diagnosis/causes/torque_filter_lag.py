@@ -10,7 +10,7 @@ from scipy.signal import oaconvolve
 from ...arrays import InstantSeries, JointSeries, Samples
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.filter_lag import FilterLag
+from ...dynamics.terms.torque_filter_lag import FilterLag
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel

@@ -7,7 +7,7 @@ import numpy as np
 from ...arrays import JointSeries
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.cubic_gain import CubicGain
+from ...dynamics.terms.torque_gain_nonlinear import CubicGain
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.drift import Drift, course
+from ...dynamics.terms.torque_offset_drift import Drift, course
 from ...log.model import LogRows
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.ripple import Ripple
+from ...dynamics.terms.torque_ripple import Ripple
 from ..dataset.dataset import Dataset
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.harmonics import harmonics, wave_quantities

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.saturation import Saturation
+from ...dynamics.terms.torque_saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset

@@ -14,7 +14,7 @@ import numpy as np
 from ...arrays import Vector
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
-from ...dynamics.terms.trace import FACTORS, PATTERNS, Numbers, Trace
+from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, Numbers, Trace
 from ..causes.protocol import FittedCause, Quantity, Scalars, Site
 from ..causes.shared.own_joint import OwnJointCause
 from ..causes.traits import SearchTraits

@@ -26,7 +26,7 @@ from ...arrays import (
 )
 from ...dynamics.model import DynamicModel
 from ...dynamics.term import Term
-from ...dynamics.terms.payload import Payload
+from ...dynamics.terms.payload_change import Payload
 from ...errors import ExcitationError
 from ...log.model import JointLog
 from ...regressor.columns import ColumnPlan

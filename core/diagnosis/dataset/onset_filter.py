@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...arrays import KeptSeries, Series
-from ...dynamics.terms.payload import Payload
+from ...dynamics.terms.payload_change import Payload
 from ...robot.model import RobotModel
 from .stretch import Stretch
 

@@ -7,7 +7,7 @@ Am. Stat. Assoc. 88, 1993, for outliers against a quantile of what surrounds the
 import numpy as np
 
 from ...arrays import JointMask, JointSeries
-from ...dynamics.terms.contact import Span
+from ...dynamics.terms.external_contact import Span
 from ...log.model import JointLog
 from ...signals.derivative import median
 

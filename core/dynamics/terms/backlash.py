@@ -1,9 +1,9 @@
-"""Give what play between motor and link adds: the link is left behind, then caught up with at the other side.
+"""Give the effect of backlash between motor and link on all loads.
 
-While motor and link touch, the link's angle differs from the motor's by the half width, on the side from
-which the load presses. When the load changes its sign the link flies free until it has crossed the gap: the
-twist, motor minus link, follows twist'' = load / inertia, with the load and the link's own inertia as the
-rigid model predicts them. The column is the change of all loads by that twist, per unit of half width.
+In contact, the link's angle differs from the motor's by the half width, on the side that the load selects.
+When the load changes its sign the link moves freely until it has crossed the gap: the twist, motor minus
+link, follows twist'' = load / inertia, with load and link inertia as the rigid model predicts them. The
+column is the change of all loads by that twist, per unit of half width.
 Source: Nordin & Gutman, Automatica 38(10), 2002.
 """
 
@@ -19,14 +19,14 @@ from ...signals.state import MotionState
 from ..gear import Gear
 from ..prediction import Prediction
 from .effect import AllJointsTerm, Symbol, rates, step_of
-from .elasticity import smoothed
+from .joint_elasticity import smoothed
 
 
 @dataclass(frozen=True, eq=False)
 class Backlash(AllJointsTerm):
-    """Model play near the half width `around` (rad); the twist is smoothed at `band_hz`.
+    """Model backlash near the half width `around` (rad); the twist is smoothed at `band_hz`.
 
-    The `motor_inertia`, kg m2, is what the believed load holds of the rotor's.
+    The `motor_inertia`, kg m2, is the rotor inertia that the operating point's load contains.
     """
 
     believed: Prediction
@@ -48,7 +48,7 @@ class Backlash(AllJointsTerm):
 
 
 def twist_of(free: Samples, step: float, half_width: float) -> Samples:
-    """Give motor minus link angle, in rad, along a motion that would tear the two apart at `free` rad/s2.
+    """Give motor minus link angle, in rad, along a motion that separates them at `free` rad/s2.
 
     Contacts neither bounce nor pull; the first sample lies on the side of its load.
 

@@ -1,4 +1,4 @@
-"""Give the friction that only knows the direction: FC times sign(velocity), smoothed where asked.
+"""Give Coulomb friction: FC times sign(velocity), smoothed where required.
 
 The sign is wrong within the velocity's error of zero, where a measured velocity changes sign too early or too
 late. A smoothed sign tanh(v / width) spreads the step over a width that the caller chooses per joint from
@@ -15,7 +15,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
 from ..term import Entry
-from .own_joint import own_joint_entries, own_joint_parameters, own_joint_series
+from .effect import own_joint_entries, own_joint_parameters, own_joint_series
 
 
 @dataclass(frozen=True)

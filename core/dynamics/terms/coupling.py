@@ -1,4 +1,4 @@
-"""Give the torque of motors that turn with a sum of joints: its inertia, viscous and Coulomb friction.
+"""Give the torque of motors that are coupled to a sum of joints: inertia, viscous and Coulomb friction.
 
 By virtual work the motor's torque acts on joint i with the weight that joint i has in the sum. Source:
 Staubli wrists 5-6, as in Janot, Vandanjon & Gautier, IEEE TCST 22(1), 2014.
@@ -51,16 +51,16 @@ class GearCoupling:
         widths = self.widths or (0.0,) * len(robot.couplings)
         for coupling, width in zip(robot.couplings, widths, strict=True):
             motor = motor_speed(coupling, state)
-            columns = (_summed(coupling, state.acceleration), motor, direction(motor, width))
+            columns = (_weighted_sum(coupling, state.acceleration), motor, direction(motor, width))
             rows += [weight * column for weight in coupling.weights for column in columns]
         return np.array(rows).reshape(len(rows), len(state.position))
 
 
 def motor_speed(coupling: Coupling, state: MotionState) -> Samples:
-    """Give the speed of the sum that the motor turns with, rad/s."""
-    return _summed(coupling, state.velocity)
+    """Give the speed of a coupled motor, rad/s."""
+    return _weighted_sum(coupling, state.velocity)
 
 
-def _summed(coupling: Coupling, values: np.ndarray) -> Samples:
+def _weighted_sum(coupling: Coupling, values: np.ndarray) -> Samples:
     joints = [joint - 1 for joint in coupling.joints]
     return np.asarray(values[:, joints] @ np.array(coupling.weights))

@@ -1,8 +1,9 @@
-"""Share what terms of further effects have in common: a few columns on one joint, or on all of them.
+"""Define what terms have in common: columns on one joint or on all of them, differences, rounding.
 
-A concrete effect names its parameters and gives its columns; joints are counted from 1 as users do.
+A concrete effect names its parameters and gives its columns; joints are counted from 1.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -16,7 +17,9 @@ from ...signals.state import MotionState
 from ..term import Entry
 
 Symbol = tuple[str, str, float | None]
-"""Name, SI unit (on a joint that turns), and physical lower bound (None where any sign is possible)."""
+"""Name, SI unit (on a revolute joint), and physical lower bound (None where any sign is admissible)."""
+ROUNDING = 1e-9
+"""Share of the largest of some columns below which another one is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +65,7 @@ class AllJointsTerm:
     Attributes
     ----------
     joint
-        The joint the effect is reported under, from 1; 0 for the robot as a whole.
+        The joint under which the effect is reported, from 1; 0 for the robot as a whole.
     """
 
     joint: int
@@ -118,3 +121,43 @@ def rates(values: JointSeries, state: MotionState) -> tuple[JointSeries, JointSe
     second[1:-1] = (values[2:] - 2.0 * values[1:-1] + values[:-2]) / step**2
     second[0], second[-1] = second[1], second[-2]
     return np.asarray(first), second
+
+
+def own_joint_parameters(
+    robot: RobotModel, joints: tuple[int, ...], symbol: str, unit: str, lower: float | None
+) -> tuple[Parameter, ...]:
+    """Name one parameter for each of the joints (from 0).
+
+    `unit` is that of a revolute joint.
+    """
+    return tuple(
+        Parameter(symbol, joint + 1, joint + 1, joint_unit(robot, joint + 1, unit), lower) for joint in joints
+    )
+
+
+def own_joint_entries(joints: tuple[int, ...]) -> tuple[Entry, ...]:
+    """Pair each joint with its parameter."""
+    return tuple((joint, position) for position, joint in enumerate(joints))
+
+
+def own_joint_series(
+    joints: tuple[int, ...], samples: int, column: Callable[[int], Samples | float]
+) -> Series:
+    """Stack the column of each joint."""
+    rows = np.empty((len(joints), samples))
+    for position, joint in enumerate(joints):
+        rows[position] = column(joint)
+    return rows
+
+
+def without_rounding(torques: Sequence[JointSeries]) -> list[JointSeries]:
+    """Set columns to zero that differ from zero by rounding only.
+
+    A planar arm does not react to a force across its plane: the computed column is rounding, and a fit would
+    scale it to a parameter of any size.
+    """
+    sizes = [float(np.abs(column).max(initial=0.0)) for column in torques]
+    least = ROUNDING * max(sizes)
+    return [
+        column if size > least else np.zeros_like(column) for column, size in zip(torques, sizes, strict=True)
+    ]

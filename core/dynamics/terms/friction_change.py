@@ -1,7 +1,7 @@
-"""Give what a joint's friction and offset add where they are not those of the believed model.
+"""Give the effect of friction and offset that differ from those of the operating point's model.
 
-All three columns stand in the standard model too; apart from them they can be told only where the model's own
-are known beforehand. Source: Bittencourt & Gunnarsson 2012, on friction that changes between two runs.
+All three columns are in the standard model, too; they are separable from it only where its own parameters are
+fixed. Source: Bittencourt & Gunnarsson 2012, on friction that changes between two runs.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class FrictionChange(OneJointTerm):
     Attributes
     ----------
     width
-        Over which the sign of velocity is smoothed, rad/s or m/s; 0 for the plain sign.
+        Width over which the sign of velocity is smoothed, rad/s or m/s; 0 for the plain sign.
     """
 
     width: float = 0.0

@@ -1,7 +1,7 @@
-"""Give what a wrong entry of the robot's table adds: the load on the true geometry, minus the believed one.
+"""Give the effect of a wrong entry of the kinematic table: the true minus the described geometry's load.
 
-The bodies stay as they are in their own frames; the frame of one link sits elsewhere on its antecedent. The
-column is the change per unit of the entry. Source: Khalil & Dombre (2002), ch. 11.
+The bodies stay as they are in their own frames; the frame of one link has another place on its antecedent.
+The column is the change per unit of the entry. Source: Khalil & Dombre (2002), ch. 11.
 """
 
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ SMALL = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class KinematicError(AllJointsTerm):
-    """Model an entry (rad or m) of a link's modified DH row that is larger by `error` than believed."""
+    """Model an entry (rad or m) of a link's modified DH row that is larger by `error` than described."""
 
     believed: Prediction
     entry: EntryName

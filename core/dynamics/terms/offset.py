@@ -1,4 +1,4 @@
-"""Give the constant torque offset: amplifier offset and asymmetric Coulomb friction, which look the same.
+"""Give the constant torque offset: amplifier offset and asymmetric Coulomb friction, which are not separable.
 
 Source: the seed paper, eq. (4).
 """
@@ -11,7 +11,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
 from ..term import Entry
-from .own_joint import own_joint_entries, own_joint_parameters, own_joint_series
+from .effect import own_joint_entries, own_joint_parameters, own_joint_series
 
 
 @dataclass(frozen=True)

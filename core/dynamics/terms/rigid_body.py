@@ -1,8 +1,8 @@
-"""Give the torque of moving masses: ten parameters per link, the inertia of every body that a joint carries.
+"""Give the torque of the links as rigid bodies: ten inertial parameters per link.
 
-The series here come from the plain Newton-Euler recursion with one unit parameter at a time; the regressor
-chapter computes the same series compiled and a law holds the two equal. Source: Khalil & Dombre (2002), ch.
-12.
+The series here come from the plain Newton-Euler recursion with one unit parameter at a time; `core/regressor`
+computes the same series by a compiled kernel, and a test holds the two equal. Source: Khalil & Dombre (2002),
+ch. 12.
 """
 
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
-"""Give the torque that turns the rotor: inertia seen at the joint (gear ratio squared included).
+"""Give the torque of the rotor: its inertia at the joint, with the gear ratio squared.
 
-The gyroscopic torque of a rotor spun by its carrier is left out, as in the seed's model. Source: Khalil &
+The gyroscopic torque of a rotor on a rotating link is neglected, as in the seed's model. Source: Khalil &
 Dombre (2002), ch. 9.
 """
 
@@ -12,7 +12,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
 from ..term import Entry
-from .own_joint import own_joint_entries, own_joint_parameters, own_joint_series
+from .effect import own_joint_entries, own_joint_parameters, own_joint_series
 
 
 @dataclass(frozen=True)

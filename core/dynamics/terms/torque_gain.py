@@ -1,6 +1,6 @@
-"""Give what a wrong torque constant adds on one joint, or a wrong unit on all: their own predicted torque.
+"""Give the effect of a gain error of one torque channel or of all: their own predicted torque.
 
-The channel reads (1 + e) times the true torque, so that e times the predicted torque is missing. Source:
+The channel reads (1 + e) times the true torque, so that the column is the predicted torque. Source:
 Gautier & Briot, IFAC World Congress 2011.
 """
 
@@ -16,7 +16,7 @@ from .effect import AllJointsTerm, OneJointTerm, Symbol
 
 @dataclass(frozen=True, eq=False)
 class TorqueGain(OneJointTerm):
-    """Model a torque channel whose scale is wrong by a share."""
+    """Model a relative gain error of a torque channel."""
 
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
@@ -31,7 +31,7 @@ class TorqueGain(OneJointTerm):
 
 @dataclass(frozen=True, eq=False)
 class CommonGain(AllJointsTerm):
-    """Model torque channels whose scales are all wrong by the same share."""
+    """Model the same relative gain error of all torque channels."""
 
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)

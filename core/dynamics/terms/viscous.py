@@ -1,4 +1,4 @@
-"""Give the friction that grows with speed: FV times joint velocity. Source: the seed paper, eq. (4)."""
+"""Give viscous friction: FV times joint velocity. Source: the seed paper, eq. (4)."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -8,7 +8,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
 from ..term import Entry
-from .own_joint import own_joint_entries, own_joint_parameters, own_joint_series
+from .effect import own_joint_entries, own_joint_parameters, own_joint_series
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from tests.core.diagnosis.scenes import (
     scene_of,
     spoilt_scenes,
 )
+from tests.plant.effects.registry import PARAMETERS
 from veritorque.core.diagnosis.causes.imitation import imitations
 from veritorque.core.diagnosis.causes.masking import excludes, masks
 from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
@@ -48,16 +49,7 @@ SHARED_PARTS = {
     "traits",
 }
 FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
-PUBLIC = {
-    *("friction_stribeck", "friction_viscous_nonlinear", "friction_asymmetric", "friction_load_dependent"),
-    *("friction_temperature", "friction_position_dependent", "friction_presliding", "joint_elasticity"),
-    *("backlash", "joint_coupling", "rotor_inertia_missing", "torque_ripple", "torque_gain"),
-    *("torque_gain_nonlinear", "torque_offset_drift", "torque_saturation", "time_delay", "torque_filter_lag"),
-    *("timestamp_jitter", "dropped_samples", "encoder_offset", "encoder_eccentricity"),
-    *("encoder_quantization", "kinematic_error", "gravity_misalignment", "payload_change"),
-    *("spring_compensator", "cable_force", "external_contact"),
-    *("friction_change", "link_parameters"),
-}
+PUBLIC = {*PARAMETERS, "friction_change", "link_parameters"}
 VERDICTS_NOT_CAUSES = {"none", "unexplained", "ambiguous"}
 ODD_UNITS = {"ms", "%", "N m per N m", "cycles per revolution"}
 """How a sentence may write s, a share, a ratio and a harmonic."""

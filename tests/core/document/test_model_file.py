@@ -19,9 +19,9 @@ from veritorque.core.dynamics.model import DynamicModel, standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.term import Term
 from veritorque.core.dynamics.terms.coulomb import Coulomb
-from veritorque.core.dynamics.terms.delay import Delay
-from veritorque.core.dynamics.terms.load_friction import LoadFriction
-from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.friction_load_dependent import LoadFriction
+from veritorque.core.dynamics.terms.payload_change import Payload
+from veritorque.core.dynamics.terms.time_delay import Delay
 from veritorque.core.dynamics.terms.torque_gain import TorqueGain
 from veritorque.core.errors import RobotError
 from veritorque.core.robot.model import RobotModel

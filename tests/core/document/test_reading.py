@@ -19,12 +19,12 @@ from veritorque.core.document.terms import named_terms
 from veritorque.core.dynamics.model import DynamicModel, standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.coulomb import Coulomb
-from veritorque.core.dynamics.terms.encoder import EncoderOffset
+from veritorque.core.dynamics.terms.encoder_error import EncoderOffset
 from veritorque.core.dynamics.terms.friction_change import FrictionChange
-from veritorque.core.dynamics.terms.link_change import LinkChange
-from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
-from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
-from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.dynamics.terms.friction_stribeck import Stribeck
+from veritorque.core.dynamics.terms.joint_coupling import MissingCoupling
+from veritorque.core.dynamics.terms.link_parameters import LinkChange
+from veritorque.core.dynamics.terms.rotor_inertia_missing import MissingRotor
 from veritorque.core.errors import RobotError
 from veritorque.core.export.formats import FORMATS
 from veritorque.core.export.mjcf import write_mjcf

@@ -13,12 +13,12 @@ from veritorque.core.diagnosis.checks.unnamed_pattern import UnnamedPatternCause
 from veritorque.core.dynamics.model import STANDARD_TERMS
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.term import Term
-from veritorque.core.dynamics.terms.trace import Trace
+from veritorque.core.dynamics.terms.unnamed_pattern import Trace
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.simulation.inverse import inverse_dynamics
 
 FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
-SHARED_PARTS = {"__init__", "effect", "own_joint", "rounding"}
+SHARED_PARTS = {"__init__", "effect"}
 FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
 SEARCHED = sorted(set(FILES) - set(STANDARD_TERMS))
 

@@ -12,10 +12,10 @@ from veritorque.core.dynamics.gear import Gear
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.backlash import Backlash
-from veritorque.core.dynamics.terms.elasticity import Elasticity
-from veritorque.core.dynamics.terms.load_friction import LoadFriction
-from veritorque.core.dynamics.terms.payload import Payload
-from veritorque.core.dynamics.terms.spring import Spring
+from veritorque.core.dynamics.terms.friction_load_dependent import LoadFriction
+from veritorque.core.dynamics.terms.joint_elasticity import Elasticity
+from veritorque.core.dynamics.terms.payload_change import Payload
+from veritorque.core.dynamics.terms.spring_compensator import Spring
 from veritorque.core.dynamics.terms.viscous import Viscous
 from veritorque.core.signals.state import MotionState
 

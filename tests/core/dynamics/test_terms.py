@@ -15,7 +15,7 @@ from tests.tools import random_robot
 from veritorque.core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from veritorque.core.dynamics.term import Term
 from veritorque.core.dynamics.terms.coulomb import Coulomb, direction
-from veritorque.core.dynamics.terms.trace import PATTERNS
+from veritorque.core.dynamics.terms.unnamed_pattern import PATTERNS
 from veritorque.core.errors import OptionError
 from veritorque.core.regressor.columns import all_columns
 from veritorque.core.robot.model import Coupling, RobotModel

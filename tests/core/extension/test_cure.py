@@ -9,8 +9,8 @@ from tests.core.estimate.worlds import log_of, planar_robot, swing, true_paramet
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.term import Term
-from veritorque.core.dynamics.terms.delay import Delay
-from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.dynamics.terms.friction_stribeck import Stribeck
+from veritorque.core.dynamics.terms.time_delay import Delay
 from veritorque.core.dynamics.terms.torque_gain import TorqueGain
 from veritorque.core.extension.cure import extended_base
 from veritorque.core.extension.gain import JointGain, gains

@@ -7,10 +7,10 @@ from tests.core.diagnosis.scenes import skew_arm
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.dynamics.model import standard_model
-from veritorque.core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
+from veritorque.core.dynamics.terms.friction_asymmetric import AsymmetricViscous
 from veritorque.core.dynamics.terms.friction_change import FrictionChange
-from veritorque.core.dynamics.terms.link_change import LinkChange
-from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.link_parameters import LinkChange
+from veritorque.core.dynamics.terms.payload_change import Payload
 from veritorque.core.extension.fold import folded
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.writing import to_description

@@ -7,8 +7,8 @@ from tests.core.simulation.logs import logged
 from tests.core.simulation.worlds import block, mechanism
 from tests.tools import random_motion
 from veritorque.core.dynamics.prediction import Prediction
-from veritorque.core.dynamics.terms.delay import Delay
-from veritorque.core.dynamics.terms.presliding import Presliding
+from veritorque.core.dynamics.terms.friction_presliding import Presliding
+from veritorque.core.dynamics.terms.time_delay import Delay
 from veritorque.core.dynamics.terms.torque_gain import CommonGain
 from veritorque.core.errors import OptionError
 from veritorque.core.signals.state import MotionState

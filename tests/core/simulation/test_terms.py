@@ -9,10 +9,10 @@ import pytest
 from tests.core.simulation.worlds import block, mechanism, play
 from tests.tools import random_bodies, random_robot
 from veritorque.core.dynamics.model import DynamicModel, standard_model
-from veritorque.core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
-from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
-from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
-from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.friction_asymmetric import AsymmetricViscous
+from veritorque.core.dynamics.terms.joint_coupling import MissingCoupling
+from veritorque.core.dynamics.terms.payload_change import Payload
+from veritorque.core.dynamics.terms.rotor_inertia_missing import MissingRotor
 from veritorque.core.robot.model import Coupling
 from veritorque.core.robot.parameters import Parameter
 from veritorque.core.signals.state import MotionState

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ....arrays import JointSeries, Samples, Vector
-from ....dynamics.terms.contact import Span, swell
+from ....dynamics.terms.external_contact import Span, swell
 from ....numerics.chi2_tail import log_chi2_tail
 
 SHORTEST, LONGEST = 0.2, 3.2

@@ -21,7 +21,7 @@ from veritorque.core.diagnosis.regression.innovation_covariance import (
     inverse_covariances,
     torque_residual,
 )
-from veritorque.core.dynamics.terms.contact import swell
+from veritorque.core.dynamics.terms.external_contact import swell
 
 TIME = np.arange(0.0, 30.0, 0.02)
 PLACE = np.arange(len(TIME))

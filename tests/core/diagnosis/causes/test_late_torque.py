@@ -10,7 +10,7 @@ from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.dynamics.model import standard_model
-from veritorque.core.dynamics.terms.filter_lag import low_passed
+from veritorque.core.dynamics.terms.torque_filter_lag import low_passed
 
 NEARLY_A_WALK = 0.995
 """How much of a sample's noise is left in the next one."""

@@ -15,7 +15,7 @@ from veritorque.core.diagnosis.causes.payload_change import PayloadChange
 from veritorque.core.diagnosis.causes.protocol import FittedCause
 from veritorque.core.diagnosis.causes.shared.harmonics import amplitude_and_angle
 from veritorque.core.diagnosis.causes.shared.own_joint import end_links, revolute_joints
-from veritorque.core.dynamics.terms.contact import WRENCH
+from veritorque.core.dynamics.terms.external_contact import WRENCH
 
 SPANS = {"start_1": 3.0, "end_1": 3.5, "start_2": 8.0, "end_2": 8.4}
 

@@ -7,7 +7,7 @@ import pytest
 
 from tests.core.diagnosis.scenes import recording, scene_of
 from veritorque.core.diagnosis.dataset.dataset import Dataset
-from veritorque.core.dynamics.terms.payload import Payload
+from veritorque.core.dynamics.terms.payload_change import Payload
 
 GAP = (5.0, 7.0)
 """Seconds that were not recorded."""

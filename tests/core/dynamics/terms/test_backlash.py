@@ -5,7 +5,7 @@ import pytest
 
 from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain
 from veritorque.core.dynamics.terms.backlash import Backlash, twist_of
-from veritorque.core.dynamics.terms.encoder import EncoderOffset
+from veritorque.core.dynamics.terms.encoder_error import EncoderOffset
 from veritorque.core.signals.state import MotionState
 
 

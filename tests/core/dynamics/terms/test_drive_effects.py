@@ -9,17 +9,17 @@ from tests.core.dynamics.terms.motions import cycle, swinging
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_robot
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
-from veritorque.core.dynamics.terms.cable import Cable
+from veritorque.core.dynamics.terms.cable_force import Cable
 from veritorque.core.dynamics.terms.coupling import GearCoupling
-from veritorque.core.dynamics.terms.cubic_gain import CubicGain
-from veritorque.core.dynamics.terms.drift import Drift
 from veritorque.core.dynamics.terms.effect import OneJointTerm
-from veritorque.core.dynamics.terms.missing_coupling import MissingCoupling
-from veritorque.core.dynamics.terms.missing_rotor import MissingRotor
-from veritorque.core.dynamics.terms.ripple import Ripple
+from veritorque.core.dynamics.terms.joint_coupling import MissingCoupling
 from veritorque.core.dynamics.terms.rotor_inertia import RotorInertia
-from veritorque.core.dynamics.terms.saturation import Saturation
-from veritorque.core.dynamics.terms.spring import Spring
+from veritorque.core.dynamics.terms.rotor_inertia_missing import MissingRotor
+from veritorque.core.dynamics.terms.spring_compensator import Spring
+from veritorque.core.dynamics.terms.torque_gain_nonlinear import CubicGain
+from veritorque.core.dynamics.terms.torque_offset_drift import Drift
+from veritorque.core.dynamics.terms.torque_ripple import Ripple
+from veritorque.core.dynamics.terms.torque_saturation import Saturation
 from veritorque.core.robot.inertia import from_mass_properties
 from veritorque.core.robot.model import Coupling
 from veritorque.core.signals.state import MotionState

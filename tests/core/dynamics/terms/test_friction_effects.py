@@ -5,13 +5,13 @@ import pytest
 
 from tests.core.dynamics.terms.motions import cycle, swinging
 from tests.tools import random_robot
-from veritorque.core.dynamics.terms.asymmetric_viscous import AsymmetricViscous
 from veritorque.core.dynamics.terms.coulomb import Coulomb
 from veritorque.core.dynamics.terms.effect import OneJointTerm
-from veritorque.core.dynamics.terms.nonlinear_viscous import NonlinearViscous
-from veritorque.core.dynamics.terms.position_friction import PositionFriction
-from veritorque.core.dynamics.terms.presliding import Presliding, dahl
-from veritorque.core.dynamics.terms.temperature_friction import TemperatureFriction, WarmUpFriction
+from veritorque.core.dynamics.terms.friction_asymmetric import AsymmetricViscous
+from veritorque.core.dynamics.terms.friction_position_dependent import PositionFriction
+from veritorque.core.dynamics.terms.friction_presliding import Presliding, dahl
+from veritorque.core.dynamics.terms.friction_temperature import TemperatureFriction, WarmUpFriction
+from veritorque.core.dynamics.terms.friction_viscous_nonlinear import NonlinearViscous
 from veritorque.core.dynamics.terms.viscous import Viscous
 from veritorque.core.signals.state import MotionState
 

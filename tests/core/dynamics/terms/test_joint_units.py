@@ -5,9 +5,9 @@ import pytest
 
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
-from veritorque.core.dynamics.terms.elasticity import Elasticity
-from veritorque.core.dynamics.terms.spring import Spring
-from veritorque.core.dynamics.terms.stribeck import Stribeck
+from veritorque.core.dynamics.terms.friction_stribeck import Stribeck
+from veritorque.core.dynamics.terms.joint_elasticity import Elasticity
+from veritorque.core.dynamics.terms.spring_compensator import Spring
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
 

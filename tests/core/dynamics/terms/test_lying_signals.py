@@ -7,9 +7,9 @@ import pytest
 
 from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain, exact, motion_of, one_viscous_joint
 from veritorque.core.dynamics.prediction import moved
-from veritorque.core.dynamics.terms.delay import Delay
-from veritorque.core.dynamics.terms.encoder import EncoderEccentricity, EncoderOffset
-from veritorque.core.dynamics.terms.filter_lag import FilterLag
+from veritorque.core.dynamics.terms.encoder_error import EncoderEccentricity, EncoderOffset
+from veritorque.core.dynamics.terms.time_delay import Delay
+from veritorque.core.dynamics.terms.torque_filter_lag import FilterLag
 from veritorque.core.dynamics.terms.torque_gain import CommonGain, TorqueGain
 from veritorque.core.dynamics.terms.viscous import Viscous
 from veritorque.core.signals.state import MotionState

@@ -10,10 +10,10 @@ from tests.tools import Motion, pinocchio_torque, random_bodies, random_motion
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.newton_euler import inverse_dynamics
 from veritorque.core.dynamics.prediction import Prediction
-from veritorque.core.dynamics.terms.contact import WRENCH, Contact
+from veritorque.core.dynamics.terms.external_contact import WRENCH, Contact
+from veritorque.core.dynamics.terms.gravity_misalignment import Tilt, at_rest
 from veritorque.core.dynamics.terms.kinematic_error import ENTRY_UNITS, KinematicError
-from veritorque.core.dynamics.terms.payload import Payload
-from veritorque.core.dynamics.terms.tilt import Tilt, at_rest
+from veritorque.core.dynamics.terms.payload_change import Payload
 from veritorque.core.robot.builtin import builtin_description
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.frames import rotation_x, rotation_y

@@ -1,8 +1,8 @@
-"""Give what friction lacks after a reversal, while bristles bend: Dahl's state minus the sign of velocity.
+"""Give the deficit of presliding friction after a reversal: Dahl's state minus the sign of velocity.
 
 Along the position x, df/dx = (1 - f sign(v)) / s with s the presliding distance; between reversals, over a
-travel |x|, f = sign(v) + (f0 - sign(v)) exp(-|x| / s), so that a turn back before friction has built up is
-exact, too. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1968.
+travel |x|, f = sign(v) + (f0 - sign(v)) exp(-|x| / s), which is exact for a reversal before friction has
+built up, too. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1968.
 """
 
 from dataclasses import dataclass
@@ -16,15 +16,15 @@ from ...signals.state import MotionState
 from .effect import OneJointTerm, Symbol
 
 STANDING = 0.01
-"""Share of its largest speed below which a joint counts as standing when a stretch begins."""
+"""Share of its largest speed below which a joint is at rest when a stretch begins."""
 
 
 @dataclass(frozen=True, eq=False)
 class Presliding(OneJointTerm):
-    """Model friction that builds up over `presliding_distance`, rad (m), to the level in question.
+    """Model friction that builds up over `presliding_distance`, rad (m), to the given level.
 
-    Of the time before a stretch nothing is known: friction is taken as built up where the joint is moving at
-    the stretch's start, and as nothing where it stands.
+    Nothing is known before a stretch: friction is taken as built up where the joint moves at the start of the
+    stretch, and as zero where it is at rest.
     """
 
     presliding_distance: float
@@ -45,7 +45,7 @@ def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
 
     Examples
     --------
-    Having gone backwards by its distance times ln 2, friction is half way from 1 to -1:
+    After a backward travel of ln 2 times the distance, friction is half way from 1 to -1:
 
     >>> dahl(np.array([0.0, 0.0, -np.log(2.0)]), np.array([1.0, -1.0, -1.0]), 1.0)
     array([1., 1., 0.])
@@ -65,7 +65,7 @@ def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
 
 
 def _held(sign: Samples) -> Samples:
-    """Let a joint that stands keep the direction it last had, forwards where it never moved."""
+    """Keep the last direction of a joint at rest, forwards where it never moved."""
     moving = np.where(sign != 0.0, np.arange(len(sign)), -1)
     last = np.maximum.accumulate(moving)
     first = sign[moving >= 0][0] if (moving >= 0).any() else 1.0

@@ -1,4 +1,4 @@
-"""Give the friction that a joint loses as it gets under way: Stribeck's excess over the Coulomb level.
+"""Give Stribeck friction: an excess over the Coulomb level that decays with speed.
 
 sign(v) exp(-(v / vs)^2), with vs the Stribeck velocity. Source: Bo & Pavelescu 1982; Bittencourt &
 Gunnarsson 2012.

@@ -1,8 +1,8 @@
-"""Give what a tilted base adds: the bodies' weight along the directions into which gravity turns.
+"""Give the effect of a tilted base: the bodies' weight along the change of gravity.
 
-Gravity g that is turned by a small angle about an axis u changes by u x g; a base that is tilted the other
-way sees the same. Loads are linear in gravity, so that a column is the weight of the bodies under that
-vector, at rest. Source: Khalil & Dombre (2002), ch. 9.
+Gravity g rotated by a small angle about an axis u changes by u x g, as for a base tilted the other way. Loads
+are linear in gravity, so that a column is the weight of the bodies under that vector, at rest. Source: Khalil
+& Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass, replace
@@ -14,13 +14,12 @@ from ...arrays import JointSeries, Vector3
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import AllJointsTerm, Symbol
-from .rounding import without_rounding
+from .effect import AllJointsTerm, Symbol, without_rounding
 
 
 @dataclass(frozen=True, eq=False)
 class Tilt(AllJointsTerm):
-    """Model gravity turned by `tilt_x` and `tilt_y` about the base's axes."""
+    """Model gravity rotated by `tilt_x` and `tilt_y` about the base's axes."""
 
     believed: Prediction
     symbols: ClassVar[tuple[Symbol, ...]] = (("tilt_x", "rad", None), ("tilt_y", "rad", None))

@@ -1,6 +1,6 @@
-"""Give the friction whose Coulomb level waves along the joint's angle: sign(v) cos(h q), sign(v) sin(h q).
+"""Give position-dependent Coulomb friction: sign(v) cos(h q), sign(v) sin(h q).
 
-Eccentric gears and tight bearings brake more at some angles than at others. Source: Armstrong-Helouvry,
+Eccentric gears and tight bearings have more friction at some angles. Source: Armstrong-Helouvry,
 Control of Machines with Friction (1991).
 """
 
@@ -17,7 +17,7 @@ from .effect import OneJointTerm, Symbol
 
 @dataclass(frozen=True, eq=False)
 class PositionFriction(OneJointTerm):
-    """Model a Coulomb level with `harmonic` waves per turn, their phase counted from `centre`, rad."""
+    """Model a Coulomb level with `harmonic` cycles per revolution, their phase relative to `centre`, rad."""
 
     harmonic: float
     centre: float

@@ -1,6 +1,6 @@
-"""Give the friction that bends with speed: sign(v) |v|^p beside the linear FV v.
+"""Give nonlinear viscous friction: sign(v) |v|^p beside the linear FV v.
 
-A power p below one is fluid friction that levels off, above one it is drag. Source: Bittencourt & Gunnarsson,
+A power p below one is fluid friction that saturates, above one it is drag. Source: Bittencourt & Gunnarsson,
 J. Dyn. Sys. Meas. Control 134(5), 2012.
 """
 

@@ -1,7 +1,7 @@
-"""Give the torque that a spring beside the motor takes: the joint's angle times its stiffness.
+"""Give the torque of a spring parallel to the motor: stiffness times the joint's angle.
 
-Where it rests is an offset, which the model has already; so what a gear transmits of it, where it acts behind
-one, is known up to a constant only, and it is not counted among the loads. Source: Klimchik, Pashkevich et
+Its rest angle is an offset, which the model has already. Behind a transmission its load is known up to a
+constant only, so that it is not counted among the loads. Source: Klimchik, Pashkevich et
 al. 2013 (counterbalances).
 """
 

@@ -1,7 +1,7 @@
-"""Give what a body adds that is fixed to a link from some instant on: ten columns times a step.
+"""Give the torque of a body that is attached to a link from an instant on: ten columns times a step.
 
-The ten parameters are those of the difference of bodies, in the link's frame; a body that is taken away has
-them negative. A step before the first instant is a body that was there all along. Source: Khalil & Dombre
+The ten parameters are those of the difference of bodies, in the link's frame; for a removed body they are
+negative. A step before the first instant is a body that was there throughout. Source: Khalil & Dombre
 (2002), ch. 12.
 """
 
@@ -16,8 +16,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ...signals.state import MotionState
 from ..newton_euler import unit_torques
-from .effect import AllJointsTerm, Symbol
-from .rounding import without_rounding
+from .effect import AllJointsTerm, Symbol, without_rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +33,7 @@ class Payload(AllJointsTerm):
 
     @property
     def changes(self) -> tuple[str, ...]:
-        """Name the parameters that a body which was there throughout adds to."""
+        """Name the parameters to which a body that was there throughout adds."""
         whole = self.begin == -np.inf
         return tuple(f"{symbol}{self.link}" for symbol in INERTIAL_SYMBOLS) if whole else ()
 
@@ -50,7 +49,7 @@ class Payload(AllJointsTerm):
 def body_torques(robot: RobotModel, link: int, state: MotionState) -> np.ndarray:
     """Give the torque per unit of each of a link's ten parameters: parameters x samples x joints.
 
-    Kept for the last few stretches, because a scan of the instant asks for the same ones again.
+    Cached for the last few stretches, because a scan of the instant uses the same ones.
     """
     torques = np.array(without_rounding(list(unit_torques(robot, link, state))))
     torques.setflags(write=False)

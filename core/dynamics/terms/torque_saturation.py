@@ -1,9 +1,9 @@
-"""Give by how much a logged command exceeds the torque that a drive with a limit applies.
+"""Give the excess of a logged command over the torque that a saturated drive applies.
 
-The motion shows the applied torque only: it stays at the limit while the command passes above. The excess
-vanishes where the limit is reached and left again; between these instants a and b it is taken as a parabola,
-(t - a)(b - t) / 2, and its skew, for a controller first gathers an error and then works it off. Source: the
-least polynomials with these zeros.
+The motion shows the applied torque only: it stays at the limit while the command exceeds it. The excess is
+zero where the limit is reached and left; between these instants a and b it is approximated by a parabola,
+(t - a)(b - t) / 2, and its skew, because a controller first accumulates an error and then reduces it. Source:
+the polynomials of least degree with these zeros.
 """
 
 from dataclasses import dataclass

@@ -1,7 +1,7 @@
-"""Give traces that no physics here stands for: what a residual follows when no listed effect explains it.
+"""Give patterns without a physical model: what a residual may follow where no known effect explains it.
 
-Products of speeds, waves over another joint's angle, waves in time, a swing at its own rate, and two levels:
-a family wide enough to show that something is left, and where, without saying what it is. Source: Kennedy &
+Products of speeds, waves over another joint's angle, waves in time, an oscillation at its own rate, and two
+levels: a family wide enough to detect lack of fit, and where, without a physical name. Source: Kennedy &
 O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
 """
 
@@ -26,15 +26,15 @@ Numbers = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False)
 class Trace(OneJointTerm):
-    """Follow one pattern (`PATTERNS`), made definite by numbers.
+    """Model one pattern (`PATTERNS`) with its numbers.
 
     Attributes
     ----------
     pattern
         ``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
         angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
-        ``swing``: deflection and rate of a swing at f Hz, driven by the own acceleration. ``levels``: plus
-        and minus one by turns, the side changed at every one of the instants, s.
+        ``swing``: deflection and rate of an oscillator at f Hz, driven by the own acceleration. ``levels``:
+        plus or minus one, with a change of sign at each of the instants, s.
     """
 
     pattern: str
@@ -58,7 +58,7 @@ class Trace(OneJointTerm):
 
 def _speeds(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     del own
-    first, second = (int(one) - 1 for one in numbers)
+    first, second = (int(joint) - 1 for joint in numbers)
     return [state.velocity[:, first] * state.velocity[:, second]]
 
 

@@ -1,7 +1,7 @@
-"""Give the friction that follows a joint's warmth: logged, or told from the time since the start.
+"""Give temperature-dependent friction: over the logged temperature, or over the time since the start.
 
-With a sensor the warmth is the temperature above a reference; without one it is 1 - exp(-t / tc), the course
-of a body that is heated evenly, and the parameters are the change over the whole warm-up. Sources:
+With a sensor the regressor is the temperature above a reference. Without one it is 1 - exp(-t / tc), the
+course of a body under constant heating, and the parameters are the change over the whole warm-up. Sources:
 Bittencourt & Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012; Simoni et al. 2019 (no sensor).
 """
 
@@ -18,7 +18,7 @@ from .effect import OneJointTerm, Symbol
 
 @dataclass(frozen=True, eq=False)
 class TemperatureFriction(OneJointTerm):
-    """Model friction over the logged temperature; `reference` in degC; nothing where none was logged."""
+    """Model friction over the logged temperature; `reference` in degC; zero where none was logged."""
 
     reference: float
     symbols: ClassVar[tuple[Symbol, ...]] = (
@@ -49,7 +49,7 @@ class WarmUpFriction(OneJointTerm):
     kind: ClassVar[str] = "friction_temperature"
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
-        """Give sign(v) and v, each times the share of the warm-up that is over."""
+        """Give sign(v) and v, each times the share of the warm-up that has passed."""
         del robot
         velocity = state.velocity[:, self.joint - 1]
         if state.time is None:

@@ -1,7 +1,7 @@
-"""Give what a link adds whose inertial parameters are not those of the believed model.
+"""Give the effect of a link's inertial parameters that differ from those of the operating point's model.
 
-The ten columns stand in the standard model too, alone or grouped; apart from them they can be told only where
-the model's own parameters are known beforehand. Source: Khalil & Dombre (2002), ch. 9.
+The ten columns are in the standard model, too, alone or grouped; they are separable from it only where its
+own parameters are fixed. Source: Khalil & Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ...signals.state import MotionState
 from .effect import AllJointsTerm, Symbol
-from .payload import body_torques
+from .payload_change import body_torques
 
 
 @dataclass(frozen=True, eq=False)

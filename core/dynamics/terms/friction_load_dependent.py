@@ -1,4 +1,4 @@
-"""Give the friction that grows with the torque a gear transmits: sign(v) |load|, the load as predicted.
+"""Give load-dependent friction: sign(v) |load|, with the predicted load of the transmission.
 
 Source: Bittencourt & Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012.
 """
@@ -20,7 +20,7 @@ from .effect import OneJointTerm, Symbol
 class LoadFriction(OneJointTerm):
     """Model a Coulomb level that grows with the transmitted torque.
 
-    The `motor_inertia`, kg m2 (kg), is what the believed load holds of the rotor's.
+    The `motor_inertia`, kg m2 (kg), is the rotor inertia that the operating point's load contains.
     """
 
     believed: Prediction

@@ -1,4 +1,4 @@
-"""Give the viscous friction that differs between directions: |v| times half the difference.
+"""Give direction-dependent viscous friction: |v| times half the difference.
 
 FV + delta forwards and FV - delta backwards is FV v + delta |v|. Source: Armstrong-Helouvry, Control of
 Machines with Friction (1991).

@@ -1,7 +1,7 @@
-"""Give what a compliant gear adds when the encoder sits on the motor: the link lags by torque over stiffness.
+"""Give the effect of joint elasticity with motor-side encoders: the link lags by torque over stiffness.
 
-The link's position is q - H(load / K), to first order in the compliance 1 / K; H is the response of the
-link's inertia on spring and damper, one below their resonance. What the load changes by is linear in 1 / K.
+The link's position is q - H(load / K), to first order in the compliance 1 / K. H is the response of the
+link's inertia on spring and damper, one below their resonance. The change of the load is linear in 1 / K.
 Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
@@ -25,16 +25,16 @@ from .effect import AllJointsTerm, Symbol, rates, step_of
 
 @dataclass(frozen=True, eq=False)
 class Elasticity(AllJointsTerm):
-    """Model a compliant gear.
+    """Model joint elasticity.
 
     Attributes
     ----------
     band_hz
-        Loads are smoothed at it before they are differentiated.
+        Bandwidth at which loads are smoothed before differentiation.
     resonance_hz, damping_ratio
-        Of the link's inertia on the gear's spring: below it the link follows the load at once.
+        Of the link's inertia on the spring: below it the link follows the load without lag.
     motor_inertia
-        What the believed load holds of the rotor's inertia, kg m2 (kg).
+        Rotor inertia that the operating point's load contains, kg m2 (kg).
     """
 
     believed: Prediction
@@ -49,7 +49,8 @@ class Elasticity(AllJointsTerm):
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List the compliance, in the unit of its joint."""
         return tuple(
-            replace(one, unit=joint_unit(robot, self.joint, one.unit)) for one in super().parameters(robot)
+            replace(compliance, unit=joint_unit(robot, self.joint, compliance.unit))
+            for compliance in super().parameters(robot)
         )
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
@@ -63,19 +64,19 @@ class Elasticity(AllJointsTerm):
 
 @lru_cache(maxsize=64)
 def _load_spectrum(gear: Gear, state: MotionState, band_hz: float) -> Spectrum:
-    """Give the spectrum of a gear's smoothed load; kept, because a scan asks for the same ones again."""
+    """Give the spectrum of a transmission's smoothed load; cached for a scan."""
     return spectrum_of(smoothed(gear.load(state)[:, None], state, band_hz)[:, 0])
 
 
 def spectrum_of(values: Samples) -> Spectrum:
-    """Transform a series that is mirrored at its end, and held where it began for as long as is quick."""
+    """Transform a series that is mirrored at its end and padded by its first value to a fast length."""
     size = next_fast_len(2 * len(values), real=True)
     held = np.full(size - 2 * len(values), values[0])
     return np.asarray(rfft(np.concatenate([values, values[::-1], held])))
 
 
 def swung(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_ratio: float) -> Samples:
-    """Let a series of a state's samples pass a spring with a mass on it, gain one at rest."""
+    """Filter a series of a state's samples by a mass on a spring, with gain one at rest."""
     count = len(state.position)
     size = next_fast_len(2 * count, real=True)
     ratio = rfftfreq(size, step_of(state)) / resonance_hz
@@ -84,7 +85,7 @@ def swung(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_r
 
 
 def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
-    """Low-pass columns without delay; beyond its ends a series is continued by its end values."""
+    """Filter columns by a zero-phase low-pass; beyond its ends a series is continued by its end values."""
     response = kernel(min(band_hz, 0.4 / step_of(state)), 1.0 / step_of(state), 2)
     reach = len(response) // 2
     padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")

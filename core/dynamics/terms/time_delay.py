@@ -1,4 +1,4 @@
-"""Give what a torque channel that lags behind the positions adds: the predicted torque late, minus on time.
+"""Give the effect of a delayed torque channel: the delayed minus the predicted torque.
 
 A delay d turns tau(t) into tau(t - d); a negative one leads. The column is the change over d, so that its
 linear parameter is the delay when the two agree; without a d it is minus the rate. Source: Ljung, System
@@ -20,7 +20,7 @@ from .effect import AllJointsTerm, Symbol, rates
 
 @dataclass(frozen=True, eq=False)
 class Delay(AllJointsTerm):
-    """Model a torque channel that is late by the same time on all joints, in s near `around`."""
+    """Model a delay of the torque channels, the same on all joints, in s near `around`."""
 
     believed: Prediction
     around: float = 0.0
@@ -30,7 +30,7 @@ class Delay(AllJointsTerm):
     channel: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
-        """Give (late minus plain predicted torque) / delay; for no delay, minus the rate."""
+        """Give (delayed minus predicted torque) / delay; for no delay, minus the rate."""
         del robot
         torque = self.believed.scaled(state)
         if self.around == 0.0 or state.time is None:

@@ -1,8 +1,8 @@
-"""Give what a lying encoder adds: the model's torque at the true angle, minus that at the measured one.
+"""Give the effect of an encoder error: the model's torque at the true angle, minus that at the measured one.
 
-An encoder reads the true angle plus an error; the true angle is the reading minus the error, to first order
-in the error. A constant error changes gravity and inertia only; one that varies with the angle also changes
-velocity and acceleration, and with them friction and rotor torque. Source: Khalil & Dombre (2002), ch. 11.
+An encoder reads the true angle plus an error; to first order the true angle is the reading minus the error. A
+constant error changes gravity and inertia only. An error that varies with the angle also changes velocity and
+acceleration, and with them friction and rotor torque. Source: Khalil & Dombre (2002), ch. 11.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from ..prediction import Prediction, moved
 from .effect import AllJointsTerm, Symbol
 
 SMALL = 1e-5
-"""Size of the finite error, rad: its square is nothing, its rounding neither."""
+"""Size of the finite error, rad: its square and its rounding are negligible."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class EncoderEccentricity(AllJointsTerm):
         """Give minus the change of torque per rad of sin(q), and of cos(q)."""
         del robot
         own = self.joint - 1
-        q, dq, ddq = (one[:, [own]] for one in (state.position, state.velocity, state.acceleration))
+        q, dq, ddq = (series[:, [own]] for series in (state.position, state.velocity, state.acceleration))
         sine, cosine = np.sin(q), np.cos(q)
         errors = (
             MotionState(sine, cosine * dq, cosine * ddq - sine * dq**2),
@@ -56,7 +56,7 @@ class EncoderEccentricity(AllJointsTerm):
         out = []
         for error in errors:
             shift = MotionState(
-                *(-SMALL * one for one in (error.position, error.velocity, error.acceleration))
+                *(-SMALL * series for series in (error.position, error.velocity, error.acceleration))
             )
             out.append((self.believed.torque(moved(state, own, shift)) - plain) / SMALL)
         return out

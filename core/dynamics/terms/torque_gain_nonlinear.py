@@ -1,7 +1,7 @@
-"""Give what a torque constant that varies with current adds to a channel: the predicted torque cubed.
+"""Give the effect of a torque constant that varies with current on a channel: the predicted torque cubed.
 
-Where the channel reads tau + c tau^3, tau being all of the joint's torque, the column is tau^3; a motor that
-saturates needs more current than it should, and c is positive. Source: the first odd term beyond a constant
+Where the channel reads tau + c tau^3, with tau the whole torque of the joint, the column is tau^3. A motor in
+magnetic saturation needs more current, and c is positive. Source: the first odd term beyond a constant
 gain; Gautier & Briot 2011 on drive gains.
 """
 

@@ -1,6 +1,7 @@
-"""Give the torque that waves along a joint's angle: cos(h q) and sin(h q).
+"""Give torque ripple: cos(h q) and sin(h q).
 
-Cogging, wave generators and gear teeth repeat per turn of motor or gear, at h waves per turn of the joint.
+Cogging, wave generators and gear teeth repeat per revolution of motor or gear, at h cycles per revolution of
+the joint.
 Source: Madsen et al. 2020 (strain-wave gears).
 """
 
@@ -17,7 +18,7 @@ from .effect import OneJointTerm, Symbol
 
 @dataclass(frozen=True, eq=False)
 class Ripple(OneJointTerm):
-    """Model a torque with `harmonic` waves per turn, their phase counted from `centre`, rad."""
+    """Model a torque with `harmonic` cycles per revolution, their phase relative to `centre`, rad."""
 
     harmonic: float
     centre: float

@@ -1,7 +1,7 @@
-"""Give the torque of a motor that turns with two joints although the robot's description does not say so.
+"""Give the torque of an undeclared transmission coupling: a motor that turns with two joints.
 
-The columns are those of a declared coupling, so that declaring it is the cure. Source: Janot, Vandanjon &
-Gautier, IEEE Trans. Control Syst. Technol. 22(1), 2014.
+The columns are those of a declared coupling, so that declaring it is the correction. Source: Janot, Vandanjon
+& Gautier, IEEE Trans. Control Syst. Technol. 22(1), 2014.
 """
 
 from dataclasses import dataclass, replace

@@ -1,7 +1,7 @@
-"""Give a torque channel whose zero drifts: evenly, or fast at first as electronics that warm up.
+"""Give the drift of a torque channel's offset: linear, or faster at first as electronics warm up.
 
-The parameter is the whole drift from the first instant to the last; its course is 1 - exp(-t / tc), which is
-even where tc is many times the duration. Source: the step response of a first-order lag.
+The parameter is the total drift from the first instant to the last. Its course is 1 - exp(-t / tc), which is
+linear where tc is many times the duration. Source: the step response of a first-order lag.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Drift(OneJointTerm):
     channel: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
-        """Give the share of the drift that is over."""
+        """Give the share of the drift that has passed."""
         del robot
         if state.time is None:
             return [np.zeros(len(state.position))]
@@ -35,7 +35,7 @@ class Drift(OneJointTerm):
 
 
 def course(passed: Samples, duration: float, time_constant: float) -> Samples:
-    """Give the share of a drift that is over when some of its duration has passed (all in s).
+    """Give the share of a drift after some of its duration has passed (all in s).
 
     Examples
     --------

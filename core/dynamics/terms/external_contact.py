@@ -1,8 +1,8 @@
-"""Give what something that pushes against a link adds while it pushes: minus J(q)' times a wrench.
+"""Give the torque of external contacts of a link: minus J(q)' times a wrench.
 
-Every contact has a wrench of its own, constant in the base's axes, that swells and fades as half a sine; its
-force acts at the origin of the link's frame, its moment stands for the lever of the point of contact. What
-helps the drives is missing from their torque. Source: De Luca & Mattone, ICRA 2005; Khalil & Dombre (2002),
+Every contact has its own wrench, constant in the base's axes, that rises and falls as a half sine. Its force
+acts at the origin of the link's frame, its moment represents the lever of the point of contact. A force that
+supports the drives reduces their torque. Source: De Luca & Mattone, ICRA 2005; Khalil & Dombre (2002),
 ch. 5.
 """
 
@@ -16,8 +16,7 @@ from ...arrays import JointSeries, Samples
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..jacobian import Jacobian, jacobian
-from .effect import AllJointsTerm, Symbol
-from .rounding import without_rounding
+from .effect import AllJointsTerm, Symbol, without_rounding
 
 Span = tuple[float, float]
 """Start and end of a contact, s."""
@@ -53,7 +52,7 @@ class Contact(AllJointsTerm):
 
 
 def swell(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:
-    """Rise and fall as half a sine of height one within a span; or each sample within one of its own.
+    """Give a half sine of height one within a span; or each sample within its own span.
 
     Examples
     --------
@@ -67,7 +66,7 @@ def swell(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:
 
 @lru_cache(maxsize=16)
 def pushed(robot: RobotModel, link: int, state: MotionState) -> Jacobian:
-    """Give the Jacobian along a stretch; kept for the last few, because many spans are tried on them."""
+    """Give the Jacobian along a stretch; cached, because many spans are tried on the same one."""
     rows = np.moveaxis(jacobian(robot, link, state.position), 1, 0)
     found = np.stack(without_rounding(list(rows)), axis=1)
     found.setflags(write=False)

@@ -1,4 +1,4 @@
-"""Give the torque of a rotor that the robot's description leaves out: the joint's own acceleration.
+"""Give the torque of an undeclared rotor: proportional to the joint's own acceleration.
 
 Source: Khalil & Dombre, Modeling, Identification and Control of Robots (2002), ch. 9.
 """

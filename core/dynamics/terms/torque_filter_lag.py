@@ -1,7 +1,7 @@
-"""Give what a low-pass filter in the torque channel adds: the filtered prediction minus the plain one.
+"""Give the effect of a low-pass filter in the torque channel: the filtered minus the predicted torque.
 
-A first-order filter with time constant T leaves tau / (1 + T s); to first order in T it is a delay by T, to
-second order it takes T^2 s^2 where a delay takes half as much. The column is the difference over T, so that
+A first-order filter with time constant T gives tau / (1 + T s). To first order in T it is a delay by T; to
+second order it has T^2 s^2 where a delay has half as much. The column is the difference over T, so that
 its linear parameter is the time constant when the two agree. Source: Oppenheim & Willsky, Signals and Systems
 (1997), ch. 6.
 """
@@ -21,7 +21,7 @@ from .effect import AllJointsTerm, Symbol, step_of
 
 @dataclass(frozen=True, eq=False)
 class FilterLag(AllJointsTerm):
-    """Model a first-order low-pass of all torque channels; `around` is the time constant in s it is near."""
+    """Model a first-order low-pass of all torque channels; `around` is the linearisation point in s."""
 
     believed: Prediction
     around: float
@@ -31,14 +31,14 @@ class FilterLag(AllJointsTerm):
     channel: ClassVar[bool] = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
-        """Give (low-passed minus plain predicted torque) / time constant."""
+        """Give (filtered minus predicted torque) / time constant."""
         del robot
         torque = self.believed.scaled(state)
         return [(low_passed(torque, step_of(state), self.around) - torque) / self.around]
 
 
 def low_passed(values: JointSeries, step: float, time_constant: float) -> JointSeries:
-    """Pass columns through 1 / (1 + T s), exactly for what runs straight between samples, settled at first.
+    """Filter columns by 1 / (1 + T s), exact for linear interpolation, in steady state at the first sample.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def low_passed(values: JointSeries, step: float, time_constant: float) -> JointS
 
     Examples
     --------
-    A ramp comes out late by the time constant, once settled.
+    In steady state a ramp is delayed by the time constant.
 
     >>> ramp = np.arange(200.0)[:, None]
     >>> float((ramp - low_passed(ramp, 1.0, 4.0))[-1, 0])

@@ -1,4 +1,4 @@
-"""Give the torque that a hose or cable takes once it is taut: a spring over part of the range only.
+"""Give the torque of a hose or cable once it is taut: a spring over part of the range.
 
 (q - qa)+ where it pulls above the angle qa at which it engages, -(qa - q)+ where it pulls below. Source: the
 one-sided linear spring.
@@ -26,7 +26,7 @@ class Cable(OneJointTerm):
     loads: ClassVar[bool] = True
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
-        """Give how far the angle is beyond the engagement, signed as the angle."""
+        """Give the angle beyond the engagement, with its sign."""
         del robot
         beyond = state.position[:, self.joint - 1] - self.engage_angle
         return [np.maximum(beyond, 0.0) if self.side >= 0.0 else np.minimum(beyond, 0.0)]
