@@ -38,9 +38,9 @@ def swing(state):
 
 WORDS = {
     product: "the product of the speeds of joints 1 and 3",
-    wave_of_another_joint: "a wave over joint 1's angle (2 per turn) with the sign of its own speed",
-    beat: "a rhythm of 2.5 s, whatever the robot does",
-    swing: "something that swings by itself at about 1.8 Hz",
+    wave_of_another_joint: "a wave over joint 1's angle (2 per revolution) with the sign of its own speed",
+    beat: "a period of 2.5 s, independent of the motion",
+    swing: "an oscillation at about 1.8 Hz, independent of the motion",
 }
 
 
