@@ -1,7 +1,7 @@
-"""Look no higher than the positions allow: above some frequency their own noise rules the residual.
+"""Limit the bandwidth where position noise dominates the residual.
 
-Noise of a position grows with the square of frequency on its way to a torque. Where it does, the columns
-themselves are noisy, every coefficient is drawn towards zero at high frequencies, and a delay or a filter
+Position noise grows with the square of frequency on its way to a torque. There the columns themselves are
+noisy, every coefficient is biased towards zero at high frequencies (attenuation), and a delay or a filter
 would seem to explain it. Source: Fuller, Measurement Error Models (1987), ch. 1.
 """
 

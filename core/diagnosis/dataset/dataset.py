@@ -1,9 +1,9 @@
-"""Prepare the equations that a diagnosis looks at: a wider band than the fit's, and rows kept in memory.
+"""Build the data set of a diagnosis: filtered rows of a wider band than the fit's, kept in memory.
 
-An identification filters as low as the motion allows; a diagnosis needs what lies above (gear ripple,
-compliance, delays), so its parallel filter passes forty times the motion's band, a twelfth of the rate at
-most. Rows within the filter's main lobe of a velocity reversal are set apart: there the sign of a measured
-velocity is not the direction of friction. Long logs are looked at in evenly spread stretches.
+An identification filters as low as the motion allows. A diagnosis needs the content above (gear ripple,
+compliance, delays), so its parallel filter passes forty times the motion's bandwidth, a twelfth of the rate
+at most. Rows within the filter's main lobe of a velocity reversal are marked: there the sign of a measured
+velocity is not the direction of friction. Of long logs evenly spread stretches are used.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -56,7 +56,7 @@ class Dataset:
     Attributes
     ----------
     robot
-        The robot as it is believed.
+        The robot as described.
     time, log, block
         Per row: instant in s, number of the log and of its block, from 0.
     torque
@@ -64,17 +64,17 @@ class Dataset:
     usable
         Rows that may be used per joint, and those of them clear of reversals (`clear`).
     held_out
-        Rows that no fit may see.
+        Held-out rows, which no fit uses.
     state
         The motion at the rows.
     sticking
-        Per joint, rows x columns that stand for any friction while the joint is as good as at rest.
+        Per joint, nuisance columns: any friction while the joint is practically at rest.
     band_hz
         Cut-off of the parallel filter; `motion_band_hz` that of the motion.
     position_share
         Per joint, the share of the white residual's mean square that noise of the positions has.
     position_torque
-        What such noise makes of the torque, as one draw of it: rows x joints, N m or N.
+        One draw of the torque error that such noise causes: rows x joints, N m or N.
     """
 
     robot: RobotModel
@@ -117,7 +117,7 @@ class Dataset:
 
     @property
     def held_out_blocks(self) -> frozenset[BlockKey]:
-        """Name the blocks that no fit may see."""
+        """Name the held-out blocks."""
         keys = np.unique(np.column_stack([self.log, self.block])[self.held_out], axis=0)
         return frozenset((int(log), int(block)) for log, block in keys)
 
@@ -215,10 +215,10 @@ def build_dataset(
 
 
 def _options(log: JointLog, width: float) -> FilterOptions:
-    """Choose the band of a diagnosis from the motion's own, and rows that fall on thinned states.
+    """Choose the bandwidth of a diagnosis from the motion's own, and rows that fall on thinned states.
 
-    A running median cuts the tip off every turning point of a position, which leaves as much torque as a
-    small effect: it is taken only where there are spikes to be rid of.
+    A running median flattens every turning point of a position, which leaves as much torque as a small
+    effect: it is used only where there are spikes.
     """
     band = choose_recipe(log, FilterOptions()).motion_band_hz
     cutoff = min(width * band, log.rate_hz / RATE_OVER_BAND)

@@ -1,7 +1,7 @@
-"""Filter what a body adds that comes within a stretch, from what it would add throughout.
+"""Filter the columns of a payload from its onset, from those of a payload that is always there.
 
-Its instant is searched finely and its columns are many; away from that instant they are those of a body that
-was always there, or nothing.
+Its onset is searched finely and its columns are many. Away from the onset they equal those of a payload that
+is always there, or zero.
 """
 
 from functools import lru_cache

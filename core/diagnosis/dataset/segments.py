@@ -1,7 +1,7 @@
-"""Cut a conditioned log into the stretches that a diagnosis keeps in memory, with their filtered rows.
+"""Cut a conditioned log into the segments that a diagnosis keeps in memory, with their filtered rows.
 
-States are thinned as far as the parallel filter's band allows. Rows near a velocity reversal are told apart:
-there the sign of a measured velocity is not the direction of friction.
+States are decimated as far as the parallel filter's bandwidth allows. Rows near a velocity reversal are
+marked: there the sign of a measured velocity is not the direction of friction.
 """
 
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ STRETCH_SECONDS = 30.0
 
 @dataclass(frozen=True, eq=False)
 class DatasetSegment:
-    """Hold one stretch of a log with what a look keeps of its rows (see `Dataset`)."""
+    """Hold one segment of a log with what a data set keeps of its rows (see `Dataset`)."""
 
     log: int
     stretch: Stretch

@@ -1,4 +1,4 @@
-"""Tell a spike of the torque channel from something that pushes: one lasts a sample, the other many.
+"""Tell a spike of the torque channel from a contact: a spike lasts one sample, a contact many.
 
 A filter makes a swell of a spike, so that only the raw samples tell them apart. Source: Davies & Gather, J.
 Am. Stat. Assoc. 88, 1993, for outliers against a quantile of what surrounds them.

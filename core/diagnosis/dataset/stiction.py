@@ -1,9 +1,10 @@
-"""Let friction be anything while a joint is as good as at rest: columns of any size for these instants.
+"""Give nuisance columns for stiction: friction is arbitrary while a joint is practically at rest.
 
 While a joint sticks, friction balances the torque, anywhere between minus and plus its level, and the sign of
-a measured velocity says nothing about it. Polynomials over every such stretch of time, with as many
-coefficients as the filter lets through, take the place of rows that would have to be left out: what happens
-right beside a reversal stays evidence. Source: Frisch & Waugh 1933, for columns that are only to be rid of.
+a measured velocity does not determine it. Polynomials over every such span, with as many coefficients as the
+filter passes, stand in for it: rows
+right beside a reversal remain evidence.
+Source: Frisch & Waugh 1933, for columns that are only to be rid of.
 """
 
 from itertools import pairwise

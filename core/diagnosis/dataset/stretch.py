@@ -1,4 +1,4 @@
-"""Carry one contiguous stretch of motion of a look, with the filter that turns its series into rows."""
+"""Hold one contiguous stretch of motion of a data set, with the filter that turns its series into rows."""
 
 from dataclasses import dataclass
 

@@ -1,8 +1,8 @@
-"""Model a residual's memory, so that a statistic is not fooled by it.
+"""Model the autocorrelation of a residual by an autoregression per joint.
 
-A filtered residual is far from independent from row to row; naive deviations and p-values are then wrong by
-factors. An autoregression per joint whitens residual and columns alike; runs of rows that follow each other
-without a gap begin with predictors of lower order, which is the exact likelihood of a stationary process.
+The rows of a filtered residual are correlated, and deviations and p-values that ignore it are wrong by
+factors. The autoregression prewhitens residual and columns alike. Runs of consecutive rows begin with
+predictors of lower order, which gives the exact likelihood of a stationary process.
 Sources: Burg 1975; Brockwell & Davis, Time Series (1991), ch. 5 and 8.
 """
 
@@ -43,7 +43,7 @@ class ARNoise:
         return len(self.predictors) - 1
 
     def whitened(self, columns: Matrix, place: Indices) -> Matrix:
-        """Turn columns into innovations of unit variance.
+        """Prewhiten columns: turn them into innovations of unit variance.
 
         Parameters
         ----------
@@ -55,7 +55,7 @@ class ARNoise:
         return np.asarray(self.whitening(place) @ columns)
 
     def whitening(self, place: Indices) -> csr_array:
-        """Write the whitening as a matrix: each row less what the rows before it in its run predict."""
+        """Give the prewhitening as a matrix: each row less its prediction from earlier rows of its run."""
         known, lags = np.minimum(place, self.order), np.arange(self.order + 1)
         inside = lags <= known[:, None]
         columns = (np.arange(len(place))[:, None] - lags)[inside]
@@ -63,7 +63,7 @@ class ARNoise:
         return csr_array((self.weights[known][inside], columns, starts), (len(place), len(place)))
 
     def innovations(self, residual: Vector, place: Indices) -> Vector:
-        """Turn one column into innovations of unit variance, at less cost than by the matrix."""
+        """Prewhiten one column, at less cost than by the matrix."""
         out = np.empty(len(residual))
         innovate(np.array(residual), place, self.weights, out)
         return out
@@ -78,22 +78,19 @@ class ARNoise:
         return np.asarray(weights / self.deviations[:, None])
 
     def departure(self, other: "ARNoise", residual: Vector, place: Indices) -> float:
-        """Give by how much less likely noise like a residual, which is of this kind, is under another kind.
-
-        To be expected, in logarithms, and never below zero: Kullback & Leibler's divergence.
-        """
+        """Give the Kullback-Leibler divergence of another noise from this one, for rows like a residual's."""
         own, theirs = (one.innovations(residual, place) for one in (self, other))
         ratio = float(theirs @ theirs) / max(float(own @ own), 1e-300)
         scale = other.log_deviations(place) - self.log_deviations(place)
         return scale + 0.5 * len(place) * (ratio - 1.0)
 
     def log_likelihood(self, residual: Vector, place: Indices) -> float:
-        """Give the log-likelihood of a residual, up to what no noise changes."""
+        """Give the log-likelihood of a residual, up to a constant."""
         white = self.innovations(residual, place)
         return -0.5 * float(white @ white) - self.log_deviations(place)
 
     def log_deviations(self, place: Indices) -> float:
-        """Give the sum over rows of the logarithm of their innovation's deviation."""
+        """Give the sum over rows of the logarithm of the innovation's deviation."""
         counts = np.bincount(np.minimum(place, self.order), minlength=self.order + 1)
         return float(counts @ np.log(self.deviations))
 
@@ -101,14 +98,14 @@ class ARNoise:
 def fit_ar_noise(
     residual: Vector, place: Indices, order: int | None = None, *, taken: float = 0.0
 ) -> ARNoise:
-    """Learn an autoregression from a residual; of the highest order that its length allows unless given.
+    """Fit an autoregression to a residual; of the highest order that its length allows by default.
 
     A fixed order keeps likelihoods comparable: one chosen by a criterion jumps between hypotheses.
 
     Parameters
     ----------
     taken
-        Degrees of freedom that a fit took out of the residual.
+        Degrees of freedom of the fit that left the residual.
     """
     predictors, variances = _burg(residual, place)
     if order is None:
@@ -131,7 +128,7 @@ def places(follows: np.ndarray) -> Indices:
 
 
 def _burg(residual: Vector, place: Indices) -> tuple[list[Weights], Weights]:
-    """Find predictors of rising order by Burg's reflections, which the runs' ends do not bias."""
+    """Give predictors of rising order by Burg's method, which the ends of runs do not bias."""
     predictors, variances = np.zeros((1 + HIGHEST_ORDER, HIGHEST_ORDER)), np.zeros(1 + HIGHEST_ORDER)
     known = reflect(np.array(residual), place, FORGOTTEN, ROWS_PER_REFLECTION, predictors, variances)
     return [predictors[order, :order] for order in range(known + 1)], variances[: known + 1]

@@ -1,9 +1,9 @@
-"""Fit a model to the rows of a look under coloured noise, and say how likely the rows are under it.
+"""Fit columns to the rows of a data set by generalised least squares under AR noise, iterated.
 
-Generalised least squares: per joint the rows are whitened by the joint's own autoregression, which is learned
-again from the residual of every hypothesis; a noise model kept from another hypothesis would have learned the
-effect in question as noise. A fit under coloured noise may leave slow torque to the noise, and noise learned
-from what it left leaves it more: where that goes too far, noise is learned from what an ordinary fit leaves.
+Per joint the rows are prewhitened by the joint's own autoregression, which is estimated again from the
+residual of every hypothesis. A noise model of another hypothesis would have absorbed the effect in question.
+A fit under coloured noise may leave slow torque to the noise, and noise estimated from that residual absorbs
+more of it. Where that goes too far, noise is estimated from the residual of ordinary least squares.
 Sources: Aitken 1936; Cochrane & Orcutt 1949; Amemiya, Advanced Econometrics (1985), ch. 6, on one step from
 ordinary residuals; Brunot et al., Control Eng. Pract. 74, 2018.
 """
@@ -30,7 +30,7 @@ OPEN_SHARE = 1e-6
 """A column of which the others already span all but this share is no evidence for anything."""
 ROUNDS, TRIAL_ROUNDS = 3, 2
 SETTLED = 0.1
-"""What noise learned anew has to add to a joint's log-likelihood; what decides adds three or more."""
+"""What noise estimated anew has to add to a joint's log-likelihood; what decides adds three or more."""
 TOO_MUCH = 1.3
 """Residual of a fit under coloured noise over that of an ordinary one that is too much."""
 
@@ -42,9 +42,9 @@ class Fit:
     Attributes
     ----------
     joints
-        The whitened rows per joint.
+        The prewhitened rows per joint.
     left
-        What the columns leave of their torque, white.
+        Their residual, white.
     values
         Coefficient of every column.
     factor
@@ -54,7 +54,7 @@ class Fit:
     prior
         Normal prior of the first columns' coefficients; None for none.
     plain
-        The ordinary fit from whose residual noise is learned; None where it is learned from this one's.
+        The ordinary fit from whose residual noise is estimated; None where it is estimated from this one's.
     """
 
     joints: tuple[Prewhitened, ...]
@@ -90,39 +90,39 @@ def fit(
     prior: GaussianPrior | None = None,
     ordinary: bool = False,
 ) -> Fit:
-    """Fit all columns to all joints' rows, learning the noise anew in every round.
+    """Fit all columns to all joints' rows, estimating the noise again in every round.
 
     Parameters
     ----------
     noise
-        What to begin with; None to begin with white noise of the torque's size.
+        The noise of the first round; None for white noise of the torque's size.
     prior
         Normal prior of the first columns' coefficients.
     ordinary
-        Whether noise is learned from what an ordinary fit leaves.
+        Whether noise is estimated from the residual of an ordinary fit.
     """
     size = _size(joints)
     if noise is not None:
-        return _settled(joints, _solved(_whitened(joints, noise), size, prior), None, rounds)
+        return _iterated(joints, _solved(_prewhitened(joints, noise), size, prior), None, rounds)
     if ordinary:
         plain = _ordinary(joints, prior)
-        return _settled(joints, replace(plain, plain=plain), None, rounds + 1)
+        return _iterated(joints, replace(plain, plain=plain), None, rounds + 1)
     first = _white_noise(joints, [rows.torque for rows in joints])
-    return _settled(joints, _solved(_whitened(joints, first), size, prior), None, rounds + 1)
+    return _iterated(joints, _solved(_prewhitened(joints, first), size, prior), None, rounds + 1)
 
 
 def noise_absorbs_effect(joints: tuple[JointRows, ...], found: Fit) -> bool:
-    """Tell whether a fit leaves some joint's noise much more than an ordinary fit leaves."""
+    """Tell whether a fit leaves much more residual on some joint than an ordinary fit does."""
     plain = _ordinary(joints, found.prior)
     pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
     return any(float(ours @ ours) > TOO_MUCH**2 * float(theirs @ theirs) for ours, theirs in pairs)
 
 
 def _ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit:
-    """Fit under white noise, of the size of what the fit under white noise of the torque's size leaves."""
+    """Fit by ordinary least squares, with each joint weighted by its residual."""
     size = _size(joints)
-    first = _solved(_whitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, prior)
-    return _solved(_whitened(joints, _white_noise(joints, _left(joints, first))), size, prior)
+    first = _solved(_prewhitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, prior)
+    return _solved(_prewhitened(joints, _white_noise(joints, _left(joints, first))), size, prior)
 
 
 def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[ARNoise, ...]:
@@ -134,10 +134,10 @@ def _size(joints: tuple[JointRows, ...]) -> int:
 
 
 def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
-    return [part.missed(rows, found.values) for part, rows in zip(found.joints, joints, strict=True)]
+    return [part.residual(rows, found.values) for part, rows in zip(found.joints, joints, strict=True)]
 
 
-def _whitened(joints: tuple[JointRows, ...], noise: tuple[ARNoise, ...]) -> tuple[Prewhitened, ...]:
+def _prewhitened(joints: tuple[JointRows, ...], noise: tuple[ARNoise, ...]) -> tuple[Prewhitened, ...]:
     return tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True))
 
 
@@ -149,56 +149,56 @@ def refit(
     *,
     rounds: int = ROUNDS,
 ) -> Fit:
-    """Fit the same rows to other columns, learning the noise anew from where another fit left it.
+    """Fit the same rows to other columns, estimating the noise again from that of another fit.
 
     Parameters
     ----------
     kept
         How many of the first columns are those of the fit before.
     touched
-        Joints (from 0) whose noise is learned anew; None for all.
+        Joints (from 0) whose noise is estimated again; None for all.
     """
     parts = tuple(
         old.with_columns(kept, rows.columns[:, kept:])
         for old, rows in zip(before.joints, joints, strict=True)
     )
     plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
-    return _settled(joints, _solved(parts, _size(joints), before.prior, plain), touched, rounds)
+    return _iterated(joints, _solved(parts, _size(joints), before.prior, plain), touched, rounds)
 
 
-def _settled(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
-    """Learn the noise of some or all joints again and again, until that hardly makes the rows more likely."""
+def _iterated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
+    """Estimate the noise of some or all joints again until the likelihood hardly rises."""
     for _ in range(rounds):
-        before, found = found, _relearned(joints, found, touched)
+        before, found = found, _reestimated(joints, found, touched)
         if found is before:
             break
     return found
 
 
-def _relearned(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
-    """Learn the noise of some or all joints from their residual; fit again where that makes a difference."""
+def _reestimated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
+    """Estimate the noise of some or all joints from their residual; fit again where it changed."""
     parts, seen = list(found.joints), found.plain or found
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
-        residual = seen.joints[joint].missed(rows, seen.values)
-        learned = fit_ar_noise(residual, rows.place, taken=degrees_taken(rows, joints))
-        if learned.departure(known.noise, residual, rows.place) > SETTLED:
-            parts[joint] = whitened(rows, learned)
+        residual = seen.joints[joint].residual(rows, seen.values)
+        estimated = fit_ar_noise(residual, rows.place, taken=degrees_of_freedom(rows, joints))
+        if estimated.departure(known.noise, residual, rows.place) > SETTLED:
+            parts[joint] = whitened(rows, estimated)
     if tuple(parts) == found.joints:
         return found
     return _solved(tuple(parts), _size(joints), found.prior, found.plain)
 
 
-def degrees_taken(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
-    """Count the degrees of freedom that a fit took from one joint's rows: its own and a share of the rest."""
+def degrees_of_freedom(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
+    """Count a fit's degrees of freedom on one joint's rows: nuisance columns and a share of the others."""
     total = sum(len(one.rows) for one in joints)
-    return float(rows.free.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
+    return float(rows.nuisance.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
 def _solved(
     joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | None, plain: Fit | None = None
 ) -> Fit:
-    """Solve the normal equations, then for what is left of them: the ridge, and rounding, bias one step."""
+    """Solve the normal equations with iterative refinement: the ridge and rounding bias one step."""
     gram = np.zeros((size, size))
     for one in joints:
         gram[np.ix_(one.acting, one.acting)] += one.gram

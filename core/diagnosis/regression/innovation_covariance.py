@@ -1,6 +1,6 @@
-"""Give what a believed model leaves of the filtered torque: a cause's first look at when and how much.
+"""Give the residual at the operating point and the inverse covariance of its noise.
 
-A first look only settles where to search; what counts is judged on the complement of the fitted columns.
+Transient causes use both to find where to search. They are tested on the complement of the fitted columns.
 """
 
 import numpy as np
@@ -29,11 +29,11 @@ def fitted_rows(dataset: Dataset) -> np.ndarray:
 
 
 def inverse_covariances(dataset: Dataset, left: JointSeries, mask: np.ndarray) -> tuple[csr_array, ...]:
-    """Give, per joint, the inverse covariance of a misfit's noise over the marked rows; zero elsewhere.
+    """Give, per joint, the inverse covariance of a residual's noise over the marked rows; zero elsewhere.
 
-    The noise is learned from the quieter half: what happens once in a while is not to be learned as noise.
-    Quiet is what brings little that is new, since a slow noise is large for a while by itself. How much is
-    new in the middle of all rows gives its size: rows that were chosen for being quiet are quieter than it.
+    The noise is estimated from the blocks with the smaller innovations, so that transients are not absorbed.
+    Innovations decide, since slow noise is large for a while by itself. The median innovation of all rows
+    gives its size: the chosen blocks are quieter than the rest.
     """
     out = []
     for joint in range(dataset.joints):

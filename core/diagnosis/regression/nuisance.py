@@ -1,8 +1,9 @@
-"""Take out of rows whatever short-lived columns of any size can stand for.
+"""Project nuisance columns out of rows: columns with short support and arbitrary coefficients.
 
-Ordered by time such columns overlap with their neighbours only: their Gram matrix is banded, and factorising
-it costs as much as there are columns, not their cube. Taking their span out twice mends what one pass leaves,
-which is rounding times the square of their condition. Source: Bjorck, Numerical Methods for Least Squares
+In the order of time such columns overlap with their neighbours only. Their Gram matrix is banded, and
+factorising it costs as much as there are columns, not their cube. A second projection removes what rounding
+leaves in the first, which grows with the square of their condition.
+Source: Bjorck, Numerical Methods for Least Squares
 Problems (1996), ch. 6 (banded normal equations) and 2.4 (repeated orthogonalisation).
 """
 
@@ -43,8 +44,8 @@ class Nuisance:
         """Count the degrees of freedom that the columns take."""
         return int(self.columns.shape[1])
 
-    def cleared(self, rows: Matrix) -> Matrix:
-        """Take out of columns over the same rows what the free ones span."""
+    def without_nuisance(self, rows: Matrix) -> Matrix:
+        """Project columns over the same rows on the complement of the nuisance columns."""
         if not self.count:
             return rows
         for _ in range(2):
@@ -53,17 +54,17 @@ class Nuisance:
         return rows
 
     def coefficients(self, rows: Vector) -> Weights:
-        """Give how much of each column, in the size it came in, a column over the same rows holds."""
+        """Give the least-squares coefficients of a column over the same rows, in the columns' own sizes."""
         along = np.zeros(self.count)
         for _ in range(2 if self.count else 0):
             more, _ = dpbtrs(self.factor, self.with_other_holdout @ (rows - self.columns @ along), lower=1)
             along += more
         return np.asarray(along / self.sizes)
 
-    def inside(self, rows: Matrix) -> EquationRows:
-        """Write what the free ones span of columns along orthonormal axes: products of such parts are theirs.
+    def in_span(self, rows: Matrix) -> EquationRows:
+        """Give the part of columns in the nuisance span along orthonormal axes.
 
-        Where products are all that is asked for this costs a quarter of taking the parts out.
+        Where only products are needed this costs a quarter of the projection.
         """
         if not self.count or not rows.shape[1]:
             return np.zeros((self.count, rows.shape[1]))
@@ -72,7 +73,7 @@ class Nuisance:
 
 
 def nuisance_of(columns: csr_array) -> Nuisance:
-    """Prepare independent columns, whatever their size.
+    """Factorise independent columns of any size.
 
     Parameters
     ----------

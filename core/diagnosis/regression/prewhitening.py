@@ -1,7 +1,7 @@
-"""Make one joint's rows white: columns and torque in units of a noise that remembers.
+"""Prewhiten one joint's rows: columns and torque in units of the AR noise.
 
-What a fit and a score are made of is the products of white columns, less what free columns span of them. Both
-are kept, so that other columns beside the same ones cost what they are alone. Source: Aitken 1936.
+Fits and score tests are made of products of white columns, less their part in the nuisance span. Both are
+kept, so that further columns cost what they are alone. Source: Aitken 1936.
 """
 
 from dataclasses import dataclass, replace
@@ -15,12 +15,12 @@ from .nuisance import Nuisance, nuisance_of
 from .rows import JointRows
 
 ROUNDING = 1e-12
-"""Share of a column's square below which what is left of it beside free columns is rounding."""
+"""Share of a column's square below which what is left of it beside nuisance columns is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
 class Prewhitened:
-    """Hold one joint's rows made white: columns and torque in units of the noise.
+    """Hold one joint's prewhitened rows: columns and torque in units of the noise.
 
     Attributes
     ----------
@@ -29,11 +29,11 @@ class Prewhitened:
     acting
         Which columns are not all zero on the joint, in rising order: the others are left out below.
     columns, inside
-        White columns, and what `free` ones span of them (see `Nuisance.inside`).
+        White columns, and what the nuisance columns span of them (see `Nuisance.in_span`).
     gram
-        Products of the columns with each other, less what free columns span.
+        Products of the columns with each other, less what nuisance columns span.
     torque
-        White torque, less what free columns span of it.
+        White torque, less what nuisance columns span of it.
     """
 
     noise: ARNoise
@@ -44,21 +44,21 @@ class Prewhitened:
     gram: SquareMatrix
     torque: Vector
     log_deviations: float
-    free: Nuisance
+    nuisance: Nuisance
 
     def of(self, some: slice) -> EquationRows:
         """Give those of some columns that are not all zero, white."""
         return self.columns[:, slice(*np.searchsorted(self.acting, (some.start, some.stop)))]
 
     def left(self, values: Weights) -> Vector:
-        """Give what the columns leave of the torque, less what free columns span."""
+        """Give what the columns leave of the torque, less what nuisance columns span."""
         whole = (self.columns @ values[self.acting])[:, None]
-        return np.asarray(self.torque - self.free.cleared(whole)[:, 0])
+        return np.asarray(self.torque - self.nuisance.without_nuisance(whole)[:, 0])
 
-    def missed(self, rows: JointRows, values: Weights) -> Vector:
+    def residual(self, rows: JointRows, values: Weights) -> Vector:
         """Give what the columns leave of the same rows, N m, what free ones take being judged when white."""
         left = rows.torque - rows.columns @ values
-        return np.asarray(left - rows.free.columns @ self.free.coefficients(self.whitening @ left))
+        return np.asarray(left - rows.nuisance.columns @ self.nuisance.coefficients(self.whitening @ left))
 
     def with_columns(self, kept: int, further: Matrix) -> "Prewhitened":
         """Keep the first columns and put others, not yet white, beside them."""
@@ -72,7 +72,7 @@ class Prewhitened:
                 inside=inside_before,
                 gram=self.gram[:own, :own],
             )
-        new, white, inside = _white(self.whitening, self.free, further)
+        new, white, inside = _white(self.whitening, self.nuisance, further)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]
         gram[:own, own:] = before.T @ white - inside_before.T @ inside
@@ -89,9 +89,9 @@ class Prewhitened:
 
 def whitened(rows: JointRows, noise: ARNoise) -> Prewhitened:
     """Whiten one joint's rows."""
-    whitening, free = _noise_of(rows, noise)
-    acting, columns, inside = _white(whitening, free, rows.columns)
-    torque = free.cleared((whitening @ rows.torque)[:, None])[:, 0]
+    whitening, nuisance = _noise_of(rows, noise)
+    acting, columns, inside = _white(whitening, nuisance, rows.columns)
+    torque = nuisance.without_nuisance((whitening @ rows.torque)[:, None])[:, 0]
     return Prewhitened(
         noise=noise,
         whitening=whitening,
@@ -101,29 +101,29 @@ def whitened(rows: JointRows, noise: ARNoise) -> Prewhitened:
         gram=_gram(columns, inside),
         torque=torque,
         log_deviations=noise.log_deviations(rows.place),
-        free=free,
+        nuisance=nuisance,
     )
 
 
 def prewhitened_residual(rows: JointRows, noise: ARNoise, left: Matrix) -> EquationRows:
-    """Whiten what some fits leave of one joint's rows, a column each, less what free columns span of it."""
-    whitening, free = _noise_of(rows, noise)
-    return free.cleared(whitening @ left)
+    """Prewhiten residuals of one joint's rows, a column each, on the complement of the nuisance columns."""
+    whitening, nuisance = _noise_of(rows, noise)
+    return nuisance.without_nuisance(whitening @ left)
 
 
 def _noise_of(rows: JointRows, noise: ARNoise) -> tuple[csr_array, Nuisance]:
-    """Give what makes a joint's rows white, and its free columns when white."""
+    """Give what makes a joint's rows white, and its nuisance columns when white."""
     whitening = noise.whitening(rows.place)
-    return whitening, nuisance_of(whitening @ rows.free.columns)
+    return whitening, nuisance_of(whitening @ rows.nuisance.columns)
 
 
 def _white(
-    whitening: csr_array, free: Nuisance, columns: Matrix
+    whitening: csr_array, nuisance: Nuisance, columns: Matrix
 ) -> tuple[Indices, EquationRows, EquationRows]:
     """List the columns that act at all, and give them white, with what free ones span of them."""
     acting = np.flatnonzero(columns.any(axis=0))
     white = np.asarray(whitening @ columns[:, acting])
-    return acting, white, free.inside(white)
+    return acting, white, nuisance.in_span(white)
 
 
 def _gram(columns: EquationRows, inside: EquationRows) -> SquareMatrix:

@@ -1,4 +1,4 @@
-"""Take the rows of a look joint by joint: what is fitted to what, and what may be of any size besides."""
+"""Take the rows of a data set joint by joint: columns, torque and nuisance columns."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -24,20 +24,20 @@ class JointRows:
         Which rows of the look, and their places within runs.
     columns, torque
         What is fitted to what.
-    free
-        Columns of any size: friction while the joint sticks.
+    nuisance
+        Nuisance columns: friction while the joint sticks.
     """
 
     rows: Indices
     place: Indices
     columns: Matrix
     torque: Vector
-    free: Nuisance
+    nuisance: Nuisance
 
-    def missed(self, values: Weights) -> Vector:
-        """Give what the columns leave over, less what the free ones take."""
+    def residual(self, values: Weights) -> Vector:
+        """Give the residual of the columns, on the complement of the nuisance columns."""
         left = self.torque - self.columns @ values
-        return self.free.cleared(left[:, None])[:, 0]
+        return self.nuisance.without_nuisance(left[:, None])[:, 0]
 
 
 def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray) -> tuple[JointRows, ...]:
@@ -58,7 +58,7 @@ def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray
 
 
 def extended(joints: tuple[JointRows, ...], columns: Sequence[Columns]) -> tuple[JointRows, ...]:
-    """Append further columns, given over all rows of the look."""
+    """Append further columns, given over all rows of the data set."""
     widths = [next(iter(one.values())).shape[1] for one in columns]
     out = []
     for joint, rows in enumerate(joints):

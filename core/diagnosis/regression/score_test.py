@@ -1,7 +1,7 @@
-"""Score candidates: by how much each would raise the likelihood, given everything that is already explained.
+"""Score candidates by Rao's score test: the rise of the likelihood, given all that is already fitted.
 
-A candidate's columns are whitened like the residual, projected on the complement of the fitted columns, and
-regressed on; all of it on small Gram matrices, so that thousands of candidates cost as much as a few fits.
+A candidate's columns are prewhitened like the residual and projected on the complement of the fitted columns.
+All of it works on small Gram matrices, so that thousands of candidates cost as much as a few fits.
 Sources: Rao 1948 (score test); Janot, Vandanjon & Gautier, Control Eng. Pract. 48, 2016 (augmented
 regressor).
 """
@@ -20,14 +20,14 @@ from .rows import Columns, JointRows
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Judge one candidate.
+    """Hold the score test of one candidate.
 
     Attributes
     ----------
     statistic
-        Rise of twice the log-likelihood at this noise model.
+        Score statistic at this noise model: the predicted likelihood ratio statistic.
     freedom
-        How many directions of its linear parameters the rows tell.
+        Number of directions of its linear parameters that the rows determine.
     values, covariance
         What its linear parameters would be.
     clear_share
@@ -42,14 +42,14 @@ class Score:
 
 
 class Panel:
-    """Score the same candidates on top of one fit after the other, their columns put side by side once.
+    """Score the same candidates on top of several fits, with their columns stacked once.
 
     Parameters
     ----------
     joints
         The rows that are fitted.
     candidates
-        The candidates' columns, over all rows of the look.
+        The candidates' columns, over all rows of the data set.
     """
 
     def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
@@ -94,7 +94,7 @@ class _Alike:
                 continue
             own = found.joints[joint]
             white = own.whitening @ self._columns[joint]
-            inside = own.free.inside(white)
+            inside = own.nuisance.in_span(white)
             right[present] += (found.left[joint] @ white).reshape(-1, width)
             both = own.columns.T @ white - own.inside.T @ inside
             both = both.reshape(len(own.acting), len(present), width)
@@ -104,7 +104,7 @@ class _Alike:
             grams[present] += whole - _grams(inside, width)
         flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
         reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
-        return _judged(grams - _grams(reduced, width), right, squares)
+        return _tested(grams - _grams(reduced, width), right, squares)
 
 
 def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
@@ -113,15 +113,15 @@ def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRow
 
 
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
-    """Score candidates given as columns over all rows of the look."""
+    """Score candidates given as columns over all rows of the data set."""
     return Panel(joints, candidates).scores(found)
 
 
 def score_onsets(found: Fit, joints: tuple[JointRows, ...], columns: Columns, starts: Indices) -> list[Score]:
-    """Score columns that act from one row of the look on, for each of many such rows.
+    """Score columns that act from one row of the data set on, for each of many such rows.
 
-    What is white from a row on is what is white all along, but for the first rows, as many as the noise
-    remembers: there nothing comes before. Rows from which on the same fitted ones follow score alike.
+    White columns from a row on equal those of all rows, except for as many first rows as the noise has
+    memory. Rows from which on the same fitted ones follow have the same score.
     """
     begins = [np.searchsorted(joints[joint].rows, starts) for joint in columns]
     different, alike = np.unique(begins, axis=1, return_inverse=True)
@@ -140,12 +140,12 @@ def _scores_from(
     grams = np.zeros((count, width, width))
     for (joint, one), first in zip(columns.items(), begins, strict=True):
         rows, own = joints[joint], found.joints[joint]
-        loose, acting = own.free.columns, len(own.acting)
+        loose, acting = own.nuisance.columns, len(own.acting)
         shapes = (width,), (width,), (width, width), (acting, width)
         sums = tuple(np.empty((count, *shape)) for shape in shapes)
         equations = (one[rows.rows], rows.place, own.noise.weights, found.left[joint])
         fitted, inside, factor = (
-            np.ascontiguousarray(table) for table in (own.columns, own.inside, own.free.factor.T)
+            np.ascontiguousarray(table) for table in (own.columns, own.inside, own.nuisance.factor.T)
         )
         free = (loose.data, loose.indices.astype(np.int32), loose.indptr.astype(np.int32))
         sum_begun((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
@@ -155,7 +155,7 @@ def _scores_from(
         cross[:, own.acting] += sums[3]
     flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
     reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
-    return _judged(grams - _grams(reduced, width), right, squares)
+    return _tested(grams - _grams(reduced, width), right, squares)
 
 
 def _grams(columns: Matrix, width: int) -> np.ndarray:
@@ -164,20 +164,20 @@ def _grams(columns: Matrix, width: int) -> np.ndarray:
     return np.asarray(np.swapaxes(parts, 1, 2) @ parts)
 
 
-def _judged(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
-    """Judge candidates by what is left of their Gram matrices, and by their products with the residual."""
+def _tested(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
+    """Test candidates by their projected Gram matrices and their products with the residual."""
     size = np.sqrt(np.maximum(squares, 1e-300))
     left = grams / (size[:, :, None] * size[:, None, :])
     clear = np.clip(np.diagonal(left, axis1=1, axis2=2), 0.0, 1.0).max(axis=1)
-    judged = np.isfinite(left).all(axis=(1, 2)) & (clear >= OPEN_SHARE)
+    tested = np.isfinite(left).all(axis=(1, 2)) & (clear >= OPEN_SHARE)
     out = [_open(right.shape[1])] * len(right)
-    values, vectors = np.linalg.eigh(left[judged])
+    values, vectors = np.linalg.eigh(left[tested])
     inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > OPEN_SHARE)
-    spread = vectors / size[judged][:, :, None]
-    with_other_holdout = np.einsum("nij,ni->nj", spread, right[judged])
+    spread = vectors / size[tested][:, :, None]
+    with_other_holdout = np.einsum("nij,ni->nj", spread, right[tested])
     covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)
     found = np.einsum("nij,nj->ni", spread, with_other_holdout * inverse)
-    for place, index in enumerate(np.flatnonzero(judged)):
+    for place, index in enumerate(np.flatnonzero(tested)):
         statistic = float(with_other_holdout[place] ** 2 @ inverse[place])
         freedom = int(np.count_nonzero(inverse[place]))
         out[index] = Score(statistic, freedom, found[place], covariance[place], float(clear[index]))

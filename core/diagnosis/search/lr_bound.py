@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays import Weights
 from ..regression.ar_noise import fit_ar_noise
-from ..regression.gls import Fit, degrees_taken
+from ..regression.gls import Fit, degrees_of_freedom
 from ..regression.rows import JointRows, extended
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis, ScoredCandidate
@@ -45,11 +45,11 @@ def _statistic(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float
     total = 0.0 if now.prior is None else -0.5 * now.prior.departure(values)
     for joint, (rows, part) in enumerate(zip(joints, now.joints, strict=True)):
         without = replace(rows, torque=rows.torque - effect.get(joint, 0.0))
-        left = part.missed(without, values)
+        left = part.residual(without, values)
         likely = part.noise.log_likelihood(left, rows.place)
         if joint in effect:
-            residual = left if seen is now else seen.joints[joint].missed(without, seen_values)
-            estimated = fit_ar_noise(residual, rows.place, taken=degrees_taken(rows, joints))
+            residual = left if seen is now else seen.joints[joint].residual(without, seen_values)
+            estimated = fit_ar_noise(residual, rows.place, taken=degrees_of_freedom(rows, joints))
             likely = max(likely, estimated.log_likelihood(left, rows.place))
         total += likely
     return 2.0 * (total - now.log_likelihood)
@@ -61,5 +61,5 @@ def _bias_by(found: Fit, effect: Effect) -> Weights:
     for joint, one in effect.items():
         part = found.joints[joint]
         white = (part.whitening @ one)[:, None]
-        slope[part.acting] += (part.columns.T @ white - part.inside.T @ part.free.inside(white))[:, 0]
+        slope[part.acting] += (part.columns.T @ white - part.inside.T @ part.nuisance.in_span(white))[:, 0]
     return found.solve(slope[:, None])[:, 0]

@@ -25,7 +25,7 @@ def residual(fitter: HypothesisFitter, under: Hypothesis, without: Iterable[int]
     values = under.fit.values.copy()
     for place in without:
         values[under.columns_of(place)] = 0.0
-    return np.column_stack([joint.missed(values) for joint in rows])
+    return np.column_stack([joint.residual(values) for joint in rows])
 
 
 def stiction_share(fitter: HypothesisFitter, under: Hypothesis) -> JointVector:
@@ -35,9 +35,9 @@ def stiction_share(fitter: HypothesisFitter, under: Hypothesis) -> JointVector:
     """
     shares = []
     for part in extended(fitter.rows.everywhere, fitter.columns(under.members)):
-        count, taken = len(part.torque), part.free.count
+        count, taken = len(part.torque), part.nuisance.count
         whole = part.torque - part.columns @ under.fit.values
-        left = part.missed(under.fit.values)
+        left = part.residual(under.fit.values)
         ratio = float(left @ left) / max(float(whole @ whole), 1e-300)
         moves = taken < MOST_AT_REST * count
         shares.append(max(1.0 - ratio * count / (count - taken), 0.0) if moves else np.nan)

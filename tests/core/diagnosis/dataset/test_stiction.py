@@ -21,7 +21,9 @@ def parked_arm(seconds: float) -> Dataset:
 def is_masked(dataset: Dataset, joint: int) -> float:
     """Give the share of a joint's torque that free columns leave."""
     torque = dataset.torque[:, [joint]]
-    return float(np.std(nuisance_of(independent(dataset.sticking[joint])).cleared(torque)) / np.std(torque))
+    return float(
+        np.std(nuisance_of(independent(dataset.sticking[joint])).without_nuisance(torque)) / np.std(torque)
+    )
 
 
 def test_any_torque_of_a_joint_at_rest_is_taken_out_and_most_of_a_moving_ones_is_kept():

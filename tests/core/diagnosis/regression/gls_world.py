@@ -35,11 +35,13 @@ class Equations:
         self.mask = rng.random((self.count, 3)) > 0.03
         self.base = tuple(smooth(rng, self.count, len(BASE)) for _ in range(3))
         noise = np.hstack([drawn(weights, rng, self.count) for weights in PROCESSES])
-        self.free = smooth(rng, self.count, free)
+        self.nuisance = smooth(rng, self.count, free)
         torque = np.column_stack([one @ BASE for one in self.base]) + noise + effect
-        torque[:, 1] += self.free @ np.arange(1.0, free + 1.0)
+        torque[:, 1] += self.nuisance @ np.arange(1.0, free + 1.0)
         none = csr_array((self.count, 0))
-        self.dataset: Dataset = replace(dataset, torque=torque, sticking=(none, csr_array(self.free), none))
+        self.dataset: Dataset = replace(
+            dataset, torque=torque, sticking=(none, csr_array(self.nuisance), none)
+        )
         self.joints: tuple[JointRows, ...] = self.again()
 
     def again(self) -> tuple[JointRows, ...]:
@@ -64,7 +66,7 @@ class Equations:
             width = next(iter(columns[0].values())).shape[1] if columns else 0
             nothing = np.zeros((self.count, width))
             own = [one.get(joint, nothing) for one in columns]
-            free = self.free if joint == 1 else np.zeros_like(self.free)
+            free = self.nuisance if joint == 1 else np.zeros_like(self.nuisance)
             parts.append(np.hstack([self.base[joint], *own, free])[kept])
             torque.append(self.dataset.torque[kept, joint])
             covariances.append(dense_covariance(PROCESSES[joint], rows.place))

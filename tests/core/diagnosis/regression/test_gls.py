@@ -50,10 +50,10 @@ def test_what_free_columns_can_stand_for_does_not_reach_the_parameters(equations
 def test_what_a_model_has_at_rest_does_not_change_how_likely_it_is():
     """However large it is, and however alike the columns are that stand for friction at rest."""
     rows = Equations(free=2)
-    apart = 1e-3 * rows.free[:, 1]
-    rows.free[:, 1] = rows.free[:, 0] + apart
+    apart = 1e-3 * rows.nuisance[:, 1]
+    rows.nuisance[:, 1] = rows.nuisance[:, 0] + apart
     alike = replace(
-        rows.dataset, sticking=(rows.dataset.sticking[0], csr_array(rows.free), rows.dataset.sticking[2])
+        rows.dataset, sticking=(rows.dataset.sticking[0], csr_array(rows.nuisance), rows.dataset.sticking[2])
     )
     at_rest = 3e5 * apart[:, None] * np.random.default_rng(7).normal(size=len(BASE))
     heavy = (rows.base[0], rows.base[1] + at_rest, rows.base[2])
@@ -116,7 +116,7 @@ def test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it(se
     found = fit(Equations(seed).with_rests())
     for joint, left, noise in zip(found.joints, found.left, NOISE, strict=True):
         assert joint.noise.deviations[-1] == pytest.approx(noise.deviations[-1], rel=0.1)
-        taken = joint.free.count + len(BASE) / len(NOISE)
+        taken = joint.nuisance.count + len(BASE) / len(NOISE)
         assert left @ left == pytest.approx(len(left) - taken, rel=0.05)
 
 

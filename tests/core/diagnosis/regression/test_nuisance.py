@@ -34,14 +34,14 @@ def dense_remainder(columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
 def test_what_is_left_is_what_a_dense_projection_leaves(count):
     columns = bumps(count)
     rows = np.random.default_rng(1).normal(size=(ROWS, 4))
-    found = nuisance_of(independent(csr_array(columns))).cleared(rows)
+    found = nuisance_of(independent(csr_array(columns))).without_nuisance(rows)
     np.testing.assert_allclose(found, dense_remainder(columns, rows), atol=1e-9)
 
 
 def test_combinations_of_free_columns_vanish_whatever_their_size():
     columns = bumps(20)
     rows = columns @ np.random.default_rng(2).normal(size=(columns.shape[1], 3))
-    left = nuisance_of(independent(csr_array(columns))).cleared(rows)
+    left = nuisance_of(independent(csr_array(columns))).without_nuisance(rows)
     assert np.abs(left).max() < 1e-9 * np.abs(rows).max()
 
 
@@ -51,7 +51,9 @@ def test_columns_that_others_span_are_dropped_and_the_span_stays():
     kept = independent(csr_array(repeated))
     assert kept.shape[1] == columns.shape[1]
     rows = np.random.default_rng(3).normal(size=(ROWS, 2))
-    np.testing.assert_allclose(nuisance_of(kept).cleared(rows), dense_remainder(columns, rows), atol=1e-9)
+    np.testing.assert_allclose(
+        nuisance_of(kept).without_nuisance(rows), dense_remainder(columns, rows), atol=1e-9
+    )
 
 
 def test_independent_columns_all_stay():
@@ -62,7 +64,9 @@ def test_independent_columns_all_stay():
 def test_rounding_does_not_decide_which_columns_are_independent():
     columns, rows = _fading(18), np.random.default_rng(5).normal(size=(ROWS, 4))
     rounded = columns * (1.0 + 2e-16 * np.random.default_rng(6).standard_normal(columns.shape))
-    left, again = (nuisance_of(independent(csr_array(one))).cleared(rows) for one in (columns, rounded))
+    left, again = (
+        nuisance_of(independent(csr_array(one))).without_nuisance(rows) for one in (columns, rounded)
+    )
     np.testing.assert_allclose(left, again, atol=1e-9)
 
 
@@ -82,10 +86,10 @@ def _fading(count: int, *, shapes: int = 9, width: int = 20, smooth: float = 4.0
 def test_products_less_those_of_the_parts_inside_are_products_of_what_is_left(count):
     free = nuisance_of(independent(csr_array(bumps(count))))
     rows = np.random.default_rng(4).normal(size=(ROWS, 4))
-    inside = free.inside(rows)
-    left = free.cleared(rows)
+    inside = free.in_span(rows)
+    left = free.without_nuisance(rows)
     np.testing.assert_allclose(rows.T @ rows - inside.T @ inside, left.T @ left, atol=1e-6)
-    assert free.inside(rows[:, :0]).shape == (free.count, 0)
+    assert free.in_span(rows[:, :0]).shape == (free.count, 0)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +99,7 @@ def test_nothing_is_taken_where_no_column_acts(columns):
     rows = np.ones((ROWS, 2))
     free = nuisance_of(independent(csr_array(columns)))
     assert free.count == 0
-    np.testing.assert_array_equal(free.cleared(rows), rows)
+    np.testing.assert_array_equal(free.without_nuisance(rows), rows)
 
 
 def test_whitening_short_columns_sparsely_is_whitening_them():
