@@ -42,7 +42,7 @@ def test_a_fit_under_known_noise_is_the_generalised_least_squares_of_dense_matri
 
 def test_what_free_columns_can_stand_for_does_not_reach_the_parameters(equations):
     other = Equations()
-    other.dataset.torque[:, 1] += other.free @ np.array([1e3, -1e3, 1e3])
+    other.dataset.torque[:, 1] += other.nuisance @ np.array([1e3, -1e3, 1e3])
     moved = fit(other.again(), NOISE, rounds=0)
     np.testing.assert_allclose(moved.values, fit(equations.joints, NOISE, rounds=0).values, rtol=1e-8)
 

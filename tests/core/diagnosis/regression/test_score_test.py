@@ -65,7 +65,7 @@ def test_what_the_model_or_sticking_friction_can_stand_for_is_no_evidence(equati
     spanned = {
         joint: one @ np.array([[1.0], [2.0], [3.0], [4.0]]) for joint, one in enumerate(equations.base)
     }
-    found = score(before, equations.joints, [spanned, {1: equations.free[:, :1]}])
+    found = score(before, equations.joints, [spanned, {1: equations.nuisance[:, :1]}])
     assert [one.statistic for one in found] == [0.0, 0.0]
     assert [one.clear_share for one in found] == [0.0, 0.0]
 
