@@ -20,7 +20,7 @@ from .document.reference import reference_from_document
 from .dynamics.model import DynamicModel, standard_model
 from .errors import OptionError, SolverError, VeritorqueError
 from .estimate.problem import Problem
-from .estimate.smoothing import smoothed
+from .estimate.smoothing import with_smoothed_friction
 from .extension.cure import (
     all_proven,
     cures,
@@ -118,7 +118,7 @@ def _earlier(request: IdentifyRequest, options: IdentifyOptions) -> Reference | 
     name = options.reference
     if name is None or name == PRIOR:
         return None
-    decided = [one for one in ("terms", "smooth_coulomb") if options.given.get(one)]
+    decided = [option for option in ("terms", "smooth_coulomb") if options.given.get(option)]
     if decided or request.reference is None:
         raise OptionError(
             f"the reference {name} decides the model's {' and '.join(decided)}"
@@ -198,7 +198,7 @@ def _proven(
         return fit(joined, options, lambda _stage, _done: tell("verify", 0.78), seen)
 
     def gained(*fits: Fit) -> tuple[JointGain, ...]:
-        now, then = ((one.observation, one.estimate.base) for one in fits)
+        now, then = ((tried.observation, tried.estimate.base) for tried in fits)
         return gains(now, then, now[0].parts(problem.held_out)[1])
 
     return proven(found, tried, gained)
@@ -213,7 +213,9 @@ def _motion(
 ) -> tuple[Comparison | None, str]:
     """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
     try:
-        old, new = (mechanism_of(*one) for one in (before, folded(after.base.model, after.estimate.standard)))
+        old, new = (
+            mechanism_of(*robot) for robot in (before, folded(after.base.model, after.estimate.standard))
+        )
         return compare(old, new, problem.motions, chosen=problem.held_out or None), taken_along(found)
     except VeritorqueError as error:
         return None, str(error)
@@ -229,7 +231,9 @@ def _prepared(
     motions = condition_all(request.logs, request.robot, options.filter, blocks=options.validation.blocks)
     held_out = options.validation.chosen(len(motions))
     if reference is None and options.smooth_coulomb:
-        model = smoothed(model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done))
+        model = with_smoothed_friction(
+            model, motions, held_out, lambda done: tell("smooth", 0.05 + 0.25 * done)
+        )
     base = base_model(model) if reference is None else reference.base
     return Problem(base, motions, held_out)
 

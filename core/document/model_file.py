@@ -77,7 +77,7 @@ def model_document(identified: IdentifiedRobot) -> dict[str, object]:
         "robot": to_description(identified.robot),
         "terms": terms,
         "beliefs": _prediction_rows(predictions),
-        "base_parameters": [vars(one) for one in identified.base],
+        "base_parameters": [vars(value) for value in identified.base],
     }
 
 
@@ -91,9 +91,9 @@ def model_from_document(document: Document) -> IdentifiedRobot:
     """
     try:
         predictions: list[Prediction] = []
-        for one in document["beliefs"]:
-            model, standard = _model(one, predictions)
-            joined, values = _model({"robot": one["robot"], "terms": one["joined"]}, predictions)
+        for row in document["beliefs"]:
+            model, standard = _model(row, predictions)
+            joined, values = _model({"robot": row["robot"], "terms": row["joined"]}, predictions)
             predictions.append(Prediction(model, standard, joined=joined.split(values)))
         model, standard = _model(document, predictions)
         return IdentifiedRobot(
@@ -115,20 +115,20 @@ def model_from_document(document: Document) -> IdentifiedRobot:
 def _prediction_rows(predictions: list[Prediction]) -> list[dict[str, object]]:
     """Write predictions; what joined their models is built on those before them."""
     written: list[dict[str, object]] = []
-    for one in predictions:
+    for prediction in predictions:
         inner: list[Prediction] = []
-        terms = _terms(one.model, one.standard, inner)
+        terms = _terms(prediction.model, prediction.standard, inner)
         if inner:
             raise RobotError(
                 "a prediction is built on another one, which the file cannot say",
-                evidence={"terms": [term.name for term in one.model.terms]},
+                evidence={"terms": [term.name for term in prediction.model.terms]},
                 remedy="compare with a standard model",
             )
-        joined = DynamicModel(one.model.robot, tuple(term for term, _ in one.joined))
-        values = np.concatenate([np.zeros(0), *(values for _, values in one.joined)])
+        joined = DynamicModel(prediction.model.robot, tuple(term for term, _ in prediction.joined))
+        values = np.concatenate([np.zeros(0), *(values for _, values in prediction.joined)])
         written.append(
             {
-                "robot": to_description(one.model.robot),
+                "robot": to_description(prediction.model.robot),
                 "terms": terms,
                 "joined": _terms(joined, values, predictions),
             }

@@ -58,9 +58,9 @@ def identified_robot(document: Document) -> IdentifiedRobot:
         return _standing(document)
     diagnosis = document["diagnosis"]
     repaired = diagnosis.get("repaired_robot") or document["robot"]
-    corrected = [one for one in diagnosis.get("repairs", ()) if one["mends"] == "robot"]
-    remarks = [f"The description was repaired, {one['cause']}: {one['what']}." for one in corrected]
-    return _standard_part(extended, _robot(repaired), {one["cause"] for one in corrected}, remarks)
+    corrected = [repair for repair in diagnosis.get("repairs", ()) if repair["mends"] == "robot"]
+    remarks = [f"The description was repaired, {repair['cause']}: {repair['what']}." for repair in corrected]
+    return _standard_part(extended, _robot(repaired), {repair["cause"] for repair in corrected}, remarks)
 
 
 def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
@@ -128,7 +128,9 @@ def _standard_part(
 ) -> IdentifiedRobot:
     """Take the standard terms out of an extended model, with what belongs into their parameters."""
     model, standard = folded(extended.model, extended.standard)
-    known = dict(zip((one.name for one in extended.model.parameters), extended.identifiable, strict=True))
+    known = dict(
+        zip((parameter.name for parameter in extended.model.parameters), extended.identifiable, strict=True)
+    )
     values: dict[str, float] = {}
     widths: tuple[float, ...] = ()
     couplings = list(robot.couplings)
@@ -161,7 +163,7 @@ def _standard_part(
 def _undeclared(term: object, couplings: list[Coupling]) -> list[Coupling]:
     if not isinstance(term, MissingCoupling):
         return []
-    return [] if term.coupling.number in {one.number for one in couplings} else [term.coupling]
+    return [] if term.coupling.number in {known.number for known in couplings} else [term.coupling]
 
 
 def _declaring(robot: RobotModel, values: Mapping[str, float], couplings: tuple[Coupling, ...]) -> RobotModel:
@@ -180,6 +182,8 @@ def _smoothed(model: DynamicModel, widths: tuple[float, ...] | list[float]) -> D
     if widths and "coulomb" in names:
         model = model.with_term(Coulomb(widths))
     if widths and model.robot.couplings and "coupling" in names:
-        coupled = tuple(max(widths[joint - 1] for joint in one.joints) for one in model.robot.couplings)
+        coupled = tuple(
+            max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
+        )
         model = model.with_term(GearCoupling(coupled))
     return model

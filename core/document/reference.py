@@ -40,8 +40,8 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
     _check_robot(document, robot, name)
     model = model_of_result(document, robot)
     base = base_model(model)
-    rows = {one["name"]: one for one in document["base_parameters"]}
-    standard = {one["name"]: one["value"] for one in document["standard_parameters"]}
+    rows = {row["name"]: row for row in document["base_parameters"]}
+    standard = {row["name"]: row["value"] for row in document["standard_parameters"]}
     factor = document["precision"].get("information_factor")
     if factor is None:
         raise OptionError(
@@ -55,8 +55,8 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
             evidence={"reference": name, "differ": sorted(set(rows) ^ set(base.names))[:10]},
             remedy="identify the robot from the earlier log again, and name that job",
         )
-    values = np.array([one["value"] for one in rows.values()], dtype=float)
-    known = np.array([standard[one.name] for one in model.parameters], dtype=float)
+    values = np.array([row["value"] for row in rows.values()], dtype=float)
+    known = np.array([standard[parameter.name] for parameter in model.parameters], dtype=float)
     return Reference(
         name, base, known, values, with_least_deviation(read_factor(factor, len(values)), values)
     )
@@ -70,7 +70,7 @@ def written_factor(rows: Matrix) -> list[list[float]]:
     >>> written_factor(np.array([[2.0, 1.0], [0.0, 3.0]]))
     [[2.0, 1.0], [3.0]]
     """
-    return [[float(one) for one in row[place:]] for place, row in enumerate(rows)]
+    return [[float(entry) for entry in row[place:]] for place, row in enumerate(rows)]
 
 
 def read_factor(written: list[list[float]], size: int) -> Matrix:
@@ -83,8 +83,8 @@ def read_factor(written: list[list[float]], size: int) -> Matrix:
            [0., 3.]])
     """
     rows = np.zeros((len(written), size))
-    for place, one in enumerate(written):
-        rows[place, place:] = one
+    for place, row in enumerate(written):
+        rows[place, place:] = row
     return rows
 
 

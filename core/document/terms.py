@@ -28,7 +28,7 @@ NAME = "name"
 @cache
 def known_terms() -> Mapping[str, type]:
     """List the classes of all torque terms by their name."""
-    modules = [import_module(f"{package.__name__}.{one.name}") for one in iter_modules(package.__path__)]
+    modules = [import_module(f"{package.__name__}.{found.name}") for found in iter_modules(package.__path__)]
     return {
         kind.__name__: kind
         for module in modules
@@ -74,20 +74,20 @@ def _is_term(kind: type) -> bool:
 
 
 def _own_fields(kind: type) -> Iterator[tuple[str, object]]:
-    return ((one.name, one.type) for one in fields(kind) if one.name != NAME)
+    return ((entry.name, entry.type) for entry in fields(kind) if entry.name != NAME)
 
 
 def _plain(value: object, predictions: list[Prediction]) -> object:
     if isinstance(value, Prediction):
-        if not any(one is value for one in predictions):
+        if not any(known is value for known in predictions):
             for term, _ in value.joined:  # what it is built on comes before it
                 term_fields(term, predictions)
             predictions.append(value)
-        return next(place for place, one in enumerate(predictions) if one is value)
+        return next(place for place, known in enumerate(predictions) if known is value)
     if isinstance(value, Coupling):
         return asdict(value)
     if isinstance(value, tuple):
-        return [_plain(one, predictions) for one in value]
+        return [_plain(entry, predictions) for entry in value]
     if isinstance(value, float | np.floating):
         return float(value) if np.isfinite(value) else str(float(value))  # JSON knows no infinity
     return value
@@ -112,4 +112,4 @@ def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> 
 
 def _numbers(value: Any, kind: type[int | float] = float) -> tuple[Any, ...]:  # noqa: ANN401  (JSON)
     """Read numbers, nested as they were."""
-    return tuple(_numbers(one, kind) if isinstance(one, list) else kind(one) for one in value)
+    return tuple(_numbers(entry, kind) if isinstance(entry, list) else kind(entry) for entry in value)

@@ -69,7 +69,7 @@ class Bounds:
             if isinstance(box, CentreBox)
             for pair in zip(box.low, box.high, strict=True)
         ]
-        axes = [one for ball in self.centres if isinstance(ball, CentreEllipsoid) for one in ball.semi_axes]
+        axes = [axis for ball in self.centres if isinstance(ball, CentreEllipsoid) for axis in ball.semi_axes]
         if (
             any(low > high for low, high in [*masses, *corners])
             or any(low < 0.0 or high <= 0.0 for low, high in masses)
@@ -80,7 +80,7 @@ class Bounds:
             raise OptionError(
                 "the bounds leave no robot",
                 evidence={
-                    "mass_kg": [list(one) for one in self.mass],
+                    "mass_kg": [list(row) for row in self.mass],
                     "total_mass_kg": list(self.total_mass or ()),
                     "margin": self.margin,
                 },

@@ -46,7 +46,8 @@ class _Candidate:
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         return tuple(
-            replace(one, symbol=f"{one.symbol}~{self.number}~") for one in self.term.parameters(robot)
+            replace(parameter, symbol=f"{parameter.symbol}~{self.number}~")
+            for parameter in self.term.parameters(robot)
         )
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
@@ -64,7 +65,7 @@ class _Candidate:
         ]
 
 
-def smoothed(
+def with_smoothed_friction(
     model: DynamicModel,
     motions: tuple[Motion, ...],
     held_out: frozenset[BlockKey],
@@ -85,7 +86,7 @@ def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
     """
     joints, extra = len(model.robot.joints), list[Term]()
     for number, share in enumerate(SHARES):
-        widths = tuple(float(share * one) for one in speed)
+        widths = tuple(float(share * rms) for rms in speed)
         coupled = tuple(
             max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
         )
@@ -109,15 +110,17 @@ def chosen_widths(
             (share, _residual(factor, observation.columns_of[joint], names, number))
             for number, share in enumerate(SHARES)
         ]
-        shares[joint] = min(options, key=lambda one: one[1])[0]
-    widths = tuple(float(one) for one in shares * speed)
+        shares[joint] = min(options, key=lambda option: option[1])[0]
+    widths = tuple(float(width) for width in shares * speed)
     smooth = (
         model.with_term(Coulomb(widths)) if any(term.name == "coulomb" for term in model.terms) else model
     )
     if model.robot.couplings and any(term.name == "coupling" for term in model.terms):
         smooth = smooth.with_term(
             GearCoupling(
-                tuple(max(widths[joint - 1] for joint in one.joints) for one in model.robot.couplings)
+                tuple(
+                    max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
+                )
             )
         )
     return smooth

@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import BaseParameters, Indices, JointVector, Matrix, Vector
 from ..errors import ExcitationError
 from ..regressor.factor import Factor
+from .gaussian_prior import GaussianPrior
 
 RANK_TOLERANCE = 1e-8
 ROUNDING = 1e-12
@@ -45,20 +46,22 @@ class System:
         miss = self.target - self.triangle @ base
         return float(miss @ miss) + self.rest
 
-    def informed(self, rows: Matrix, target: Vector) -> "System":
-        """Add what is known beforehand of the first base parameters: equations with errors of unit variance.
+    def with_prior(self, prior: GaussianPrior | None) -> "System":
+        """Add the equations of a prior of the first base parameters, where there is one.
 
         Examples
         --------
         One that weighs as much as the log's own meets it half-way:
 
         >>> own = System(np.eye(1), np.array([1.0]), 0.0, 10, np.ones(1))
-        >>> own.informed(np.eye(1), np.array([3.0])).solved().round(12)
+        >>> own.with_prior(GaussianPrior(np.eye(1), np.array([3.0]))).solved().round(12)
         array([2.])
         """
+        if prior is None:
+            return self
         size = self.triangle.shape[1]
-        wide = np.zeros((len(rows) + 1, size + 1))
-        wide[:-1, : rows.shape[1]], wide[:-1, -1] = rows, target
+        wide = np.zeros((len(prior.rows) + 1, size + 1))
+        wide[:-1, : prior.rows.shape[1]], wide[:-1, -1] = prior.rows, prior.target
         whole = Factor.of(np.vstack([np.column_stack([self.triangle, self.target]), wide])).triangle
         rest = whole[size:, -1]
         return replace(

@@ -40,12 +40,11 @@ def gains(
     new, _ = _squares(*after, held)
     found = []
     for joint in range(old.shape[1]):
-        one, other = (
+        first, second = (
             float(np.sqrt(squares[:, joint].sum() / max(rows[:, joint].sum(), 1.0))) for squares in (old, new)
         )
-        found.append(
-            JointGain(joint + 1, one, other, _percent(one, other), _interval(old[:, joint], new[:, joint]))
-        )
+        interval = _interval(old[:, joint], new[:, joint])
+        found.append(JointGain(joint + 1, first, second, _percent(first, second), interval))
     return tuple(found)
 
 
@@ -82,8 +81,10 @@ def motion_intervals(comparison: Comparison) -> Intervals | None:
     weights = np.array(comparison.before.horizons) ** -2.0
     block = np.array([keys.index(key) for key in comparison.before.keys])
     sums = [
-        np.array([weights @ (one.position[block == place] ** 2).sum(axis=0) for place in range(len(keys))])
-        for one in (comparison.before, comparison.after)
+        np.array(
+            [weights @ (windows.position[block == place] ** 2).sum(axis=0) for place in range(len(keys))]
+        )
+        for windows in (comparison.before, comparison.after)
     ]
     old, new = (np.sqrt(resampled_sums(squares, DRAWS, SEED)) for squares in sums)
     return interval_95(100.0 * np.divide(old - new, old, out=np.zeros_like(old), where=old > 0.0))

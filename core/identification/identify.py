@@ -7,7 +7,6 @@ from ..arrays import BaseParameters
 from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
-from ..estimate.gaussian_prior import GaussianPrior
 from ..estimate.methods.method import Step
 from ..estimate.problem import ObservedProblem, Problem
 from ..estimate.system import System
@@ -55,7 +54,7 @@ def fit(
     data = ObservedProblem(problem, observation, options.estimate.robust)
     data.check_excitation()
     step = options.estimate.method.equations(None, data)
-    step = replace(step, system=_informed(step.system, problem.prior))
+    step = replace(step, system=step.system.with_prior(problem.prior))
     prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
     return Fit(problem, observation, step, estimate(problem.base, step.system, prior, options.estimate))
 
@@ -80,8 +79,8 @@ def judge(
         answer = estimate(base, system, prior, options.estimate, essential=kept)
 
     def solve(drawn: System) -> BaseParameters:
-        informed = _informed(drawn, problem.prior)
-        return estimate(base, informed, prior, options.estimate, essential=kept).base
+        system = drawn.with_prior(problem.prior)
+        return estimate(base, system, prior, options.estimate, essential=kept).base
 
     drawn = block_draws(len(fitted), options.bootstrap.draws, options.bootstrap.seed)
     draws = bootstrap(system, data.block_factors, data.columns_of, solve, drawn, mapper)
@@ -110,7 +109,3 @@ def judge(
         seed=options.bootstrap.seed,
         held_out=problem.held_out,
     )
-
-
-def _informed(system: System, prior: GaussianPrior | None) -> System:
-    return system if prior is None else system.informed(prior.rows, prior.target)

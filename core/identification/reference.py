@@ -64,7 +64,7 @@ class Reference:
         """Name the base parameters of which it tells nothing by themselves."""
         known = np.abs(self.rows).max(axis=0, initial=0.0)
         return tuple(
-            name for name, one in zip(self.base.names, known, strict=True) if one <= 1e-12 * known.max()
+            name for name, size in zip(self.base.names, known, strict=True) if size <= 1e-12 * known.max()
         )
 
     def completed(self, system: System) -> BaseParameters:

@@ -30,7 +30,7 @@ class ReferenceScore:
     @property
     def worse_than_nothing(self) -> tuple[int, ...]:
         """List the joints whose torque the reference misses by more than there is."""
-        return tuple(one.joint for one in self.validation if one.rms_residual > one.rms_torque)
+        return tuple(score.joint for score in self.validation if score.rms_residual > score.rms_torque)
 
 
 def score_reference(

@@ -119,7 +119,8 @@ class Observation:
 
         def fewer(block: Block) -> Block:
             return replace(
-                block, factors=tuple(one.over(own) for one, own in zip(block.factors, kept, strict=True))
+                block,
+                factors=tuple(factor.over(own) for factor, own in zip(block.factors, kept, strict=True)),
             )
 
         return replace(
@@ -127,7 +128,7 @@ class Observation:
             plan=plan,
             blocks=tuple(fewer(block) for block in self.blocks),
             columns_of=plan.columns_of,
-            memory=tuple(one.over(own) for one, own in zip(self.memory, kept, strict=True)),
+            memory=tuple(products.over(own) for products, own in zip(self.memory, kept, strict=True)),
         )
 
 
@@ -266,4 +267,4 @@ def residuals(plan: ColumnPlan, motion: Motion, parameters: BaseParameters) -> I
 def torque_scales(observation: Observation, chosen: tuple[int, ...] | None = None) -> JointVector:
     """Give the RMS of the filtered torque per joint over the chosen blocks (all by default), N m."""
     factors = observation.joint_factors(chosen)
-    return np.array([np.sqrt(one.torque_square / max(one.rows, 1)) for one in factors])
+    return np.array([np.sqrt(factor.torque_square / max(factor.rows, 1)) for factor in factors])
