@@ -17,7 +17,7 @@ bound = structlog.contextvars.bound_contextvars
 """Let the lines written within a ``with`` carry the given names."""
 
 
-def open_journal(settings: Settings) -> None:
+def configure_logging(settings: Settings) -> None:
     """Let all that this process logs go to its standard error, in one form."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(_formatter(for_people=sys.stderr.isatty()))

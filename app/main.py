@@ -14,9 +14,9 @@ from fastapi import FastAPI
 from .http import exception_handlers, openapi
 from .http.body.content_digest import ContentDigest
 from .http.disk_reserve import DiskReserve
-from .http.host_guard import Door
+from .http.host_guard import HostGuard
 from .http.middleware import BodyLimit, HeadAsGet, SafeHeaders
-from .http.request_log import Observe
+from .http.request_log import RequestLog
 from .jobs.executors.executor import Executor
 from .jobs.supervisor import Supervisor
 from .routes import events, health, identify, jobs, logs, pages, robots, traces
@@ -64,7 +64,7 @@ def create_app(
             yield
         finally:
             await opened.feed.close()
-            await opened.intake.close()
+            await opened.batcher.close()
             await anyio.to_thread.run_sync(opened.close)
 
     app = FastAPI(
@@ -84,9 +84,9 @@ def create_app(
     disk = DiskReserve(chosen.data_dir, chosen.disk_reserve_bytes)
     app.add_middleware(BodyLimit, upload_limit=chosen.max_upload_bytes, disk=disk)
     app.add_middleware(HeadAsGet)
-    app.add_middleware(Door, hosts=(chosen.host, *chosen.hosts))
+    app.add_middleware(HostGuard, hosts=(chosen.host, *chosen.hosts))
     app.add_middleware(SafeHeaders)
-    app.add_middleware(Observe, metrics=counted)
+    app.add_middleware(RequestLog, metrics=counted)
 
     def contract() -> dict[str, Any]:
         if app.openapi_schema is None:

@@ -1,4 +1,4 @@
-"""Hold every caller to a pace: so many requests a second on average, and a few at once.
+"""Limit the rate of requests of every caller: so many a second on average, and a few at once.
 
 A token bucket, kept as one number per caller: when its bucket will be full again. Source: ITU-T I.371 (2004),
 the generic cell rate algorithm, which is that.
@@ -16,7 +16,7 @@ MOST_CALLERS = 10_000
 """Callers that are remembered before those at rest are forgotten."""
 
 
-class Pace:
+class RateLimit:
     """Count the requests of callers.
 
     Parameters
@@ -31,7 +31,7 @@ class Pace:
         self._per_second, self._clock = per_second, clock
         self._full_at: dict[str, float] = {}
 
-    def keep(self, caller: str) -> None:
+    def count(self, caller: str) -> None:
         """Count a request.
 
         Raises

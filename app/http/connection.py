@@ -1,14 +1,16 @@
-"""Serve one connection as uvicorn does, but not forever to those who say nothing.
+"""Serve one connection as uvicorn does, with time limits for slow clients.
 
-uvicorn waits without end for the head and the body of a request, and for a client to take its answer: a few
-hundred clients that stop in the middle hold a service for good. Here each connection is looked at twice a
-second, and is given up once it has been slow for too many looks. Looks are counted, not seconds, so that no
-client pays for a time in which the service itself was suspended. Source: RFC 9110, 15.5.9, on 408.
+uvicorn waits without limit for the head and the body of a request, and for a client to take its answer: a few
+hundred clients that stop in the middle block a service for good. Here each connection is checked twice a
+second, and closed once it has been slow for too many ticks. Ticks are counted, not seconds, so that no client
+is charged for a time in which the service itself was suspended. Source: RFC 9110, 15.5.9, on 408.
+
+This uses private names of uvicorn; `tests/app/http/test_uvicorn.py` lists them, and pyproject.toml pins
+uvicorn.
 """
 
 import asyncio
 import re
-from collections.abc import Callable
 from typing import Literal, cast
 
 from httptools import HttpParserError, HttpParserUpgrade, HttpRequestParser
@@ -16,11 +18,10 @@ from uvicorn._types import ASGI3Application
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
 from ..problems import Problem
-from .body.chunks import Pieces
 from .refusals import (
     BODY_BYTES,
-    BODY_LOOKS,
-    HEAD_LOOKS,
+    BODY_TICKS,
+    HEAD_TICKS,
     LARGEST_HEAD,
     head_too_large,
     not_http,
@@ -29,64 +30,59 @@ from .refusals import (
     too_slow,
     trailers_too_large,
 )
+from .uvicorn_parts import AnswerTransport, BodyChunks
 
-ANSWER_LOOKS = 120
-"""Looks at a client that takes nothing of its answer before it is given up: a minute."""
-PARTING_LOOKS = 20
-"""Looks at a client that still sends after the last answer before the connection is cut: 10 s."""
-PARTING_BYTES = 256 * 1024**2
-"""What it may send meanwhile, which is thrown away."""
+ANSWER_TICKS = 120
+"""Ticks for which a client may take nothing of its answer: a minute."""
+CLOSING_TICKS = 20
+"""Ticks for which a client may still send after the last answer: 10 s."""
+CLOSING_BYTES = 256 * 1024**2
+"""Bytes that it may send meanwhile, which are discarded."""
 _WITHOUT_PATH = re.compile(rb"\A(\w+://[^/?]+)(\?|\Z)")
 """An address that names only the host means the root (RFC 9112, 3.2.2)."""
-Phase = Literal["quiet", "head", "body", "deaf", "parting"]
+Phase = Literal["waiting", "head", "body", "refused", "closing"]
 
 
-class Ending:
-    """Stand before a transport for those who answer, and let somebody else close it."""
-
-    def __init__(self, transport: asyncio.Transport, close: Callable[[], None]) -> None:
-        self.write, self.is_closing, self.close = transport.write, transport.is_closing, close
-
-
-class PatientConnection(HttpToolsProtocol):
+class TimedConnection(HttpToolsProtocol):
     """Serve one connection, as long as its client is not too slow.
 
-    In a phase, `_looks` were made and `_bytes` came; `_besides` came with a body since its last bytes. Where
-    something was refused, no more is read: what was asked before is answered, then what was refused.
+    `_ticks` and `_bytes` count those of the present phase; `_extra_bytes` counts what came with a body since
+    its last bytes. After a refusal nothing more is read: earlier requests are answered, then the refusal is
+    sent.
     """
 
-    _phase: Phase = "quiet"
+    _phase: Phase = "waiting"
     _answering: RequestResponseCycle | None = None
-    _looks = 0
+    _ticks = 0
     _bytes = 0
-    _besides = 0
+    _extra_bytes = 0
     _stalled = 0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # TCP only
-        """Expect a head: whoever connects has something to say."""
+        """Expect the head of a request."""
         super().connection_made(transport)
-        self._ending = Ending(transport, self._part)
+        self._answer_transport = AnswerTransport(transport, self._close_after_answer)
         self._enter("head")
 
     def data_received(self, data: bytes) -> None:
-        """Take bytes; the first after an answer begin the next head."""
+        """Receive bytes; the first after an answer begin the next head."""
         self._unset_keepalive_if_required()
-        if self._phase in ("deaf", "parting"):
-            self._throw_away(data)
+        if self._phase in ("refused", "closing"):
+            self._discard(data)
             return
-        if self._phase == "quiet" and self._idle:
+        if self._phase == "waiting" and self._idle:
             self._enter("head")
         if self._phase == "head":
             self._bytes += len(data)
         elif self._phase == "body":
-            self._besides += len(data)
+            self._extra_bytes += len(data)
         try:
             self._parse(data)
         except HttpParserError as error:
             self._refuse(not_http(str(error)))
         if self._phase == "head" and self._bytes > LARGEST_HEAD:
             self._refuse(head_too_large())
-        elif self._besides > LARGEST_HEAD:
+        elif self._extra_bytes > LARGEST_HEAD:
             self._refuse(trailers_too_large())
 
     def on_message_begin(self) -> None:
@@ -97,7 +93,7 @@ class PatientConnection(HttpToolsProtocol):
             self._bytes = 1  # at least; only what comes after this read is all its own
 
     def on_header(self, name: bytes, value: bytes) -> None:
-        """Keep what stands in a head; what follows a body is nobody's (RFC 9110, 6.5.1, on trailers)."""
+        """Keep the fields of a head, and ignore trailers (RFC 9110, 6.5.1)."""
         if self._phase == "head":
             super().on_header(name, value)
 
@@ -108,15 +104,15 @@ class PatientConnection(HttpToolsProtocol):
             return  # it is read again
         self.url = _WITHOUT_PATH.sub(rb"\1/\2", self.url)
         super().on_headers_complete()
-        self.cycle.transport = cast("asyncio.Transport", self._ending)
+        self.cycle.transport = cast("asyncio.Transport", self._answer_transport)
         self._enter("body")
 
     def on_body(self, body: bytes) -> None:
         """Count the bytes of a body, and keep them as they came."""
         self._bytes += len(body)
-        self._besides = 0
+        self._extra_bytes = 0
         if not self.cycle.body:
-            self.cycle.body = Pieces()  # type: ignore[assignment]  # as much of an array as uvicorn asks for
+            self.cycle.body = BodyChunks()  # type: ignore[assignment]  # as much of an array as uvicorn asks for
         super().on_body(body)
 
     def on_message_complete(self) -> None:
@@ -124,18 +120,18 @@ class PatientConnection(HttpToolsProtocol):
         if self.parser.should_upgrade():
             return
         super().on_message_complete()
-        self._enter("head" if self._idle else "quiet")  # whoever was answered before is waited for now
+        self._enter("head" if self._idle else "waiting")  # whoever was answered before is waited for now
 
     def eof_received(self) -> bool:  # type: ignore[override]  # as asyncio has it, though not uvicorn
-        """Answer whoever has said all and may still listen; a stream that has begun ends instead."""
-        listens = self._phase in ("quiet", "deaf") and not self._idle
+        """Still answer a client that has closed its sending side; a stream that has begun ends instead."""
+        listens = self._phase in ("waiting", "refused") and not self._idle
         if not listens or self._answering is None or self._answering.response_started:
             return False
         self.cycle.keep_alive = False
         return True
 
     def on_response_complete(self) -> None:
-        """Go on with the next request; no more are read while others wait, and one begun has its time."""
+        """Go on with the next request; read no more while others wait."""
         super().on_response_complete()
         if self.transport.is_closing():
             return
@@ -145,48 +141,48 @@ class PatientConnection(HttpToolsProtocol):
             self._unset_keepalive_if_required()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Tell all who are to be answered, and not only the last, that nobody listens any more."""
+        """Tell all requests that wait for their answers, not only the last, that the client is gone."""
         for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):
             if cycle is not None:
-                _leave_unanswered(cycle)
+                _cancel(cycle)
         super().connection_lost(exc)
-        self._ending.close = self.transport.close  # it holds nobody any more
+        self._answer_transport.close = self.transport.close  # it is not needed any more
 
-    def look(self) -> None:
-        """Give the connection up if its client has been slow for too long."""
-        self._looks += 1
+    def tick(self) -> None:
+        """Close the connection if its client has been slow for too long."""
+        self._ticks += 1
         waits = self.flow.write_paused or self.transport.is_closing()
         self._stalled = self._stalled + 1 if waits else 0
-        if self._stalled > ANSWER_LOOKS:
+        if self._stalled > ANSWER_TICKS:
             self.transport.abort()
         elif self.transport.is_closing():
             return
-        elif self._phase == "parting" and self._looks > PARTING_LOOKS:
+        elif self._phase == "closing" and self._ticks > CLOSING_TICKS:
             self.transport.close()
         elif self._phase == "head":
-            self._look_at_head()
+            self._check_head()
         elif self._phase == "body":
-            self._look_at_body()
+            self._check_body()
 
-    def give_up(self) -> None:
-        """Refuse whatever is not answered yet, since the service stops, and leave whoever does not listen."""
-        if self.flow.write_paused or self._phase == "parting":
+    def refuse_pending(self) -> None:
+        """Refuse all requests that are not answered yet, because the service stops."""
+        if self.flow.write_paused or self._phase == "closing":
             self.transport.abort()
             return
         if self._answering is None or self._answering.response_started:
             return
         for cycle in (self._answering, *(cycle for cycle, _ in self.pipeline)):
-            _leave_unanswered(cycle)
+            _cancel(cycle)
         self.pipeline.clear()
-        self._enter("deaf")
-        self._say(stopping())
+        self._enter("refused")
+        self._answer(stopping())
 
     @property
     def _idle(self) -> bool:
         return getattr(self.cycle, "response_complete", True)  # there is none before the first request
 
     def _parse(self, data: bytes | memoryview) -> None:
-        """Read on; who offers another protocol is served in this one, as RFC 9110 (7.8) permits.
+        """Parse bytes; an offer of another protocol is ignored, as RFC 9110 (7.8) permits.
 
         The parser takes everything after such a head for the other protocol. A new one is given the head
         without the offer, and then the rest.
@@ -210,64 +206,64 @@ class PatientConnection(HttpToolsProtocol):
         return b"\r\n".join([*lines, b"", b""])
 
     def _enter(self, phase: Phase) -> None:
-        self._phase, self._looks, self._bytes, self._besides = phase, 0, 0, 0
+        self._phase, self._ticks, self._bytes, self._extra_bytes = phase, 0, 0, 0
 
-    def _look_at_head(self) -> None:
+    def _check_head(self) -> None:
         if self.flow.read_paused:
-            self._looks = 0  # it is the service that does not read on
-        if self._looks <= HEAD_LOOKS:
+            self._ticks = 0  # it is the service that does not read on
+        if self._ticks <= HEAD_TICKS:
             return
         if self._bytes:
             self._refuse(too_slow("the head of the request was not finished in time"))
         else:
             self.transport.close()  # opened ahead of need, as browsers do
 
-    def _look_at_body(self) -> None:
+    def _check_body(self) -> None:
         if self.flow.read_paused or self.cycle.waiting_for_100_continue:
             self._enter("body")  # it is the service that does not read on
-        elif self._looks > BODY_LOOKS:
+        elif self._ticks > BODY_TICKS:
             if self._bytes < BODY_BYTES:
                 self._refuse(too_slow("the body of the request came too slowly"))
             else:
                 self._enter("body")
 
     def _refuse(self, problem: Problem) -> None:
-        """Say what is wrong when all that was asked before is answered, and close."""
+        """Refuse the present request after all earlier ones are answered, and close."""
         unfinished = self._phase == "body"
-        self._enter("deaf")
+        self._enter("refused")
         if unfinished:
             if self.cycle.response_started:
                 self.transport.close()
                 return
             self._withdraw(self.cycle)
-        self._say(problem)
+        self._answer(problem)
 
-    def _part(self) -> None:
-        """Close after the last answer, which whoever is in the midst of sending would lose: hear them out."""
-        if self.transport.is_closing() or self._phase not in ("body", "deaf"):
+    def _close_after_answer(self) -> None:
+        """Close after the last answer; read on while a client sends, or it would lose the answer."""
+        if self.transport.is_closing() or self._phase not in ("body", "refused"):
             self.transport.close()
             return
-        self._enter("parting")
+        self._enter("closing")
         self.pipeline.clear()
         self.transport.write_eof()
 
-    def _throw_away(self, data: bytes) -> None:
+    def _discard(self, data: bytes) -> None:
         self._bytes += len(data)
-        if self._phase == "parting" and self._bytes > PARTING_BYTES:
+        if self._phase == "closing" and self._bytes > CLOSING_BYTES:
             self.transport.close()
 
     def _withdraw(self, cycle: RequestResponseCycle) -> None:
         """Leave the last request unanswered."""
-        _leave_unanswered(cycle)
+        _cancel(cycle)
         if cycle is not self._answering:
             self.pipeline.popleft()
 
-    def _say(self, problem: Problem) -> None:
+    def _answer(self, problem: Problem) -> None:
         """Answer with a problem after all other answers, and close."""
         before = self._answering
         self.cycle = RequestResponseCycle(
             scope={"type": "http", "method": "GET", "headers": []},  # type: ignore[typeddict-item]  # no request
-            transport=cast("asyncio.Transport", self._ending),
+            transport=cast("asyncio.Transport", self._answer_transport),
             flow=self.flow,
             logger=self.logger,
             access_logger=self.access_logger,
@@ -289,7 +285,7 @@ class PatientConnection(HttpToolsProtocol):
         super()._start_asgi_task(cycle, app)
 
 
-def _leave_unanswered(cycle: RequestResponseCycle) -> None:
+def _cancel(cycle: RequestResponseCycle) -> None:
     cycle.disconnected = True
     cycle.message_event.set()
 

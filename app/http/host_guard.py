@@ -20,7 +20,7 @@ OWN_SITE = (b"same-origin", b"none")
 MOST_REMEMBERED = 1000
 
 
-class Door:
+class HostGuard:
     """Refuse requests that are meant for somebody else, or come from a page of somebody else.
 
     Parameters

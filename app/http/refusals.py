@@ -5,10 +5,10 @@ from starlette.responses import Response
 from ..problems import Problem
 from .exception_handlers import HEADERS, problem_response
 
-HEAD_LOOKS = 17
-"""Looks at an unfinished head before it is given up: 8.5 s."""
-BODY_LOOKS = 17
-"""Looks between which a body has to have grown by `BODY_BYTES`."""
+HEAD_TICKS = 17
+"""Ticks for which a head may stay unfinished: 8.5 s."""
+BODY_TICKS = 17
+"""Ticks in which a body has to grow by `BODY_BYTES`."""
 BODY_BYTES = 17 * 512
 """1 KiB/s: no link in use is slower."""
 LARGEST_HEAD = 128 * 1024
@@ -46,7 +46,7 @@ def too_slow(cause: str) -> Problem:
     return Problem(
         "too-slow",
         cause,
-        evidence={"head_s": HEAD_LOOKS / 2, "body_bytes_per_s": 2 * BODY_BYTES // BODY_LOOKS},
+        evidence={"head_s": HEAD_TICKS / 2, "body_bytes_per_s": 2 * BODY_BYTES // BODY_TICKS},
         remedy="send the request without long pauses",
     )
 

@@ -18,7 +18,7 @@ LOGGER = logging.getLogger(__name__)
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
 
 
-class Observe:
+class RequestLog:
     """Stand before everything else.
 
     Parameters

@@ -2,7 +2,7 @@
 
 The framework ignores parameters of the query that it does not know, so that a slip of the pen would go
 unseen. And it works out again at every request what an endpoint takes; where that is nothing but plain
-strings and the caller's desk, the endpoint is called straight away, because clients poll jobs thousands of
+strings and the caller's context, the endpoint is called straight away, because clients poll jobs thousands of
 times a second.
 """
 
@@ -17,7 +17,7 @@ from fastapi.dependencies.models import Dependant
 from fastapi.routing import APIRoute
 
 from ..problems import Problem
-from ..services.services import desk_of
+from ..services.services import context_of
 from .body.json_body import invalid
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
@@ -89,13 +89,13 @@ def _query_names(dependant: Dependant) -> Iterator[str]:
 
 
 def _straight(dependant: Dependant) -> Handler | None:
-    """Give what calls an endpoint straight away; None where it takes more than strings and the desk."""
+    """Give what calls an endpoint straight away; None where it takes more than strings and the context."""
     endpoint = dependant.call
     more = dependant.query_params or dependant.cookie_params or dependant.body_params
-    others = [one for one in dependant.dependencies if one.call is not desk_of]
+    others = [one for one in dependant.dependencies if one.call is not context_of]
     if more or others or not iscoroutinefunction(endpoint):
         return None
-    desks = [str(one.name) for one in dependant.dependencies]
+    contexts = [str(one.name) for one in dependant.dependencies]
     request_name = dependant.request_param_name
 
     async def answer(request: Request) -> Response:
@@ -107,8 +107,8 @@ def _straight(dependant: Dependant) -> Handler | None:
                 if errors:
                     raise invalid(errors)
             taken[field.name] = given
-        for name in desks:
-            taken[name] = await desk_of(request)
+        for name in contexts:
+            taken[name] = await context_of(request)
         if request_name is not None:
             taken[request_name] = request
         answered: Response = await endpoint(**taken)

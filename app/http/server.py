@@ -1,4 +1,4 @@
-"""Listen as uvicorn does, and look at the connections now and then."""
+"""Listen as uvicorn does, and check the connections for slow clients."""
 
 import asyncio
 import gc
@@ -8,18 +8,18 @@ import uvicorn
 from fastapi import FastAPI
 
 from ..settings import Settings
-from .connection import PatientConnection
+from .connection import TimedConnection
 
-TICKS_PER_LOOK = 5
+TICKS_PER_CHECK = 5
 """uvicorn ticks ten times a second."""
 GRACE_S = 5
-"""What is under way when the service is told to stop may take so long."""
-LAST_WORD_S = 4.0
-"""What is not done by then is refused, while there is time to say so."""
+"""Time for requests that are under way when the service is told to stop."""
+REFUSE_AFTER_S = 4.0
+"""Requests that are not done by then are refused, while there is time to send that."""
 
 
 class Server(uvicorn.Server):
-    """Serve an application, and look at its connections.
+    """Serve an application, and check its connections.
 
     Parameters
     ----------
@@ -35,10 +35,10 @@ class Server(uvicorn.Server):
                 app,
                 host=settings.host,
                 port=settings.port,
-                http=PatientConnection,
+                http=TimedConnection,
                 ws="none",
                 server_header=False,
-                log_config=None,  # it writes into the service's journal, as all that runs here does
+                log_config=None,  # it writes into the service's own log
                 log_level="info",
                 access_log=False,
                 timeout_graceful_shutdown=GRACE_S,
@@ -47,33 +47,34 @@ class Server(uvicorn.Server):
         self._app = app
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Begin to listen, and leave all that was loaded until now out of every later collection of garbage.
+        """Begin to listen, and exclude all objects that exist by now from garbage collection.
 
-        There are some 300,000 objects of libraries: to go through them takes a tenth of a second, in which no
-        request is answered.
+        There are some 300,000 of them: to go through them takes a tenth of a second, in which no request is
+        answered.
         """
         await super().startup(sockets)
         gc.collect()
         gc.freeze()
 
     async def on_tick(self, counter: int) -> bool:
-        """Look at all connections now and then."""
-        if counter % TICKS_PER_LOOK == 0:
+        """Check all connections twice a second."""
+        if counter % TICKS_PER_CHECK == 0:
             for connection in self._connections:
-                connection.look()
+                connection.tick()
         return await super().on_tick(counter)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Let nobody wait for a job any longer, then close."""
+        """End all waiting for jobs, then close."""
         self._app.state.services.feed.end()
-        giving_up = asyncio.get_running_loop().call_later(LAST_WORD_S, self._give_up)
+        last_call = asyncio.get_running_loop().call_later(REFUSE_AFTER_S, self._refuse_pending)
         await super().shutdown(sockets)
-        giving_up.cancel()
+        last_call.cancel()
 
-    def _give_up(self) -> None:
+    def _refuse_pending(self) -> None:
         for connection in self._connections:
-            connection.give_up()
+            connection.refuse_pending()
 
     @property
-    def _connections(self) -> list[PatientConnection]:
-        return [one for one in self.server_state.connections if isinstance(one, PatientConnection)]
+    def _connections(self) -> list[TimedConnection]:
+        connections = self.server_state.connections
+        return [connection for connection in connections if isinstance(connection, TimedConnection)]

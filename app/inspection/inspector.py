@@ -16,7 +16,7 @@ import anyio
 
 from ...core.errors import LogError
 from ..problems import Problem, problem_of
-from ..processes.fork_server import Child, Standby, fork_server
+from ..processes.fork_server import Child, ProcessPool, fork_server
 from ..store.records import Document
 from . import child
 from .budget import Budget, budget_for
@@ -38,13 +38,13 @@ class Inspector:
 
     def __init__(self) -> None:
         self._context = fork_server("veritorque.app.inspection.child", *child.NEEDED)
-        self._standby = Standby(lambda: Child(self._context, child.inspect))
+        self._pool = ProcessPool(lambda: Child(self._context, child.inspect))
         self._at_once = os.cpu_count() or 1
         self.limiter = anyio.CapacityLimiter(self._at_once)
 
     def prepare(self) -> None:
         """Have processes made that wait for files, without waiting for them."""
-        self._standby.prepare(self._at_once)
+        self._pool.prepare(self._at_once)
 
     def summarise(self, log: LogFile, *, size: int, media_type: str | None) -> Document:
         """Say what is in a log of so many bytes.
@@ -71,13 +71,13 @@ class Inspector:
     def _read(self, work: child.Work, path: Path, size: int) -> bytes:
         """Let a process of its own do the work, and give the document that it made."""
         budget = budget_for(size)
-        with self._standby.child() as process:
+        with self._pool.child() as process:
             process.pipe.send((work, path, budget))
             return _answer(process, budget)
 
     def close(self) -> None:
         """End the processes that wait."""
-        self._standby.close()
+        self._pool.close()
 
 
 def _answer(process: Child, budget: Budget) -> bytes:

@@ -40,9 +40,9 @@ class Reclaimer:
             known_beat, since = self._seen.get(held, (beat, now))
             seen[held] = (beat, since if known_beat == beat else now)
             if self._presence.is_gone(owner):
-                reclaimed += self._work.bury(held, died_too_often().document())
+                reclaimed += self._work.retry_or_fail(held, died_too_often().document())
             elif now - seen[held][1] > LEASE_S:
-                reclaimed += self._work.bury(held, died_too_often().document(), beat=beat)
+                reclaimed += self._work.retry_or_fail(held, died_too_often().document(), beat=beat)
         self._seen = seen
         self._presence.tidy()
         return reclaimed

@@ -254,6 +254,6 @@ class Worker:
         elif isinstance(outcome, Failed):
             self._store.work.fail(held, outcome.problem)
         elif isinstance(outcome, Died):
-            self._store.work.bury(held, outcome.problem)
+            self._store.work.retry_or_fail(held, outcome.problem)
         else:
             self._store.work.hand_back(held)  # after a shutdown; a dismissed job stays dismissed

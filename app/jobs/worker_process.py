@@ -22,7 +22,7 @@ from .worker import Worker
 PULSE_S = 1.0
 
 
-def work_until_told(store: Store, settings: Settings, *, beside: bool) -> None:
+def work_until_stopped(store: Store, settings: Settings, *, beside: bool) -> None:
     """Work through the queue; return when told to end and all jobs are handed back."""
     told = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):

@@ -40,7 +40,7 @@ def fork_server(*preload: str) -> ForkServerContext:
     return context
 
 
-class NotWanted(Exception):  # noqa: N818 - no error: nothing went wrong
+class NotNeeded(Exception):  # noqa: N818 - no error: nothing went wrong
     """Say that nobody waits any more for the child that was asked for."""
 
 
@@ -86,7 +86,7 @@ class Child:
         self.pipe.close()
 
 
-class Standby:
+class ProcessPool:
     """Keep children that wait for their tasks, so that no task waits for a child.
 
     Each is used once: while its successor is made, and it is cleared away, whoever used it goes on.
@@ -100,7 +100,7 @@ class Standby:
     def __init__(self, make: Callable[[], Child]) -> None:
         self._make = make
         self._coming: SimpleQueue[Future[Child]] = SimpleQueue()
-        self._keeper = ThreadPoolExecutor(1, thread_name_prefix="standby")
+        self._keeper = ThreadPoolExecutor(1, thread_name_prefix="process-pool")
         self._making: set[Future[Child]] = set()
         self._closed, self._parting = False, Lock()
 
@@ -120,7 +120,7 @@ class Standby:
         ------
         OSError, EOFError
             If there is none to be had.
-        NotWanted
+        NotNeeded
             If none had come yet when `stop` was set.
         """
         try:
@@ -133,7 +133,7 @@ class Standby:
                     self._coming.put(coming)
                 elif not coming.cancel():
                     coming.add_done_callback(_end_unwanted)
-                raise NotWanted
+                raise NotNeeded
             wait([coming], LOOK_EVERY_S)
         used: list[Child] = []
         try:

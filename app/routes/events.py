@@ -15,7 +15,7 @@ from ..http.routing import chapter
 from ..json_text import json_bytes
 from ..services.job_feed import JobFeed, no_such_job
 from ..services.serialisers import job_document
-from ..services.services import DeskOf
+from ..services.services import ContextOf
 from ..store.errors import Unavailable
 from ..store.records import JobRecord
 
@@ -47,20 +47,20 @@ class EventStream(StreamingResponse):
     },
 )
 async def follow_job(
-    desk: DeskOf,
+    context: ContextOf,
     job_id: str,
     last_event_id: Annotated[
         str | None, Header(max_length=200, description="id of the last received event")
     ] = None,
 ) -> Response:
     """Follow a job until it ends. The first event tells how far it is, unless Last-Event-ID is up to date."""
-    job = await desk.feed.job((desk.caller.tenant, job_id))
+    job = await context.feed.job((context.caller.tenant, job_id))
     if job is None:
         raise no_such_job(job_id)
     known = _version(last_event_id)
     if job.finished and job.version == known:
         return Response(status_code=204)  # tells a browser not to come back
-    return EventStream(_events(desk.feed, job, known), headers=HEADERS)
+    return EventStream(_events(context.feed, job, known), headers=HEADERS)
 
 
 async def _events(feed: JobFeed, job: JobRecord, known: int | None) -> AsyncIterator[bytes]:

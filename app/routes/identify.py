@@ -29,7 +29,7 @@ from ..schemas.jobs import Job
 from ..schemas.results import ResultDocument
 from ..services.job_feed import wait_for
 from ..services.serialisers import job_document
-from ..services.services import Desk, DeskOf
+from ..services.services import ContextOf, RequestContext
 from ..store.records import JobRecord, LogRecord, RobotRecord
 
 ROUTER = chapter("/v1/identify", tag="identify")
@@ -68,7 +68,7 @@ FORM_SCHEMA = {
 )
 async def identify(
     request: Request,
-    desk: DeskOf,
+    context: ContextOf,
     prefer: Annotated[
         str | None, Header(max_length=200, description="wait=N: wait up to N seconds; default 60")
     ] = None,
@@ -80,17 +80,17 @@ async def identify(
         options = parse_object(await text_of(form, "options"), what="options") or {}
         mapping = parse_object(await text_of(form, "mapping"), what="the mapping")
         files = files_of(form, "log")
-        robot = await _robot(desk, form)
-        logs = tuple([await _log(desk, part, mapping) for part in files])
+        robot = await _robot(context, form)
+        logs = tuple([await _log(context, part, mapping) for part in files])
     ids = tuple(log.id for log in logs)
     submission = Submission(Identify.name, robot.id, ids, options, trace=request.state.trace)
-    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, submission)
+    job = await context.batcher.take(context.caller.tenant, context.queue.begin_to_submit, submission)
     seconds = wait_seconds(prefer)
-    job = await wait_for(desk.feed, job, LONGEST_WAIT_S if seconds is None else seconds)
-    return await anyio.to_thread.run_sync(_answer, desk, job)
+    job = await wait_for(context.feed, job, LONGEST_WAIT_S if seconds is None else seconds)
+    return await anyio.to_thread.run_sync(_answer, context, job)
 
 
-async def _robot(desk: Desk, form: FormData) -> RobotRecord:
+async def _robot(context: RequestContext, form: FormData) -> RobotRecord:
     given = form.getlist("robot")
     if len(given) != 1:
         raise Problem(
@@ -101,32 +101,32 @@ async def _robot(desk: Desk, form: FormData) -> RobotRecord:
         )
     part = given[0]
     content = await part.read(LONGEST_ROBOT + 1) if isinstance(part, UploadFile) else part.encode()
-    return await anyio.to_thread.run_sync(_find_or_create, desk, content.strip())
+    return await anyio.to_thread.run_sync(_find_or_create, context, content.strip())
 
 
-def _find_or_create(desk: Desk, content: bytes) -> RobotRecord:
+def _find_or_create(context: RequestContext, content: bytes) -> RobotRecord:
     if content.startswith(b"{"):
-        return desk.catalogue.add_description(parse_json(content, what="the robot"))
+        return context.catalogue.add_description(parse_json(content, what="the robot"))
     if content.startswith((b"<", b"\xef\xbb\xbf")):
-        return desk.catalogue.add_urdf(content)
-    return desk.catalogue.robot(content.decode(errors="replace")[:100], named_in_body=True)
+        return context.catalogue.add_urdf(content)
+    return context.catalogue.robot(content.decode(errors="replace")[:100], named_in_body=True)
 
 
-async def _log(desk: Desk, part: UploadFile, mapping: dict[str, object] | None) -> LogRecord:
-    with desk.store.blobs.receive() as incoming:
+async def _log(context: RequestContext, part: UploadFile, mapping: dict[str, object] | None) -> LogRecord:
+    with context.store.blobs.receive() as incoming:
         await receive_part(part, incoming)
         return await anyio.to_thread.run_sync(
-            lambda: desk.catalogue.add_log(
+            lambda: context.catalogue.add_log(
                 incoming, name=part.filename or "log", mapping=mapping, media_type=claimed_type(part)
             ),
-            limiter=desk.readers,
+            limiter=context.readers,
         )
 
 
-def _answer(desk: Desk, job: JobRecord) -> Response:
+def _answer(context: RequestContext, job: JobRecord) -> Response:
     path = f"/v1/jobs/{job.id}"
     if job.result_sha256 is not None:
-        result = desk.store.blobs.read(job.result_sha256)
+        result = context.store.blobs.read(job.result_sha256)
         return Response(
             result, media_type="application/json", headers={"Content-Location": f"{path}/results"}
         )

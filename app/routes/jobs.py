@@ -22,7 +22,7 @@ from ..services.export_files import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
 from ..services.finished_jobs import RETRY_AFTER_S, find_job, report_of, result_of, traces_of
 from ..services.job_feed import no_such_job, wait_for
 from ..services.serialisers import PARAMETERS_FILE, job_document
-from ..services.services import DeskOf
+from ..services.services import ContextOf
 from ..store.records import JobRecord
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
@@ -43,7 +43,7 @@ EXAMPLES = {
 )
 async def create_job(
     request: Request,
-    desk: DeskOf,
+    context: ContextOf,
     prefer: Annotated[
         str | None, Header(max_length=200, description="wait=N: wait up to N seconds (at most 60)")
     ] = None,
@@ -65,21 +65,21 @@ async def create_job(
         key=idempotency_key,
         trace=request.state.trace,
     )
-    job = await desk.intake.take(desk.caller.tenant, desk.queue.begin_to_submit, submission)
+    job = await context.batcher.take(context.caller.tenant, context.queue.begin_to_submit, submission)
     seconds = wait_seconds(prefer)
     if seconds is not None:
-        job = await wait_for(desk.feed, job, seconds)
+        job = await wait_for(context.feed, job, seconds)
     return _job_response(job, applied=seconds)
 
 
 @ROUTER.get("", response_model=JobList, summary="List jobs", responses=problems(422))
 def list_jobs(
-    desk: DeskOf,
+    context: ContextOf,
     limit: Limit = 100,
     cursor: CursorOf = None,
 ) -> Response:
     """List jobs, newest first."""
-    jobs = desk.store.jobs.page(limit=limit, before=before(cursor))
+    jobs = context.store.jobs.page(limit=limit, before=before(cursor))
     return JSONResponse({"jobs": [job_document(job) for job in jobs], "next": following(jobs, limit)})
 
 
@@ -89,9 +89,9 @@ def list_jobs(
     summary="Follow a job",
     responses=problems(404) | UNCHANGED,
 )
-async def read_job(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
+async def read_job(context: ContextOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read a job and its progress; with the last ETag as If-None-Match, only changes are sent."""
-    job = await desk.feed.job((desk.caller.tenant, job_id))
+    job = await context.feed.job((context.caller.tenant, job_id))
     if job is None:
         raise no_such_job(job_id)
     headers = {"ETag": f'"{job.id}-{job.version}"', "Cache-Control": "no-cache"}
@@ -116,20 +116,20 @@ async def read_job(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None)
     | UNCHANGED,
 )
 def read_results(
-    desk: DeskOf,
+    context: ContextOf,
     job_id: str,
     accept: Annotated[str | None, Header(include_in_schema=False)] = None,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the result document; with Accept: text/csv its base parameters, with text/html its report."""
     _form(accept, RESULT_FORMS)
-    job = find_job(desk, job_id)
+    job = find_job(context, job_id)
     form = _form(accept, _forms_of(kind_of(job.request.kind)))
-    result = result_of(desk, job)
+    result = result_of(context, job)
     if form == "text/csv":
         return result.unless_known(if_none_match, PARAMETERS_FILE, lambda: _artifact(result, PARAMETERS_FILE))
     if form == "text/html":
-        return result.unless_known(if_none_match, "report", lambda: report_of(desk, job))
+        return result.unless_known(if_none_match, "report", lambda: report_of(context, job))
     return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
 
 
@@ -139,10 +139,10 @@ def read_results(
     summary="Read the report",
     responses=problems(404, 409) | {200: {"description": "One HTML file that opens offline"}} | UNCHANGED,
 )
-def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
+def read_report(context: ContextOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read the report: one HTML file with figures and tables, without scripts."""
-    job = find_job(desk, job_id)
-    return result_of(desk, job).unless_known(if_none_match, "report", lambda: report_of(desk, job))
+    job = find_job(context, job_id)
+    return result_of(context, job).unless_known(if_none_match, "report", lambda: report_of(context, job))
 
 
 @ROUTER.get(
@@ -152,16 +152,16 @@ def read_report(desk: DeskOf, job_id: str, if_none_match: IfNoneMatch = None) ->
     responses=problems(404, 409, 422) | {200: {"content": CONTENT, "description": "The file"}} | UNCHANGED,
 )
 def read_artifact(
-    desk: DeskOf,
+    context: ContextOf,
     job_id: str,
     artifact: Annotated[str, Path(examples=[*ARTIFACTS, TRACES_FILE])],
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the identified robot in an exchange format."""
-    job = find_job(desk, job_id)
+    job = find_job(context, job_id)
     if artifact == TRACES_FILE:
-        return file_response(traces_of(desk, job), artifact, TRACES_TYPE, if_none_match)
-    result = result_of(desk, job)
+        return file_response(traces_of(context, job), artifact, TRACES_TYPE, if_none_match)
+    result = result_of(context, job)
     known = [*kind_of(job.request.kind).artifacts, TRACES_FILE]
     if artifact not in known:
         raise Problem(
@@ -185,12 +185,12 @@ def read_artifact(
         204: {"description": "The job was finished and is deleted"},
     },
 )
-def delete_job(desk: DeskOf, job_id: str) -> Response:
+def delete_job(context: ContextOf, job_id: str) -> Response:
     """Dismiss an unfinished job, which ends its computation; delete a finished one with its result."""
-    job = find_job(desk, job_id)
-    if job.finished and desk.store.jobs.remove(job.id):
+    job = find_job(context, job_id)
+    if job.finished and context.store.jobs.remove(job.id):
         return Response(status_code=204)
-    return JSONResponse(job_document(desk.queue.dismiss(job)))
+    return JSONResponse(job_document(context.queue.dismiss(job)))
 
 
 def _job_response(job: JobRecord, *, applied: int | None) -> Response:

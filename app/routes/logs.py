@@ -30,7 +30,7 @@ from ..schemas.examples import CSV_LOG, MAPPING
 from ..schemas.logs import LogList, LogSummary, LogTraces
 from ..services.decimated_traces import SelectionOf
 from ..services.serialisers import log_document
-from ..services.services import Desk, DeskOf
+from ..services.services import ContextOf, RequestContext
 from ..store.blobs.incoming import Incoming
 from ..store.records import LogRecord
 from ..version import VERSION
@@ -68,7 +68,7 @@ RAW_CONTENT = {
 )
 async def create_log(
     request: Request,
-    desk: DeskOf,
+    context: ContextOf,
     name: Annotated[str | None, Query(max_length=200)] = None,
     mapping: Annotated[str | None, Query(max_length=60_000, description=f"JSON, e.g. {MAPPING}")] = None,
 ) -> Response:
@@ -77,30 +77,32 @@ async def create_log(
     Invalid data are refused; defects of usable data are listed.
     """
     media_type = require_media_type(request, (MULTIPART, *LOG_MEDIA_TYPES))
-    with desk.store.blobs.receive() as incoming:
+    with context.store.blobs.receive() as incoming:
         if media_type == MULTIPART:
-            log = await _from_form(request, desk, incoming, name=name, mapping=mapping)
+            log = await _from_form(request, context, incoming, name=name, mapping=mapping)
         else:
             await receive_body(request, incoming)
-            log = await _add(desk, incoming, name=name or "log", mapping=mapping, kind=media_type_of(request))
+            log = await _add(
+                context, incoming, name=name or "log", mapping=mapping, kind=media_type_of(request)
+            )
     return JSONResponse(log_document(log), 201, headers={"Location": f"/v1/logs/{log.id}"})
 
 
 @ROUTER.get("", response_model=LogList, summary="List logs", responses=problems(422))
 def list_logs(
-    desk: DeskOf,
+    context: ContextOf,
     limit: Limit = 100,
     cursor: CursorOf = None,
 ) -> Response:
     """List logs, newest first."""
-    logs = desk.store.logs.page(limit=limit, before=before(cursor))
+    logs = context.store.logs.page(limit=limit, before=before(cursor))
     return JSONResponse({"logs": [log_document(log) for log in logs], "next": following(logs, limit)})
 
 
 @ROUTER.get("/{log_id}", response_model=LogSummary, summary="Read a log", responses=problems(404))
-def read_log(desk: DeskOf, log_id: str) -> Response:
+def read_log(context: ContextOf, log_id: str) -> Response:
     """Read the summary of a log with its defects."""
-    return JSONResponse(log_document(desk.catalogue.log(log_id)))
+    return JSONResponse(log_document(context.catalogue.log(log_id)))
 
 
 @ROUTER.get(
@@ -110,13 +112,13 @@ def read_log(desk: DeskOf, log_id: str) -> Response:
     responses=problems(404, 422) | UNCHANGED,
 )
 async def read_traces(
-    desk: DeskOf,
+    context: ContextOf,
     log_id: str,
     selection: SelectionOf,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Read the channels of a log, min/max decimated; `from` and `to` select a range."""
-    log = await anyio.to_thread.run_sync(desk.catalogue.log, log_id)
+    log = await anyio.to_thread.run_sync(context.catalogue.log, log_id)
     selection = replace(selection, channels=_chosen(log, selection.channels))
     asked = (selection.points, "-".join(selection.channels), selection.begin, selection.end)
     etag = f'"{log.id}-{"-".join(map(str, asked))}-{VERSION}"'
@@ -124,17 +126,17 @@ async def read_traces(
     if matches(if_none_match, etag):
         return Response(status_code=304, headers=headers)
     document = await anyio.to_thread.run_sync(
-        lambda: desk.catalogue.trace_log(log, selection), limiter=desk.readers
+        lambda: context.catalogue.trace_log(log, selection), limiter=context.readers
     )
     return Response(document, media_type="application/json", headers=headers)
 
 
 @ROUTER.delete("/{log_id}", status_code=204, summary="Delete a log", responses=problems(404, 409))
-def delete_log(desk: DeskOf, log_id: str) -> None:
+def delete_log(context: ContextOf, log_id: str) -> None:
     """Delete a log that no unfinished job needs."""
-    log = desk.catalogue.log(log_id)
-    desk.queue.refuse_if_needed(log=log.id)
-    desk.store.logs.remove(log.id)
+    log = context.catalogue.log(log_id)
+    context.queue.refuse_if_needed(log=log.id)
+    context.store.logs.remove(log.id)
 
 
 def _chosen(log: LogRecord, names: tuple[str, ...]) -> tuple[str, ...]:
@@ -153,7 +155,7 @@ def _chosen(log: LogRecord, names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 async def _from_form(
-    request: Request, desk: Desk, incoming: Incoming, *, name: str | None, mapping: str | None
+    request: Request, context: RequestContext, incoming: Incoming, *, name: str | None, mapping: str | None
 ) -> LogRecord:
     async with open_form(request, longest_text=LONGEST_TEXT_FILE) as form:
         refuse_unknown_parts(form, ("file", "mapping"))
@@ -161,14 +163,14 @@ async def _from_form(
         name = name or part.filename or "log"
         given = await text_of(form, "mapping")
         await receive_part(part, incoming)
-        return await _add(desk, incoming, name=name, mapping=given or mapping, kind=claimed_type(part))
+        return await _add(context, incoming, name=name, mapping=given or mapping, kind=claimed_type(part))
 
 
 async def _add(
-    desk: Desk, incoming: Incoming, *, name: str, mapping: bytes | str | None, kind: str | None
+    context: RequestContext, incoming: Incoming, *, name: str, mapping: bytes | str | None, kind: str | None
 ) -> LogRecord:
     columns = parse_object(mapping, what="the mapping")
     return await anyio.to_thread.run_sync(
-        lambda: desk.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind),
-        limiter=desk.readers,
+        lambda: context.catalogue.add_log(incoming, name=name, mapping=columns, media_type=kind),
+        limiter=context.readers,
     )

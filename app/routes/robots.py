@@ -14,7 +14,7 @@ from ..problems import Problem
 from ..schemas.examples import PENDULUM_URDF, YUMI_LEFT
 from ..schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
 from ..services.serialisers import robot_document, robot_summary
-from ..services.services import DeskOf, ServicesOf
+from ..services.services import ContextOf, ServicesOf
 
 ROUTER = chapter("/v1/robots", tag="robots")
 XML_TYPES = ("application/xml", "text/xml")
@@ -36,7 +36,7 @@ LinkName = Annotated[str | None, Query(max_length=200)]
 )
 async def create_robot(
     request: Request,
-    desk: DeskOf,
+    context: ContextOf,
     base_link: LinkName = None,
     tip_link: LinkName = None,
     gravity: Annotated[
@@ -50,30 +50,32 @@ async def create_robot(
     if media_type in XML_TYPES:
         vector = _vector(gravity)
         robot = await anyio.to_thread.run_sync(
-            lambda: desk.catalogue.add_urdf(content, base_link=base_link, tip_link=tip_link, gravity=vector)
+            lambda: context.catalogue.add_urdf(
+                content, base_link=base_link, tip_link=tip_link, gravity=vector
+            )
         )
     else:
         _refuse_urdf_options(base_link=base_link, tip_link=tip_link, gravity=gravity)
-        robot = await anyio.to_thread.run_sync(desk.catalogue.add_description, parse_json(content))
+        robot = await anyio.to_thread.run_sync(context.catalogue.add_description, parse_json(content))
     return JSONResponse(robot_document(robot), 201, headers={"Location": f"/v1/robots/{robot.id}"})
 
 
 @ROUTER.get("", response_model=RobotList, summary="List robots", responses=problems(422))
 def list_robots(
-    desk: DeskOf,
+    context: ContextOf,
     limit: Limit = 100,
     cursor: CursorOf = None,
 ) -> Response:
     """List robots: built-in ones first, then the newest."""
-    robots = desk.catalogue.robots(limit=limit, before=before(cursor))
+    robots = context.catalogue.robots(limit=limit, before=before(cursor))
     listed = {"robots": [robot_summary(robot) for robot in robots]}
     return JSONResponse(listed | {"next": following(robots, limit)})
 
 
 @ROUTER.get("/{robot_id}", response_model=Robot, summary="Read a robot", responses=problems(404))
-def read_robot(desk: DeskOf, robot_id: str) -> Response:
+def read_robot(context: ContextOf, robot_id: str) -> Response:
     """Read a robot with every default of its description filled in."""
-    return JSONResponse(robot_document(desk.catalogue.robot(robot_id)))
+    return JSONResponse(robot_document(context.catalogue.robot(robot_id)))
 
 
 @ROUTER.get(
@@ -82,22 +84,22 @@ def read_robot(desk: DeskOf, robot_id: str) -> Response:
     summary="Read the base parameters",
     responses=problems(404, 422),
 )
-async def read_base_parameters(services: ServicesOf, desk: DeskOf, robot_id: str) -> Response:
+async def read_base_parameters(services: ServicesOf, context: ContextOf, robot_id: str) -> Response:
     """Read the base parameters of a robot with their groupings.
 
     Right after the very first start the answer waits until the solver is compiled.
     """
-    robot = await anyio.to_thread.run_sync(desk.catalogue.robot, robot_id)
+    robot = await anyio.to_thread.run_sync(context.catalogue.robot, robot_id)
     await services.readiness.let_the_solver_load()
-    document = await anyio.to_thread.run_sync(desk.catalogue.base_parameters, robot)
+    document = await anyio.to_thread.run_sync(context.catalogue.base_parameters, robot)
     return JSONResponse(document)
 
 
 @ROUTER.delete("/{robot_id}", status_code=204, summary="Delete a robot", responses=problems(404, 409))
-def delete_robot(desk: DeskOf, robot_id: str) -> None:
+def delete_robot(context: ContextOf, robot_id: str) -> None:
     """Delete a robot that no unfinished job needs. Built-in robots stay."""
-    desk.queue.refuse_if_needed(robot=robot_id)
-    desk.catalogue.remove_robot(robot_id)
+    context.queue.refuse_if_needed(robot=robot_id)
+    context.catalogue.remove_robot(robot_id)
 
 
 def _vector(text: str | None) -> tuple[float, ...] | None:

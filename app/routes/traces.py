@@ -8,7 +8,7 @@ from ..http.routing import chapter
 from ..schemas.traces import ResidualViews, ResultTraces
 from ..services.decimated_traces import Number, ViewOf, traces_response, views_response
 from ..services.finished_jobs import find_job, traces_of
-from ..services.services import DeskOf
+from ..services.services import ContextOf
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
 
@@ -20,10 +20,10 @@ ROUTER = chapter("/v1/jobs", tag="jobs")
     responses=problems(404, 409, 422) | UNCHANGED,
 )
 def read_result_traces(
-    desk: DeskOf, job_id: str, view: ViewOf, if_none_match: IfNoneMatch = None
+    context: ContextOf, job_id: str, view: ViewOf, if_none_match: IfNoneMatch = None
 ) -> Response:
     """Read signals of one joint, min/max decimated; `from` and `to` select a range."""
-    return traces_response(traces_of(desk, find_job(desk, job_id)), view, if_none_match)
+    return traces_response(traces_of(context, find_job(context, job_id)), view, if_none_match)
 
 
 @ROUTER.get(
@@ -33,8 +33,8 @@ def read_result_traces(
     responses=problems(404, 409, 422) | UNCHANGED,
 )
 def read_residual_views(
-    desk: DeskOf, job_id: str, joint: Number, log: Number = 1, if_none_match: IfNoneMatch = None
+    context: ContextOf, job_id: str, joint: Number, log: Number = 1, if_none_match: IfNoneMatch = None
 ) -> Response:
     """Read a joint's residual over position, velocity and frequency."""
-    kept = traces_of(desk, find_job(desk, job_id))
+    kept = traces_of(context, find_job(context, job_id))
     return views_response(kept, log=log, joint=joint, if_none_match=if_none_match)

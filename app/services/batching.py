@@ -19,7 +19,7 @@ def _nobody() -> None:
     """Call nobody."""
 
 
-class Intake(Generic[Asked, Given]):
+class Batcher(Generic[Asked, Given]):
     """Begin pieces of work in one thread, those of one tenant together, and wait for all that were begun.
 
     Parameters
@@ -30,7 +30,7 @@ class Intake(Generic[Asked, Given]):
 
     def __init__(self, taken: Callable[[], None] = _nobody) -> None:
         self._taken = taken
-        self._thread = ThreadPoolExecutor(1, thread_name_prefix="intake")
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="batcher")
         self._waiting: dict[str, _Group[Asked, Given]] = {}
         self._serving: asyncio.Task[None] | None = None
 

@@ -11,14 +11,14 @@ from ..kinds.registry import kind_of
 from ..problems import Problem
 from ..store.records import JobRecord
 from .job_feed import no_such_job
-from .services import Desk
+from .services import RequestContext
 
 RETRY_AFTER_S = "1"
 FRAMED = "; frame-ancestors 'none'; sandbox"
 """What only a header may say: the page is shown nowhere else, and runs nothing."""
 
 
-def find_job(desk: Desk, job_id: str) -> JobRecord:
+def find_job(context: RequestContext, job_id: str) -> JobRecord:
     """Find a job.
 
     Raises
@@ -26,13 +26,13 @@ def find_job(desk: Desk, job_id: str) -> JobRecord:
     Problem
         If there is none (404).
     """
-    job = desk.store.jobs.get(job_id)
+    job = context.store.jobs.get(job_id)
     if job is None:
         raise no_such_job(job_id)
     return job
 
 
-def result_of(desk: Desk, job: JobRecord) -> Blob:
+def result_of(context: RequestContext, job: JobRecord) -> Blob:
     """Give a job's result document.
 
     Raises
@@ -41,7 +41,7 @@ def result_of(desk: Desk, job: JobRecord) -> Blob:
         If it has none: it is not finished, or failed, or was dismissed (409).
     """
     if job.result_sha256 is not None:
-        return Blob(job.result_sha256, desk.store.blobs)
+        return Blob(job.result_sha256, context.store.blobs)
     if job.state == "failed":
         evidence = {"state": job.state, "problem": job.problem}
         cause = str((job.problem or {}).get("cause", "the job failed"))
@@ -61,7 +61,7 @@ def result_of(desk: Desk, job: JobRecord) -> Blob:
     )
 
 
-def traces_of(desk: Desk, job: JobRecord) -> Blob:
+def traces_of(context: RequestContext, job: JobRecord) -> Blob:
     """Give the torques and residuals of every sample.
 
     Raises
@@ -69,7 +69,7 @@ def traces_of(desk: Desk, job: JobRecord) -> Blob:
     Problem
         If it has no result (409), or kept no traces (404).
     """
-    result_of(desk, job)
+    result_of(context, job)
     if job.traces_sha256 is None:
         raise Problem(
             "not-found",
@@ -77,10 +77,10 @@ def traces_of(desk: Desk, job: JobRecord) -> Blob:
             evidence={"job": job.id},
             remedy="delete the job and ask for it again: it was computed by an earlier version",
         )
-    return Blob(job.traces_sha256, desk.store.blobs)
+    return Blob(job.traces_sha256, context.store.blobs)
 
 
-def report_of(desk: Desk, job: JobRecord) -> HTMLResponse:
+def report_of(context: RequestContext, job: JobRecord) -> HTMLResponse:
     """Write the report of a finished job as a page, with figures over time where its traces were kept.
 
     Raises
@@ -98,12 +98,12 @@ def report_of(desk: Desk, job: JobRecord) -> HTMLResponse:
             evidence={"job": job.id},
             remedy=f"read /v1/jobs/{job.id}/results",
         )
-    document = json.loads(result_of(desk, job).content())
+    document = json.loads(result_of(context, job).content())
     origin = Origin(job.id, job.finished_at or "")
     if job.traces_sha256 is None:
         page = kind.report(document, None, origin)
     else:
-        traces = Blob(job.traces_sha256, desk.store.blobs)
+        traces = Blob(job.traces_sha256, context.store.blobs)
         traces.check()
         with traces.local_copy() as file:
             page = kind.report(document, file, origin)

@@ -10,7 +10,7 @@ from fastapi import Depends, Request
 
 from ..auth.callers import Caller, caller_of
 from ..auth.keys import KeyRing
-from ..auth.rate_limit import Pace
+from ..auth.rate_limit import RateLimit
 from ..inspection.inspector import Inspector
 from ..jobs.computation import Ended
 from ..jobs.executors.executor import Executor
@@ -26,7 +26,7 @@ from ..settings import Settings
 from ..store.lock import DirectoryLock
 from ..store.records import Document, JobRecord, Quota, RobotRecord
 from ..store.store import Store, TenantStore
-from .batching import Intake
+from .batching import Batcher
 from .catalogue import Catalogue, built_in_robots
 from .job_feed import JobFeed
 from .metrics import Metrics
@@ -34,7 +34,7 @@ from .readiness import Readiness
 
 
 @dataclass(frozen=True)
-class Desk:
+class RequestContext:
     """Carry what belongs to the tenant of one request; `readers` bounds how many read logs at a time."""
 
     caller: Caller
@@ -43,7 +43,7 @@ class Desk:
     queue: Queue
     readers: anyio.CapacityLimiter
     feed: JobFeed
-    intake: Intake[Submission, JobRecord]
+    batcher: Batcher[Submission, JobRecord]
 
 
 @dataclass(frozen=True)
@@ -58,8 +58,8 @@ class Services:
     store: Store
     keys: KeyRing
     feed: JobFeed
-    intake: Intake[Submission, JobRecord]
-    pace: Pace
+    batcher: Batcher[Submission, JobRecord]
+    rate_limit: RateLimit
     inspector: Inspector
     computing: Worker | Supervisor | None
     metrics: Metrics
@@ -102,8 +102,8 @@ class Services:
             store=store,
             keys=KeyRing(store.database),
             feed=JobFeed(store.many_jobs),
-            intake=Intake(computing.wake) if computing else Intake(),
-            pace=Pace(settings.requests_per_second),
+            batcher=Batcher(computing.wake) if computing else Batcher(),
+            rate_limit=RateLimit(settings.requests_per_second),
             inspector=inspector,
             computing=computing,
             metrics=metrics,
@@ -111,12 +111,12 @@ class Services:
             built_in=built_in,
         )
 
-    def desk(self, caller: Caller) -> Desk:
+    def context(self, caller: Caller) -> RequestContext:
         """Open what belongs to the tenant of a request."""
         store = self.store.of(caller.tenant)
         catalogue = Catalogue(store, self.inspector, self.built_in, self.base_parameters)
         queue, readers = Queue(store, catalogue), self.inspector.limiter
-        return Desk(caller, store, catalogue, queue, readers, self.feed, self.intake)
+        return RequestContext(caller, store, catalogue, queue, readers, self.feed, self.batcher)
 
     def close(self) -> None:
         """Stop the computations, hand their jobs back, and close the store."""
@@ -175,13 +175,13 @@ async def known_caller(request: Request) -> Caller:
     try:
         caller = caller_of(request, services.keys, open_to_all=not services.settings.needs_keys)
     except Problem:
-        services.pace.keep(address)  # whoever guesses keys is held up, too
+        services.rate_limit.count(address)  # whoever guesses keys is held up, too
         raise
-    services.pace.keep(caller.key.id if caller.key else address)
+    services.rate_limit.count(caller.key.id if caller.key else address)
     return caller
 
 
-async def desk_of(request: Request) -> Desk:
+async def context_of(request: Request) -> RequestContext:
     """Open what belongs to whoever asks.
 
     Raises
@@ -190,9 +190,9 @@ async def desk_of(request: Request) -> Desk:
         As `known_caller`.
     """
     services: Services = request.app.state.services
-    return services.desk(await known_caller(request))
+    return services.context(await known_caller(request))
 
 
 ServicesOf = Annotated[Services, Depends(_services)]
 CallerOf = Annotated[Caller, Depends(known_caller)]
-DeskOf = Annotated[Desk, Depends(desk_of)]
+ContextOf = Annotated[RequestContext, Depends(context_of)]

@@ -172,7 +172,7 @@ def insert_if_new(connection: Connection, table: Table, values: Mapping[str, obj
         connection.execute(sqlite.insert(table).values(values).on_conflict_do_nothing())
 
 
-def take_turns(connection: Connection, about: str) -> None:
+def lock_in_turn(connection: Connection, about: str) -> None:
     """Wait until nobody else who writes is about the same; SQLite's writers take turns anyway."""
     if connection.dialect.name == "postgresql":
         connection.execute(

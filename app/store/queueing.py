@@ -14,7 +14,7 @@ from sqlalchemy import Connection, and_, bindparam, delete, insert, select
 
 from ..json_text import canonical_json
 from ..version import VERSION
-from .database import take_turns
+from .database import lock_in_turn
 from .errors import KeyReused, OverQuota
 from .quota import room_for_jobs
 from .records import UNFINISHED, JobRecord, JobRequestRecord, Quota
@@ -87,7 +87,7 @@ def queue_all(connection: Connection, tenant: str, quota: Quota, jobs: Sequence[
     """Queue jobs; give for each the job, or why there is none: `KeyReused` or `OverQuota`."""
     keys = [job.key for job in jobs if job.key is not None]
     for about in sorted({*(job.fingerprint for job in jobs), *(f"{tenant} {key}" for key in keys)}):
-        take_turns(connection, about)  # in the same order as everybody, so that no two wait for each other
+        lock_in_turn(connection, about)  # in the same order as everybody, so that no two wait for each other
     decisions = _Decisions(connection, tenant, quota, jobs)
     decided = [decisions.decide(job) for job in jobs]
     queued = decisions.write()

@@ -4,7 +4,7 @@ import math
 
 from sqlalchemy import Connection, bindparam, func, literal, select
 
-from .database import take_turns
+from .database import lock_in_turn
 from .errors import OverQuota
 from .records import UNFINISHED, Quota
 from .tables import JOBS, LOGS, one_of
@@ -22,7 +22,7 @@ def room_for_jobs(connection: Connection, tenant: str, quota: Quota) -> float:
     """Say how many more jobs the tenant may ask for before some of them are finished."""
     if quota.queued is None:
         return math.inf
-    take_turns(connection, f"jobs of {tenant}")
+    lock_in_turn(connection, f"jobs of {tenant}")
     counted = connection.execute(UNFINISHED_JOBS, {"tenant": tenant, "most": quota.queued}).scalar_one()
     return quota.queued - int(counted)
 
@@ -36,7 +36,7 @@ def refuse_beyond(connection: Connection, tenant: str, quota: Quota) -> None:
         If the tenant has more bytes than it may have.
     """
     if quota.stored_bytes is not None:
-        take_turns(connection, f"bytes of {tenant}")
+        lock_in_turn(connection, f"bytes of {tenant}")
         refuse_more(connection, tenant, quota, 0)
 
 

@@ -102,7 +102,7 @@ class WorkStore:
         """Let a running job wait again, as if it had never been taken."""
         return self._change(held, WAITING | {"attempts": JOBS.c.attempts - 1})
 
-    def bury(self, held: Held, problem: Document, *, beat: int | None = None) -> bool:
+    def retry_or_fail(self, held: Held, problem: Document, *, beat: int | None = None) -> bool:
         """Let a job whose computation died wait again; where that happened too often, it fails.
 
         Parameters

@@ -137,7 +137,7 @@ def test_a_line_about_a_job_carries_its_id_and_the_trace_of_its_request(tmp_path
     root = logging.getLogger()
     before = root.handlers, root.level
     try:
-        journal.open_journal(Settings(data_dir=tmp_path))
+        journal.configure_logging(Settings(data_dir=tmp_path))
         executor = StubExecutor()
         executor.release.set()
         with service(tmp_path, executor) as client:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_jobs import another, asked
 from tests.app.planar_arm import csv_log, description
-from veritorque.app.auth.rate_limit import BURST_S, Pace
+from veritorque.app.auth.rate_limit import BURST_S
 from veritorque.app.http import disk_reserve as disk
 from veritorque.app.problems import Problem
 
@@ -20,7 +20,7 @@ CSV = {"Content-Type": "text/csv"}
 def early_s(pace):
     """Ask as somebody; give by how much that was too early, s, None where it was not."""
     try:
-        pace.keep("somebody")
+        pace.count("somebody")
     except Problem as problem:
         return problem.evidence["early_s"]
     return None
@@ -29,7 +29,7 @@ def early_s(pace):
 @given(st.lists(st.floats(0.0, 3.0), max_size=60), st.floats(0.5, 20.0))
 def test_in_no_span_of_time_do_more_requests_pass_than_the_pace_allows(pauses, per_second):
     now, passed = 0.0, []
-    pace = Pace(per_second, clock=lambda: now)
+    pace = RateLimit(per_second, clock=lambda: now)
     for pause in pauses:
         now += pause
         early = early_s(pace)
@@ -44,12 +44,12 @@ def test_in_no_span_of_time_do_more_requests_pass_than_the_pace_allows(pauses, p
 
 
 def test_callers_do_not_slow_each_other():
-    pace = Pace(1.0, clock=lambda: 0.0)
+    pace = RateLimit(1.0, clock=lambda: 0.0)
     for _ in range(int(BURST_S)):
-        pace.keep("one")
+        pace.count("one")
     with pytest.raises(Problem):
-        pace.keep("one")
-    pace.keep("other")
+        pace.count("one")
+    pace.count("other")
 
 
 def test_who_asks_too_often_is_told_when_to_come_back(tmp_path):

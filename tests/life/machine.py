@@ -120,7 +120,7 @@ class JobLives(RuleBasedStateMachine):
             "succeed": lambda: self.store.keep_result(held, result),
             "fail": lambda: work.fail(held, PROBLEM),
             "hand back": lambda: work.hand_back(held),
-            "die": lambda: work.bury(held, PROBLEM),
+            "die": lambda: work.retry_or_fail(held, PROBLEM),
         }[end]()
         assert done == valid
         if valid:

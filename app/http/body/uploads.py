@@ -24,7 +24,7 @@ MOST_PARTS = 32
 LONGEST_TEXT_FILE = 256 * 1024
 PIECE = 1 << 20
 AHEAD = 2
-"""Pieces that may wait to be written, for each upload."""
+"""BodyChunks that may wait to be written, for each upload."""
 
 
 async def receive_body(request: Request, incoming: Incoming) -> None:

@@ -14,7 +14,7 @@ from threading import Event
 from ...kinds.kind import Progress
 from ...kinds.registry import KINDS
 from ...problems import Problem
-from ...processes.fork_server import READERS, Child, NotWanted, Standby, fork_server
+from ...processes.fork_server import READERS, Child, NotNeeded, ProcessPool, fork_server
 from .. import compute
 from ..computation import (
     Computation,
@@ -65,11 +65,11 @@ class ProcessExecutor:
             "veritorque.app.processes.ignore_sigterm", "veritorque.app.jobs.executors.job_process", *preload
         )
         self._at_once = at_once
-        self._standby = Standby(lambda: Child(self._context, job_process.compute, work, limits, rehearse))
+        self._pool = ProcessPool(lambda: Child(self._context, job_process.compute, work, limits, rehearse))
 
     def prepare(self) -> None:
         """Let the server process load the solver, and compile the kernels where the disk holds none yet."""
-        for coming in self._standby.prepare(self._at_once):
+        for coming in self._pool.prepare(self._at_once):
             coming.result()
 
     def run(
@@ -83,10 +83,10 @@ class ProcessExecutor:
     ) -> Outcome:
         """Run a computation in a process of its own; see `Executor`."""
         try:
-            with self._standby.child(stop) as process:
+            with self._pool.child(stop) as process:
                 process.pipe.send((computation, workspace, timeout_s))
                 return _follow(process, progress=progress, stop=stop, timeout_s=timeout_s)
-        except NotWanted:
+        except NotNeeded:
             return Stopped()
         except (EOFError, OSError) as error:  # the server that forks is gone; it is started again by itself
             LOGGER.warning("no process for a computation could be started: %r", error)
@@ -94,7 +94,7 @@ class ProcessExecutor:
 
     def close(self) -> None:
         """End the processes that wait."""
-        self._standby.close()
+        self._pool.close()
 
 
 def _follow(process: Child, *, progress: Progress, stop: Event, timeout_s: float) -> Outcome:

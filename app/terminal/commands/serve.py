@@ -115,12 +115,12 @@ def _require_free(host: str, port: int) -> None:
 def _listen(settings: Settings) -> None:
     from ...http.server import Server
     from ...jobs.supervisor import Supervisor
-    from ...logging import open_journal
+    from ...logging import configure_logging
     from ...main import create_app
     from ...services.metrics import Metrics
 
     _require_free(settings.host, settings.port)
-    open_journal(settings)
+    configure_logging(settings)
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
     say(f"http://{shown}:{settings.port}/docs")
     metrics = Metrics()

@@ -30,9 +30,9 @@ def work(
     require_directory(settings.data_dir)
     limit_threads(settings.job_cpus)
     keep_compiled_kernels(settings.data_dir)
-    from ...jobs.worker_process import work_until_told
-    from ...logging import open_journal
+    from ...jobs.worker_process import work_until_stopped
+    from ...logging import configure_logging
 
-    open_journal(settings)
+    configure_logging(settings)
     with opened(settings) as store:
-        work_until_told(store, settings, beside=beside)
+        work_until_stopped(store, settings, beside=beside)

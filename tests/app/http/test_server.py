@@ -20,8 +20,8 @@ from tests.app.stubs import StubExecutor
 from veritorque.app import logging as journal
 from veritorque.app.http import connection
 from veritorque.app.http import server as listening
-from veritorque.app.http.body.chunks import Pieces
 from veritorque.app.http.server import Server
+from veritorque.app.http.uvicorn_parts import BodyChunks
 from veritorque.app.main import create_app
 from veritorque.app.settings import Settings
 
@@ -48,7 +48,7 @@ def listening_service(directory, executor=None, **settings):
 @pytest.fixture
 def port(tmp_path, monkeypatch):
     """A service whose patience is a second."""
-    for name in ("HEAD_LOOKS", "BODY_LOOKS", "ANSWER_LOOKS", "PARTING_LOOKS"):
+    for name in ("HEAD_TICKS", "BODY_TICKS", "ANSWER_TICKS", "CLOSING_TICKS"):
         monkeypatch.setattr(connection, name, 1)
     with listening_service(tmp_path) as (_, port):
         yield port
@@ -251,7 +251,7 @@ def test_what_follows_a_body_is_no_part_of_its_head(port, log_bytes):
     [(b"0\r\n", b"a:b\r\n" * 10_000), (b"0\r\nX: ", b"x" * 65536), (b"1;", b"x" * 65536)],
 )
 def test_what_goes_with_a_body_is_refused_before_it_fills_the_memory(patient_port, start, piece, monkeypatch):
-    monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
+    monkeypatch.setattr(connection, "CLOSING_BYTES", 1_000_000)
     head = upload_head(0, chunked=True)
     with connected(patient_port) as link:
         link.sendall(head + start)
@@ -409,8 +409,8 @@ def test_whoever_never_ends_is_not_heard_out(port, monkeypatch):
         link.sendall(head)
         assert answers_of(link, 1)[0].status == 413
         assert seconds_until_closed(link, [b"x"] * 500, pause=0.01) < 3.0
-    monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
-    monkeypatch.setattr(connection, "PARTING_LOOKS", 100)
+    monkeypatch.setattr(connection, "CLOSING_BYTES", 1_000_000)
+    monkeypatch.setattr(connection, "CLOSING_TICKS", 100)
     with connected(port) as link:
         link.sendall(head)
         assert seconds_until_closed(link, [b"x" * 65536] * 1000) < 3.0
@@ -450,13 +450,13 @@ def test_a_document_that_does_not_come_is_no_mistake_of_the_service(port, caplog
 
 def test_no_more_requests_are_read_while_others_wait(port, monkeypatch):
     """As many as one read of the socket holds may wait, and no more come in with every answer."""
-    most, honest = [0], connection.PatientConnection.on_headers_complete
+    most, honest = [0], connection.TimedConnection.on_headers_complete
 
     def counted(self):
         honest(self)
         most[0] = max(most[0], len(self.pipeline))
 
-    monkeypatch.setattr(connection.PatientConnection, "on_headers_complete", counted)
+    monkeypatch.setattr(connection.TimedConnection, "on_headers_complete", counted)
     with closing(connected(port)) as link:
         asked = 20_000
         sender = threading.Thread(target=link.sendall, args=(POLL * asked + LAST_POLL,))
@@ -468,7 +468,7 @@ def test_no_more_requests_are_read_while_others_wait(port, monkeypatch):
 
 def test_a_head_that_has_begun_beside_an_answer_has_as_long_as_any(port, monkeypatch):
     monkeypatch.setattr(
-        connection, "HEAD_LOOKS", 11
+        connection, "HEAD_TICKS", 11
     )  # longer than a connection is kept on which nothing comes
     with closing(connected(port)) as link:
         link.settimeout(10.0)
@@ -477,7 +477,7 @@ def test_a_head_that_has_begun_beside_an_answer_has_as_long_as_any(port, monkeyp
 
 
 def test_a_head_without_end_is_refused_before_it_fills_the_memory(port, monkeypatch):
-    monkeypatch.setattr(connection, "PARTING_BYTES", 1_000_000)
+    monkeypatch.setattr(connection, "CLOSING_BYTES", 1_000_000)
     with connected(port) as link:
         link.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ")
         assert seconds_until_closed(link, [b"x" * 65536] * 1000) < 4.0
@@ -527,7 +527,7 @@ def test_all_that_the_server_says_is_json(tmp_path, capsys):
     root = logging.getLogger()
     before = root.handlers, root.level
     try:
-        journal.open_journal(Settings(data_dir=tmp_path))
+        journal.configure_logging(Settings(data_dir=tmp_path))
         with listening_service(tmp_path):
             pass
     finally:
@@ -538,13 +538,13 @@ def test_all_that_the_server_says_is_json(tmp_path, capsys):
 
 @given(st.lists(st.binary(max_size=9)))
 def test_a_body_in_pieces_is_the_body(pieces):
-    body = Pieces()
+    body = BodyChunks()
     for piece in pieces:
         body += piece
     assert (len(body), bytes(body)) == (len(b"".join(pieces)), b"".join(pieces))
 
 
 def test_a_body_in_one_piece_is_not_copied():
-    body, piece = Pieces(), bytes(1000)
+    body, piece = BodyChunks(), bytes(1000)
     body += piece
     assert bytes(body) is piece

@@ -15,7 +15,7 @@ from tests.app import work
 from tests.app.jobs.test_executor import COMPUTATION
 from veritorque.app.jobs.computation import Finished, Workspace
 from veritorque.app.jobs.executors.process_executor import ProcessExecutor
-from veritorque.app.processes.fork_server import Child, Standby, fork_server
+from veritorque.app.processes.fork_server import Child, ProcessPool, fork_server
 
 CONTEXT = fork_server()
 ROOT = Path(__file__).parents[3]
@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[3]
 
 @pytest.fixture
 def standby():
-    kept = Standby(lambda: Child(CONTEXT, work.answer))
+    kept = ProcessPool(lambda: Child(CONTEXT, work.answer))
     yield kept
     kept.close()
 
@@ -73,7 +73,7 @@ def test_as_many_tasks_at_once_as_were_prepared_for_find_processes_and_more_get_
 
 
 def test_what_waits_ends_with_those_who_made_it():
-    kept = Standby(lambda: Child(CONTEXT, work.answer))
+    kept = ProcessPool(lambda: Child(CONTEXT, work.answer))
     process = kept.prepare(1)[0].result()._process.pid
     kept.close()
     deadline = time.monotonic() + 10.0
@@ -99,7 +99,7 @@ def test_nobody_is_left_waiting_where_they_part_while_others_prepare():
     sys.setswitchinterval(1e-6)
     try:
         for _ in range(300):
-            kept = Standby(Counted)
+            kept = ProcessPool(Counted)
             preparing = threading.Thread(target=kept.prepare, args=(3,))
             preparing.start()
             kept.close()

@@ -58,7 +58,7 @@ def test_a_tenant_runs_no_more_jobs_at_once_than_its_share(store):
 def test_who_held_a_job_before_it_was_taken_again_changes_nothing(store, change):
     job = asked(store)
     first = claimed(store)
-    assert store.work.bury(held(first), PROBLEM)
+    assert store.work.retry_or_fail(held(first), PROBLEM)
     second = claimed(store, OTHER)
     assert (second.id, second.token) == (job.id, first.token + 1)
     before = now(store, job)
@@ -93,7 +93,7 @@ def test_a_job_that_took_down_whoever_computed_it_again_and_again_fails(store):
     for attempt in range(1, MOST_ATTEMPTS + 1):
         taken = claimed(store)
         assert taken.attempts == attempt
-        store.work.bury(held(taken), PROBLEM)
+        store.work.retry_or_fail(held(taken), PROBLEM)
     assert (now(store, job).state, now(store, job).problem) == ("failed", PROBLEM)
     assert claimed(store) is None
 
@@ -119,5 +119,5 @@ def test_a_job_is_not_buried_where_its_owner_showed_life_meanwhile(store):
     taken = claimed(store, OTHER)
     ((_, beat),) = store.work.running_elsewhere(MINE).values()
     store.work.beat(OTHER)
-    assert not store.work.bury(held(taken), PROBLEM, beat=beat)
-    assert store.work.bury(held(taken), PROBLEM, beat=beat + 1)
+    assert not store.work.retry_or_fail(held(taken), PROBLEM, beat=beat)
+    assert store.work.retry_or_fail(held(taken), PROBLEM, beat=beat + 1)

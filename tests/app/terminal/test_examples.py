@@ -90,7 +90,7 @@ def names(tmp_path_factory):
 def prepared(monkeypatch, desk):
     """A folder in which a robot was exported and a service run: with a key and a backup; gives its name."""
     monkeypatch.setattr(serve, "_listen", lambda _: None)
-    monkeypatch.setattr(process, "work_until_told", lambda *_, **__: None)
+    monkeypatch.setattr(process, "work_until_stopped", lambda *_, **__: None)
     assert run("keys", "create", "lab").exit_code == 0
     assert run("backup", "backup-of-sunday").exit_code == 0
     assert run("export", "result.json", "robot.urdf").exit_code == 0
