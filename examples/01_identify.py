@@ -15,16 +15,16 @@ def main() -> None:
     """Read, identify, look, save."""
     log = read_log(LOG)
     for defect in log.defects:
-        print(f"look at this: {defect.statement}")
+        print(f"defect: {defect.statement}")
 
     document = identify(IdentifyRequest(builtin_robot("yumi-left"), (log,), {"bootstrap": {"draws": 0}}))
     result = Result.from_document(document)
 
-    print(f"the bodies {'can' if result.can_exist else 'cannot'} exist")
-    print("joint  error on motion that the fit has not seen, % of rms")
+    print(f"physically {'consistent' if result.can_exist else 'inconsistent'}")
+    print("joint  error on held-out motion, % of RMS")
     for joint, error in zip(result.validation.joint, result.validation.nrmse_of_rms_percent, strict=True):
         print(f"{joint:5}  {error:.2f}")
-    print("the five parameters that are known best")
+    print("the five best determined parameters")
     base = result.base
     for row in base.relative_deviation_percent.argsort()[:5]:
         known = base.relative_deviation_percent[row]

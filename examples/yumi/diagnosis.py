@@ -9,7 +9,7 @@ from rich.table import Table
 
 from examples.yumi.summary import LEFT, score
 from veritorque.app.terminal.output import findings
-from veritorque.app.terminal.output.findings import spoken
+from veritorque.app.terminal.output.findings import cause_on_joints
 from veritorque.app.terminal.output.tables import number
 
 Document = Mapping[str, Any]
@@ -24,7 +24,7 @@ def print_diagnosis(console: Console, result: Document, hidden: Sequence[Documen
 
 def truth_table(found: Sequence[Document], hidden: Sequence[Document]) -> Table:
     """Set what had been hidden beside what was found, and how many standard deviations lie between."""
-    title, caption = "\nWhat had been hidden, beside what was found", "z: standard deviations off the truth"
+    title, caption = "\nHidden effects and findings", "z: deviation from the truth in standard deviations"
     table = Table(title=title, caption=caption, box=SIMPLE_HEAD, **LEFT)
     table.add_column("hidden")
     for heading in ("", "true", "found", "z"):
@@ -35,7 +35,7 @@ def truth_table(found: Sequence[Document], hidden: Sequence[Document]) -> Table:
             value, deviation = sizes.get(name, (None, None))
             shown = "not found" if value is None else f"{value:.4g} ± {deviation:.2g}"
             z = (value - true) / deviation if value is not None and deviation else None
-            table.add_row(spoken(effect), name.replace("_", " "), number(true), shown, score(z))
+            table.add_row(cause_on_joints(effect), name.replace("_", " "), number(true), shown, score(z))
     return table
 
 

@@ -14,7 +14,7 @@ from rich.text import Text
 
 from veritorque.app.terminal.output import tables
 from veritorque.app.terminal.output.columns import print_table
-from veritorque.app.terminal.output.tables import number, parted, percent, score_columns
+from veritorque.app.terminal.output.tables import by_kind, number, percent, score_columns
 
 Document = Mapping[str, Any]
 Truth = Mapping[str, float]
@@ -25,14 +25,12 @@ FAR: Final = 3.0
 
 
 def print_summary(console: Console, result: Document, truth: Truth | None = None) -> None:
-    """Print everything a first reader asks; true values only where the truth is known."""
-    friction, inertial = parted(result["base_parameters"])
+    """Print the result; true values only where the truth is known."""
+    friction, inertial = by_kind(result["base_parameters"])
     for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
         console.print(parameter_table(title, part, truth))
-    print_table(
-        console, score_columns(result), title="Error of the predicted torque, % of its range and of its rms"
-    )
-    for line in verdict(result, truth):
+    print_table(console, score_columns(result), title="Torque prediction error, % of range and of RMS")
+    for line in summary(result, truth):
         console.print(line)
 
 
@@ -81,9 +79,9 @@ def parameter_table(title: str, rows: Iterable[Document], truth: Truth | None) -
     return table
 
 
-def verdict(result: Document, truth: Truth | None) -> list[str]:
-    """Sum up in a few sentences; the last says how near the truth the parameters are."""
-    lines = tables.verdict(result)
+def summary(result: Document, truth: Truth | None) -> list[str]:
+    """Summarise the result, and how close the parameters are to the truth."""
+    lines = tables.summary(result)
     scores = [abs(z) for row in result["base_parameters"] if (z := deviations(row, truth)) is not None]
     if scores:
         near = sum(z <= 1.96 for z in scores)

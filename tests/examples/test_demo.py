@@ -51,8 +51,8 @@ def test_a_parameter_without_a_grouping_has_no_true_value(page):
 
 def test_the_page_tells_counts_feasibility_solver_and_truth(page):
     assert "98 standard -> 71 base -> 57 essential" in page
-    assert "Least squares: a robot that cannot exist" in page
-    assert "Semidefinite programme: a robot that can exist" in page
+    assert "Least squares: physically inconsistent" in page
+    assert "Semidefinite programme: physically consistent" in page
     assert "optimal, 11 iterations" in page
     assert "0 of 1 base parameters within" in page
 
@@ -71,19 +71,17 @@ def told(capsys, result, hidden=None):
 
 def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
     page = told(capsys, diagnosed())
-    assert "The simulation of bench arm gets 1 thing wrong. 1. Load-dependent friction on joint 1:" in page
-    assert "Confidence 98 %. The chance that luck leaves so clear a trace is 1e-09." in page
-    gain = (
-        "takes 33 % (20 to 45 %) of the error on the joint away, up to 20 Hz, on data that no fit has seen."
-    )
+    assert "1 cause of simulation error found for bench arm. 1. Load-dependent friction on joint 1:" in page
+    assert "Confidence 98 %, p = 1e-09, corrected for all candidates." in page
+    gain = "reduces the error on the joint by 33 % (95 %: 20 to 45 %), up to 20 Hz, on held-out data."
     assert gain in page
     assert (
-        "Not told apart from torque gain on joint 1; this would separate them: run both directions." in page
+        "Not distinguishable from torque gain on joint 1; separating experiment: run both directions." in page
     )
-    assert "Refuted: torque ripple on joint 1: the reason about torque_ripple." in page
+    assert "Rejected: torque ripple on joint 1: the reason about torque_ripple." in page
     assert "1 0.2 N m 0.1 N m 50.00 40.0 to 60.0 50.00" in page
     assert "torque up to 9.5 Hz; simulated motion over 50, 200 ms" in page
-    assert "Nothing predictable is left" in page
+    assert "The remaining residual is not predictable" in page
     assert "hidden" not in page
 
 
@@ -102,14 +100,17 @@ def test_what_was_hidden_is_set_beside_what_was_found_or_said_to_be_missed(capsy
 
 
 def test_a_diagnosis_that_found_nothing_says_so(capsys):
-    assert "Nothing that this log can show is wrong with the simulation of" in told(capsys, nothing_found())
+    assert "No cause of simulation error found for" in told(capsys, nothing_found())
 
 
 def test_what_stays_predictable_is_told_with_its_joint(capsys):
     left = diagnosed()["diagnosis"]["unexplained"]
     left |= {"joints": [2], "predictable_residual_fraction": [0.0, 0.2]}
     page = told(capsys, diagnosed(verdict="unexplained", unexplained=left))
-    assert "Still predictable of what is left, without a known cause: 20 % on joint 2." in page
+    assert (
+        "Explainable variance of the residual (R2, upper bound), without a known cause: 20 % on joint 2."
+        in page
+    )
 
 
 class Answers(BaseHTTPRequestHandler):
@@ -157,7 +158,7 @@ def test_the_demonstration_prints_a_problem_documents_remedy_and_fails(served, m
 @pytest.mark.parametrize("url", ["http://127.0.0.1:9", "nowhere", "file:///etc"])
 def test_a_service_that_is_not_there_is_a_problem_with_a_remedy(url, capsys):
     assert demo.main(["--url", url]) == 1
-    assert "what to do:" in capsys.readouterr().out
+    assert "remedy:" in capsys.readouterr().out
 
 
 def test_a_log_that_is_not_there_is_named(served, capsys):

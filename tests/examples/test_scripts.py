@@ -40,7 +40,7 @@ def science(tmp_path_factory):
 
 def test_a_result_of_files_is_simulated_in_mujoco(folder, capsys):
     told = ran("01", capsys)
-    assert "the bodies can exist" in told
+    assert "physically consistent" in told
     errors = [float(one) for one in re.findall(r"^ +\d  (\d+\.\d+)$", told, re.MULTILINE)]
     assert len(errors) == 7
     assert max(errors) < 3.0  # the 1.2 to 1.7 % of rms of docs/accuracy.md, with room for another machine
