@@ -35,7 +35,7 @@ def run(*, quick: bool) -> list[Figure]:
     rounds = 5 if quick else 25
     noise = bytes(64) + np.random.default_rng(1).bytes(SIZE - 64)
     with tempfile.TemporaryDirectory() as folder:
-        service = ["app", "serve", "--workers", "0", "--data-dir", folder, "--port"]
+        service = ["veritorque", "serve", "--workers", "0", "--data-dir", folder, "--port"]
         with _server(service) as (port, process), _server(["benchmarks.bare_upload"]) as (bare, _):
             ways = {"upload": (port, "/v1/logs"), "count": (bare, "/count"), "write": (bare, "/write")}
             seconds: dict[str, list[float]] = {name: [] for name in ways}

@@ -17,7 +17,7 @@ from typing import Final
 from ...core.log.channels import CHANNELS, REFERENCE_WORDS
 from ..version import VERSION
 
-PAGES: Final = Path(__file__).resolve().parent  # the package may be reached by a link
+PAGES: Final = Path(__file__).parent
 MEDIA_TYPES: Final = {
     ".css": "text/css",
     ".csv": "text/csv",

@@ -36,7 +36,7 @@ def running_service(data_dir: Path) -> Iterator[Client]:
     command = [
         sys.executable,
         "-m",
-        "app",
+        "veritorque",
         "serve",
         "--port",
         str(port),

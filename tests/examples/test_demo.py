@@ -172,7 +172,7 @@ def test_a_service_that_does_not_start_says_its_last_words(tmp_path, monkeypatch
     with pytest.raises(ServiceError) as caught, service.running_service(tmp_path / "data"):
         pass
     assert caught.value.cause == "the service did not start"
-    assert "app" in caught.value.evidence["last_words"]
+    assert "veritorque" in caught.value.evidence["last_words"]
 
 
 NUMBER = r"[+-]?\d+(?:\.\d+)?"
@@ -214,10 +214,10 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     assert (
         words.index("Time from upload to result")
         < words.index("hidden_log.csv")
-        < words.index("What had been")
+        < words.index("Hidden effects")
     )
     assert "not found" not in words
-    told = re.findall(r"(?m)^ +.*?([+-]\d+\.\d) *$", page[page.index("What had been") :])
+    told = re.findall(r"(?m)^ +.*?([+-]\d+\.\d) *$", page[page.index("Hidden effects") :])
     assert len(told) == 4
     assert all(abs(float(z)) < 3.0 for z in told)  # one log in four hundred exceeds 3 per number
     guide = (demo.ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
