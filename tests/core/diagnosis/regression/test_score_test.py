@@ -75,7 +75,7 @@ def with_a_rest_within_another(joints: tuple[JointRows, ...]) -> tuple[JointRows
     rng, columns = np.random.default_rng(7), np.zeros((len(joints[0].rows), 3))
     for column, begin, end in ((0, 50, 90), (0, 200, 210), (1, 130, 140), (2, 135, 240)):
         columns[begin:end, column] = rng.normal(size=end - begin)
-    return (replace(joints[0], free=nuisance_of(independent(csr_array(columns)))), *joints[1:])
+    return (replace(joints[0], nuisance=nuisance_of(independent(csr_array(columns)))), *joints[1:])
 
 
 @pytest.mark.parametrize("rests", ["moving", "resting half of the time", "resting within another rest"])
