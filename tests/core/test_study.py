@@ -154,7 +154,7 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
     ),
     "currents without constants": (lambda: _request(_currents()), LogError, "currents"),
     "no log": (lambda: IdentifyRequest(MODEL.robot, ()), LogError, "no log"),
-    "an unknown option": (lambda: _request(colour="red"), OptionError, "not known"),
+    "an unknown option": (lambda: _request(colour="red"), OptionError, "does not exist"),
     "an unknown estimator": (lambda: _request(estimator="magic"), OptionError, "not known"),
     "a hold-out of all logs": (
         lambda: _request(validation={"logs": [1]}),
