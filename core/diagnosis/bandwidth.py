@@ -16,21 +16,13 @@ from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from ..dynamics.prediction import Prediction
 from ..robot.parameters import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
-from .dataset.dataset import BAND_OVER_MOTION, Dataset
+from .dataset.dataset import Dataset
 from .regression.ar_noise import ARNoise, places
+from .thresholds.dataset import BAND
 
-LARGEST_SHARE = 0.05
-"""Share of a joint's mean square residual that the positions' noise may have."""
-NARROWEST = 10.0
-"""A look is at least as wide as the fit's own filter, ten times the motion's band."""
+_SAMPLES = 65536
 _POINTS = 5
 """Neighbours that a fourth difference is of."""
-OFF, FEW = 6.0, 0.025
-"""A stamp is off by so many deviations from its neighbours, and few are where so small a share of all samples
-lies beside one: they spoil the rows there, and say nothing of the rest."""
-LEAST_OFF = 1e-3
-"""Share of the time from stamp to stamp below which none is off."""
-_LOOKS = 4
 
 Fitted = tuple[Dataset, Prediction, tuple[ARNoise, ...]]
 
@@ -44,15 +36,17 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
         Gives the look of a width (band over the motion's band), what a plain fit then believes, and the noise
         it leaves.
     """
-    width = BAND_OVER_MOTION
+    width = BAND.over_motion
     fitted = dataset_at(width)
     even, even_shares = position_noise_torque(fitted, over_stamps=False)
-    for _ in range(_LOOKS):
+    for _ in range(BAND.narrowings):
         dataset, share = fitted[0], float(np.max(even_shares))
-        if share <= LARGEST_SHARE or width <= NARROWEST:
+        if share <= BAND.noise_share or width <= BAND.narrowest:
             break
         actual = dataset.band_hz / dataset.motion_band_hz
-        width = max(NARROWEST, min(width, actual) * float(np.clip((LARGEST_SHARE / share) ** 0.2, 0.5, 0.85)))
+        factor = (BAND.noise_share / share) ** BAND.noise_power
+        narrowing = float(np.clip(factor, BAND.least_narrowing, BAND.most_narrowing))
+        width = max(BAND.narrowest, min(width, actual) * narrowing)
         fitted = dataset_at(width)
         even, even_shares = position_noise_torque(fitted, over_stamps=False)
     # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
@@ -111,7 +105,7 @@ def position_noise(dataset: Dataset, *, over_stamps: bool) -> JointVector:
     found = []
     for motion in dataset.motions:
         start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
-        rows = motion.log.source.rows(start, min(stop, start + 65536))
+        rows = motion.log.source.rows(start, min(stop, start + _SAMPLES))
         time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)
         beyond = beyond_cubics(time, rows.position)
         if over_stamps:
@@ -132,8 +126,10 @@ def few_off(stamps: Samples) -> Mask:
     """
     scatter = beyond_cubics(np.arange(len(stamps), dtype=float), stamps[:, None])[:, 0]
     usual = float(median_abs_deviation(scatter, scale="normal"))
-    off = np.abs(scatter) > max(OFF * usual, LEAST_OFF * float(np.median(np.diff(stamps))))
-    return np.asarray(off & (off.mean() <= FEW))
+    off = np.abs(scatter) > max(
+        BAND.stamp_deviations * usual, BAND.stamp_share * float(np.median(np.diff(stamps)))
+    )
+    return np.asarray(off & (off.mean() <= BAND.few_stamps))
 
 
 def beyond_cubics(time: Samples, position: JointSeries) -> Matrix:

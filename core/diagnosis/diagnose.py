@@ -35,12 +35,10 @@ from .search.residuals import residual, stiction_share
 from .search.restarts import restart_at_operating_point, restart_from_common_cause
 from .search.state import SearchState
 from .search.stepwise import confirm, continue_search, search_stepwise
+from .thresholds.checks import VERDICT
+from .thresholds.search import ENTRY
 
 Progress = Callable[[str, float], None]
-OPEN = 1e-3
-"""A candidate of whose columns the model spans all but this share cannot be shown by this motion."""
-UNEXPLAINED_SHARE = 0.03
-"""Least share of a joint's residual that must be predictable, with its interval, to be called structure."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,7 +205,7 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
     open_sites: dict[str, list[int]] = {}
     by_id = {cause.id: cause for cause in found.fitter.causes}
     for scored in found.fitter.scan(found.none):
-        if scored.clear_share < OPEN:
+        if scored.clear_share < ENTRY.open:
             open_sites.setdefault(scored.candidate.cause.id, []).extend(scored.candidate.site)
     return tuple(
         NotIdentifiable(
@@ -259,7 +257,7 @@ def _verdict(
     faulty = {joint for finding in findings if finding.member is None for joint in _spoilt(finding)}
     if unnamed is not None and unnamed.statistic > most and unnamed.joint not in faulty:
         return "unexplained"
-    left = [joint for joint in predictable if joint.interval[0] > UNEXPLAINED_SHARE]
+    left = [joint for joint in predictable if joint.interval[0] > VERDICT.unexplained_share]
     if not findings:
         return "unexplained" if left else "nothing_found"
     explained = {joint: finding.explained_fraction for finding in findings for joint in finding.joints}
@@ -269,7 +267,7 @@ def _verdict(
 
 
 def _spoilt(finding: Finding) -> tuple[int, ...]:
-    return finding.joints if finding.explained_fraction > UNEXPLAINED_SHARE else ()
+    return finding.joints if finding.explained_fraction > VERDICT.unexplained_share else ()
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

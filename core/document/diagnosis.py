@@ -6,7 +6,7 @@ in the document, so that a report can be drawn from it alone, at any time.
 
 from typing import cast
 
-from ..diagnosis.diagnose import UNEXPLAINED_SHARE
+from ..diagnosis.thresholds.checks import VERDICT
 from ..extension.gain import JointGain, motion_intervals
 from ..extension.repair import repairs
 from ..extension.result import Extension
@@ -36,7 +36,7 @@ def _diagnosis(found: Extension) -> dict[str, object]:
         "verdict": diagnosis.verdict,
         "findings": [finding_row(one) for one in diagnosis.findings],
         "not_identifiable": [not_identifiable_row(one) for one in diagnosis.not_identifiable],
-        "unexplained": unexplained(diagnosis, least=UNEXPLAINED_SHARE),
+        "unexplained": unexplained(diagnosis, least=VERDICT.unexplained_share),
         "reference": None if found.compared is None else _reference(found.compared, found.before),
         "gain": [_gain(one) for one in found.gains],
         "before": _side(found.before if found.compared is None else found.compared),

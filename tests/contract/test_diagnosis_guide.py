@@ -9,11 +9,9 @@ from pydantic import BaseModel
 
 from tests.core.dynamics.every_term import cures_by_cause
 from veritorque.app.schemas import diagnosis as contract
-from veritorque.core.diagnosis.checks.alternatives import UNDECIDED
-from veritorque.core.diagnosis.diagnose import UNEXPLAINED_SHARE
 from veritorque.core.diagnosis.result import Verdict
-from veritorque.core.diagnosis.search.entry_test import LEVEL
-from veritorque.core.diagnosis.search.stepwise import MOST
+from veritorque.core.diagnosis.thresholds.checks import VERDICT
+from veritorque.core.diagnosis.thresholds.search import ENTRY, SEARCH, SELECTION
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
@@ -55,13 +53,13 @@ def test_every_field_of_a_diagnosis_is_explained(model):
 
 
 def test_the_numbers_that_decide_are_those_of_the_code():
-    assert UNDECIDED == 6.0
+    assert SELECTION.undecided == 6.0
     assert "differ by less than 6" in GUIDE
-    assert LEVEL == 1e-4
+    assert ENTRY.level == 1e-4
     assert "once in ten thousand logs" in GUIDE
-    assert MOST == 5
+    assert SEARCH.causes == 5
     assert "Five at most" in GUIDE
-    assert UNEXPLAINED_SHARE == 0.03
+    assert VERDICT.unexplained_share == 0.03
     assert "at least 3 % is predictable" in GUIDE
 
 

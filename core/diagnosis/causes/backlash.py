@@ -7,6 +7,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.backlash import Backlash as BacklashTerm
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE, LINEARISATION
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, revolute_joints
 from .shared.text import by_name, quantity_text, rotor_text
@@ -14,11 +15,6 @@ from .traits import SearchTraits
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, on a logarithmic scale: half as wide again is another motion."""
-NARROWER, WIDER = 8.0, 5.0
-"""Factors by which the width may be less or more than that which the crossings were computed for.
-
-Set by hand: in simulated backlash the best crossings are those of a wider gap, whose estimate is too small.
-"""
 SMOOTHING_OVER_BAND = 1.5
 
 
@@ -31,7 +27,7 @@ class Backlash(OwnJointCause):
     units = (("half_width", "rad"), ("motor_inertia", "kg m2"))
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
-    traits = SearchTraits(linearisation_error=0.15)
+    traits = SearchTraits(linearisation_error=LINEARISATION.backlash)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the revolute joints."""
@@ -56,7 +52,9 @@ class Backlash(OwnJointCause):
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a gap of about the width that the crossings were computed for."""
         around = solved.scalars["around"]
-        return super().admissible(solved) and bool(around / NARROWER < solved.values[0] < WIDER * around)
+        return super().admissible(solved) and bool(
+            around / ADMISSIBLE.backlash_narrower < solved.values[0] < ADMISSIBLE.backlash_wider * around
+        )
 
     def statement(self, solved: FittedCause) -> str:
         """State the half width of the gap."""

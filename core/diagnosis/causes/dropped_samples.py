@@ -17,8 +17,9 @@ from ...log.model import LogRows
 from ...signals.condition import Motion
 from ...signals.resample import dropped
 from ..dataset.dataset import Dataset
+from ..thresholds.samples import SAMPLE_CHECKS
 from .protocol import Cure, Quantity
-from .sample_check import LEVEL, Corruption, SampleFinding, residual_share
+from .sample_check import Corruption, SampleFinding, residual_share
 
 ROWS = 65_536
 
@@ -49,7 +50,7 @@ class DroppedSamples:
         rows, lost = sum(count.rows for count in counts), sum(count.dropped for count in counts)
         expected = sum(count.expected for count in counts)
         p_value = float(poisson.sf(lost - 1, expected)) if lost else 1.0
-        if p_value > LEVEL:
+        if p_value > SAMPLE_CHECKS.level:
             return ()
         fraction = lost / rows
         deviation = float(np.sqrt(fraction * (1.0 - fraction) / rows))
@@ -84,7 +85,7 @@ def _count(rows: LogRows, motion: Motion) -> _Count:
     # While rows repeat, the robot moved if its position differs after them.
     passed = [np.interp(rows.time, rows.time[~lost], column[~lost]) for column in rows.position.T]
     position = np.column_stack(passed)
-    reach = min(5, len(rows.time) - 1)
+    reach = min(SAMPLE_CHECKS.dropped_reach, len(rows.time) - 1)
     travel = np.zeros_like(position)
     travel[reach:] = position[reach:] - position[:-reach]
     seconds = reach / motion.log.rate_hz

@@ -11,14 +11,13 @@ from ...dynamics.terms.encoder_error import EncoderEccentricity as EncoderEccent
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE, LINEARISATION
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsLog
 from .shared.harmonics import amplitude_and_angle
 from .shared.own_joint import OwnJointCause, revolute_joints
 from .shared.text import by_name, number_text, quantity_text
 from .traits import SearchTraits
-
-LARGEST = 0.3
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     units = (("amplitude", "rad"), ("phase", "rad"))
     experiment = "fast motion through as much of a revolution as the joint's range allows"
     coordinate = "position"
-    traits = SearchTraits(linearisation_error=0.1)
+    traits = SearchTraits(linearisation_error=LINEARISATION.eccentricity)
 
     def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
         """List the revolute joints."""
@@ -45,7 +44,7 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""
-        return bool(float(solved.values @ solved.values) < LARGEST**2)
+        return bool(float(solved.values @ solved.values) < ADMISSIBLE.encoder_eccentricity**2)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report amplitude and phase of the error amplitude sin(q + phase)."""

@@ -9,12 +9,11 @@ from ...dynamics.terms.encoder_error import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause, revolute_joints
 from .shared.text import by_name, number_text, quantity_text
-
-LARGEST = 0.5
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""
-        return bool(abs(solved.values[0]) < LARGEST)
+        return bool(abs(solved.values[0]) < ADMISSIBLE.encoder_offset)
 
     def statement(self, solved: FittedCause) -> str:
         """State the zero error."""

@@ -12,19 +12,9 @@ from ...log.defects.stretch import stretches
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
 from ..dataset.dataset import Dataset
+from ..thresholds.samples import SAMPLE_CHECKS
 from .protocol import Cure, Quantity
 from .sample_check import Corruption, SampleFinding, disturbance, share_of_residual
-
-LEAST_SHARE = 0.6
-"""Share of a joint's residual that rounding must account for to be named; good ones account for a half."""
-LEAST_OF_TORQUE = 0.006
-"""The same for the torque itself: below, rounding is negligible."""
-COARSER = 5.0
-"""A step this many times the median step of the other joints stands out,"""
-NOTABLE, NOTABLE_OF_TORQUE = 0.05, 0.02
-"""and is named from these shares of a joint's residual or of its torque on."""
-BY_CHANCE = 0.2
-"""Probability that one increment lies within a tenth of a whole number of steps."""
 
 
 @dataclass(frozen=True)
@@ -60,14 +50,16 @@ def _stands_out(steps: JointVector, joint: int) -> bool:
     """Tell whether a joint's steps are much coarser than those of the robot's other encoders."""
     others = np.delete(steps, joint)
     others = others[others > 0.0]
-    return bool(len(others) and steps[joint] > COARSER * np.median(others))
+    return bool(len(others) and steps[joint] > SAMPLE_CHECKS.coarser * np.median(others))
 
 
 def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
     """Tell whether rounding is reported, by its largest shares of a residual and of a torque."""
-    if stands_out and of_torque > NOTABLE_OF_TORQUE:
+    if stands_out and of_torque > SAMPLE_CHECKS.coarse_of_torque:
         return True
-    return of_torque > LEAST_OF_TORQUE and share > (NOTABLE if stands_out else LEAST_SHARE)
+    return of_torque > SAMPLE_CHECKS.rounding_of_torque and share > (
+        SAMPLE_CHECKS.coarse_share if stands_out else SAMPLE_CHECKS.rounding_share
+    )
 
 
 def _of_torque(dataset: Dataset, gained: JointSeries) -> JointVector:
@@ -89,7 +81,7 @@ def _finding(
             f"and for {100.0 * float(of_torque.max()):.2g} % of joint {int(of_torque.argmax()) + 1}'s torque"
         ),
         statistic=float(share.max()),
-        p_value=BY_CHANCE**FEWEST_INCREMENTS,
+        p_value=SAMPLE_CHECKS.increment_by_chance**FEWEST_INCREMENTS,
         residual_share=share,
     )
 

@@ -11,20 +11,12 @@ from ...dynamics.terms.external_contact import WRENCH, Contact, Span, pushed
 from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
+from ..thresholds.causes import ADMISSIBLE, EVENTS
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.events import find_events
 from .shared.own_joint import OwnJointCause, end_links
 from .shared.text import number_text
 from .traits import SearchTraits
-
-SPANS_TRIED = 1200
-"""Spans of time that are tried in a log of half a minute."""
-MOST = 5
-"""Largest number of contacts in a log."""
-STRONGEST = 1e3
-"""Force in N that would break a robot."""
-LONGEST_LEVER = 0.5
-"""Distance in m of a point of contact from the origin of the last link's frame."""
 
 
 def _spans(scalars: Scalars) -> tuple[Span, ...]:
@@ -35,7 +27,7 @@ def _spans(scalars: Scalars) -> tuple[Span, ...]:
 def _spans_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
     """Count what was searched: every span of time, for every contact."""
     del grid
-    return float(SPANS_TRIED) ** len(_spans(scalars))
+    return float(EVENTS.spans) ** len(_spans(scalars))
 
 
 @dataclass(frozen=True)
@@ -49,7 +41,9 @@ class ExternalContact(OwnJointCause):
     coordinate = "time"
     traits = SearchTraits(
         transient=True,
-        discrete=tuple(f"{end}_{number}" for number in range(1, MOST + 1) for end in ("start", "end")),
+        discrete=tuple(
+            f"{end}_{number}" for number in range(1, ADMISSIBLE.contacts + 1) for end in ("start", "end")
+        ),
         trials=_spans_tried,
     )
 
@@ -63,7 +57,9 @@ class ExternalContact(OwnJointCause):
         mask = fitted_rows(dataset)
         push = pushed(dataset.robot, end_links(dataset.robot)[site[0]], dataset.state)
         left = torque_residual(dataset, operating_point)
-        found = find_events(dataset.time, push, left, inverse_covariances(dataset, left, mask), most=MOST)
+        found = find_events(
+            dataset.time, push, left, inverse_covariances(dataset, left, mask), most=ADMISSIBLE.contacts
+        )
         spans = sorted(span for span in found if not spiked(dataset.motions[0].log, span))
         if not spans:
             return []
@@ -86,8 +82,11 @@ class ExternalContact(OwnJointCause):
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0)).reshape(-1, len(WRENCH))
         force = np.linalg.norm(wrenches[:, :3], axis=1)
         moment = np.linalg.norm(wrenches[:, 3:], axis=1)
-        doubt = 3.0 * np.linalg.norm(deviations, axis=1)
-        return bool(np.all(force < STRONGEST) and np.all(moment < LONGEST_LEVER * force + doubt))
+        doubt = ADMISSIBLE.contact_deviations * np.linalg.norm(deviations, axis=1)
+        return bool(
+            np.all(force < ADMISSIBLE.contact_force)
+            and np.all(moment < ADMISSIBLE.contact_lever * force + doubt)
+        )
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report every contact's peak force, its begin and end, and first the force with the least deviation.
@@ -99,7 +98,7 @@ class ExternalContact(OwnJointCause):
         found = [Quantity("force", solved.site[0], "N", best.force, best.deviation)]
         for number, contact in enumerate(contacts, start=1):
             # The edge of a half sine is as certain as its height, times a bit more than half its length.
-            edge = 0.6 * min(contact.doubt, 1.0) * (contact.span[1] - contact.span[0])
+            edge = EVENTS.edge * min(contact.doubt, 1.0) * (contact.span[1] - contact.span[0])
             found += [
                 Quantity(f"force_{number}", solved.site[0], "N", contact.force, contact.deviation),
                 Quantity(f"start_{number}", None, "s", contact.span[0], edge),

@@ -13,6 +13,9 @@ from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause, geometric_grid
 from .shared.text import by_name, quantity_text
 
+NARROWEST, WIDEST, STEPS = 2e-4, 0.16, 11
+"""Distances as shares of the joint's range, on a logarithmic scale."""
+
 
 @dataclass(frozen=True)
 class FrictionPresliding(OwnJointCause):
@@ -28,7 +31,9 @@ class FrictionPresliding(OwnJointCause):
         """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
         del operating_point
         span = max(float(np.ptp(dataset.state.position[:, site[0] - 1])), 1e-6)
-        return [{"presliding_distance": value} for value in geometric_grid(2e-4 * span, 0.16 * span, 11)]
+        return [
+            {"presliding_distance": value} for value in geometric_grid(NARROWEST * span, WIDEST * span, STEPS)
+        ]
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""

@@ -11,6 +11,9 @@ from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause, geometric_grid
 from .shared.text import by_name, quantity_text
 
+SLOWEST, QUICKEST, STEPS = 0.03, 1.0, 9
+"""Speeds as shares of the joint's RMS speed, on a logarithmic scale."""
+
 
 @dataclass(frozen=True)
 class FrictionStribeck(OwnJointCause):
@@ -25,7 +28,9 @@ class FrictionStribeck(OwnJointCause):
         """Scan the Stribeck velocity from 3 % of the RMS speed to the RMS speed."""
         del operating_point
         speed = max(float(dataset.speed[site[0] - 1]), 1e-6)
-        return [{"stribeck_velocity": value} for value in geometric_grid(0.03 * speed, 1.0 * speed, 9)]
+        return [
+            {"stribeck_velocity": value} for value in geometric_grid(SLOWEST * speed, QUICKEST * speed, STEPS)
+        ]
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the column."""

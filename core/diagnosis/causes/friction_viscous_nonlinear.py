@@ -7,14 +7,13 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_viscous_nonlinear import NonlinearViscous
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
 
 EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
 """A power of zero is Coulomb friction, of one viscous friction: the model has both."""
-APART = 0.1
-"""A power this near to either cancels the model's own friction, and its size is arbitrary."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,11 @@ class FrictionViscousNonlinear(OwnJointCause):
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a power that is neither Coulomb nor viscous friction."""
         power = solved.scalars["exponent"]
-        return super().admissible(solved) and power >= APART and abs(power - 1.0) >= APART
+        return (
+            super().admissible(solved)
+            and power >= ADMISSIBLE.power_distance
+            and abs(power - 1.0) >= ADMISSIBLE.power_distance
+        )
 
     def statement(self, solved: FittedCause) -> str:
         """State exponent and coefficient."""

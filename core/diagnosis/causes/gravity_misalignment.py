@@ -11,12 +11,11 @@ from ...dynamics.term import Term
 from ...dynamics.terms.gravity_misalignment import Tilt, tilt_axes
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 from .shared.text import number_text, quantity_text
-
-LARGEST = 0.5
 
 
 @dataclass(frozen=True)
@@ -42,11 +41,13 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a tilt that a first-order column can represent."""
-        return bool(np.hypot(*solved.values) < LARGEST)
+        return bool(np.hypot(*solved.values) < ADMISSIBLE.gravity_tilt)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the axes about which a tilt is observable: for a planar arm only one."""
-        return tuple(tilt for tilt in super().quantities(solved) if tilt.standard_deviation < LARGEST)
+        return tuple(
+            tilt for tilt in super().quantities(solved) if tilt.standard_deviation < ADMISSIBLE.gravity_tilt
+        )
 
     def statement(self, solved: FittedCause) -> str:
         """State the rotation of gravity about each axis."""

@@ -6,6 +6,8 @@ which the two differ.
 
 from dataclasses import dataclass
 
+from ..thresholds.checks import ALTERNATIVES
+
 
 @dataclass(frozen=True)
 class Imitation:
@@ -25,7 +27,7 @@ class Imitation:
     why: str
     experiment: str
     mutual: bool = True
-    share: float = 0.15
+    share: float = ALTERNATIVES.similar_share
 
 
 IMITATIONS: tuple[Imitation, ...] = (
@@ -113,7 +115,7 @@ IMITATIONS: tuple[Imitation, ...] = (
         "both delay the torque alike to first order in frequency; a low-pass filter also attenuates fast "
         "motion",
         "excite at several frequencies up to a fifth of the sampling rate: a delay keeps the amplitude",
-        share=0.4,
+        share=ALTERNATIVES.first_order_share,
     ),
     Imitation(
         "rotor_inertia_missing",

@@ -11,17 +11,14 @@ from ...dynamics.term import Term
 from ...dynamics.terms.joint_coupling import MissingCoupling
 from ...robot.model import Coupling, RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
 from .traits import SearchTraits
 
-FURTHEST = 2
-"""Transmissions couple a joint with the next or the one after it."""
 NAMES = (("Iam", "kg m2"), ("Fvm", "N m s/rad"), ("Fcm", "N m"))
-DOUBT = 2.0
-"""Standard deviations by which an estimate may be negative."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +42,7 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
         return [
             (first, second)
             for second in sorted(turning)
-            for first in range(max(1, second - FURTHEST), second)
+            for first in range(max(1, second - ADMISSIBLE.coupling_distance), second)
             if first in turning and not any({first, second} <= joints for joints in declared)
         ]
 
@@ -63,7 +60,9 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
     def admissible(self, solved: FittedCause) -> bool:
         """Admit inertia and friction: none significantly negative, one significantly positive."""
         size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
-        return super().admissible(solved) and bool(size.min() > -DOUBT and size.max() > DOUBT)
+        return super().admissible(solved) and bool(
+            size.min() > -ADMISSIBLE.coupling_deviations and size.max() > ADMISSIBLE.coupling_deviations
+        )
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the motor's inertia and friction under the number of the joint that it drives."""

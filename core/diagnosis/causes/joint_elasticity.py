@@ -9,6 +9,7 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.joint_elasticity import Elasticity
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import LINEARISATION
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias
 from .shared.text import by_name, quantity_text, rotor_text
@@ -27,7 +28,7 @@ class JointElasticity(OwnJointCause):
     units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"), ("motor_inertia", "kg m2"))
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
-    traits = SearchTraits(linearisation_error=0.15, like_position_noise=True)
+    traits = SearchTraits(linearisation_error=LINEARISATION.elasticity, like_position_noise=True)
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
         """Scan resonance, from a few times the motion's bandwidth to beyond the data set's, and damping."""

@@ -9,6 +9,7 @@ from ...dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, w
 from ...dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
@@ -16,8 +17,6 @@ from .shared.text import by_name, number_text, quantity_text
 from .traits import SearchTraits
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
-LARGEST = 0.3
-"""In rad and in m: beyond it the table belongs to another robot."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ class KinematicError(OwnJointCause, CorrectsRobot):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""
-        return bool(abs(solved.values[0]) < LARGEST)
+        return bool(abs(solved.values[0]) < ADMISSIBLE.kinematic_error)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the error, and once more under the name of its entry."""

@@ -11,6 +11,7 @@ from ...dynamics.terms.payload_change import Payload
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE, EVENTS
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.bodies import MASS, body_of, is_body
 from .shared.own_joint import NOTHING, OwnJointCause, end_links, links_by_joint
@@ -18,18 +19,12 @@ from .shared.text import by_name, number_text, quantity_text
 from .traits import SearchTraits
 
 INSTANTS = 16
-TOLD_APART = 120
-"""Instants between two of these that are separable in the refinement."""
-HEAVIEST = 500.0
-UNKNOWN = 1.0
-"""A coordinate of the centre of mass, m, with a larger deviation is not reported: a planar arm has two
-only."""
 _FIRST = INERTIAL_SYMBOLS.index("MX")
 
 
 def _instants_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
     """Count the instants that are separable."""
-    return float(len(grid) * TOLD_APART) if scalars else float(len(grid))
+    return float(len(grid) * EVENTS.onsets) if scalars else float(len(grid))
 
 
 @dataclass(frozen=True)
@@ -81,7 +76,7 @@ class PayloadChange(OwnJointCause):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a mass that an arm may carry and, where all ten parameters are fitted throughout, a body."""
-        light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < HEAVIEST)
+        light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < ADMISSIBLE.payload)
         return light and (not self.throughout or is_body(solved.values, solved.covariance))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
@@ -95,7 +90,7 @@ class PayloadChange(OwnJointCause):
             slope = np.zeros(len(body))
             slope[place], slope[MASS] = 1.0 / mass, -centre / mass
             deviation = float(np.sqrt(max(slope @ solved.covariance @ slope, 0.0)))
-            if deviation < UNKNOWN:
+            if deviation < ADMISSIBLE.payload_centre:
                 found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))
         when = [
             Quantity("time", None, "s", time, solved.deviations.get("time", 0.0))

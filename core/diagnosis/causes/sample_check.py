@@ -23,13 +23,8 @@ from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
 from ..regression.innovation_covariance import fitted_rows, torque_residual
+from ..thresholds.samples import SAMPLE_CHECKS
 from .protocol import Cure, Quantity, Site
-
-LEVEL = 1e-5
-"""False alarm probability of a sample check."""
-
-SMOOTH_OVER_MOTION = 5.0
-"""Bandwidth of the smooth motion, over the motion's bandwidth."""
 
 Corruption = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]
 """Take smooth positions and velocities at the log's rate, give the errors of position."""
@@ -122,7 +117,8 @@ def _corrupted(
     fine = np.arange((count - 1) * thin + 1) / thin
     measured = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
     # The measured motion has its error already; the motion to be corrupted must be smoother.
-    smooth = _filtered(measured, min(SMOOTH_OVER_MOTION * recipe.motion_band_hz, 0.2 * rate_hz), rate_hz)
+    band = SAMPLE_CHECKS.smooth_over_motion * recipe.motion_band_hz
+    smooth = _filtered(measured, min(band, SAMPLE_CHECKS.smooth_over_rate * rate_hz), rate_hz)
     corrupted = smooth + corrupt(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
     error = _without_spikes(corrupted, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
     error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
@@ -137,7 +133,7 @@ def _corrupted(
 
 
 def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSeries:
-    low_pass = kernel(cutoff_hz, rate_hz, 5)
+    low_pass = kernel(cutoff_hz, rate_hz, SAMPLE_CHECKS.filter_order)
     reach = len(low_pass) // 2
     padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
     return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))

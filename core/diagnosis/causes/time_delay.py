@@ -12,13 +12,13 @@ from ...dynamics.terms.time_delay import Delay
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text
 from .traits import SearchTraits
 
-LONGEST_DELAY = 0.05
 STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
 
@@ -47,11 +47,15 @@ class TimeDelay(OwnJointCause, CorrectsLog):
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         del dataset, site
-        return Delay(0, operating_point, float(np.clip(scalars["around"], -LONGEST_DELAY, LONGEST_DELAY)))
+        return Delay(
+            0,
+            operating_point,
+            float(np.clip(scalars["around"], -ADMISSIBLE.time_delay, ADMISSIBLE.time_delay)),
+        )
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a delay that a first-order column can represent."""
-        return bool(abs(solved.values[0]) < LONGEST_DELAY)
+        return bool(abs(solved.values[0]) < ADMISSIBLE.time_delay)
 
     def statement(self, solved: FittedCause) -> str:
         """State the delay in milliseconds."""

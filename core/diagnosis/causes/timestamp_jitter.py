@@ -20,18 +20,10 @@ from ...signals.resample import dropped, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
+from ..thresholds.samples import SAMPLE_CHECKS
 from .protocol import Cure, Quantity
-from .sample_check import LEVEL, Corruption, SampleFinding, residual_share
+from .sample_check import Corruption, SampleFinding, residual_share
 from .shared.text import number_text
-
-LOOK_SECONDS = 120.0
-BAND_SHARE = 0.25
-"""Remainders are the content above this share of the log's rate."""
-AGREEMENT = 0.5
-"""Joints agree where the estimate from their products is at least this share of that from their squares."""
-LEAST_SHARE = 1e-3
-"""Share of some joint's residual that it must account for: rounding of exact positions scatters, too."""
-BLOCK = 32
 
 
 @dataclass(frozen=True)
@@ -59,11 +51,11 @@ class TimestampJitter:
         own = float(alone[:, 0].sum() / max(alone[:, 1].sum(), 1e-300))
         statistic = float(crosses[:, 0].sum() / np.sqrt(max(float(np.sum(crosses[:, 0] ** 2)), 1e-300)))
         p_value = _by_chance(statistic, crosses[:, 0])
-        if p_value > LEVEL or shared < AGREEMENT * own:
+        if p_value > SAMPLE_CHECKS.level or shared < SAMPLE_CHECKS.jitter_agreement * own:
             return ()
         std = float(np.sqrt(shared))
         share = residual_share(dataset, operating_point, _jittered(std))
-        if share.max() < LEAST_SHARE:
+        if share.max() < SAMPLE_CHECKS.jitter_share:
             return ()
         scatter = np.sqrt(np.sum((crosses[:, 0] - shared * crosses[:, 1]) ** 2)) / crosses[:, 1].sum()
         found = Quantity("std", None, "s", std, 0.5 * float(scatter) / std)
@@ -95,10 +87,10 @@ def _jittered(std: float) -> Corruption:
 def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]:
     """Give remainders, velocities and the remaining share of white noise, over the segment's beginning."""
     rate_hz = segment.rate_hz
-    count = min(segment.samples, int(LOOK_SECONDS * rate_hz))
-    low_pass = kernel(BAND_SHARE * rate_hz, rate_hz, 5)
+    count = min(segment.samples, int(SAMPLE_CHECKS.jitter_seconds * rate_hz))
+    low_pass = kernel(SAMPLE_CHECKS.jitter_band * rate_hz, rate_hz, SAMPLE_CHECKS.filter_order)
     reach = len(low_pass) // 2
-    if count < 8 * reach:
+    if count < SAMPLE_CHECKS.jitter_filters * reach:
         return
     position = _even(segment.log.source.rows(segment.start, segment.start + count), rate_hz)
     smooth = oaconvolve(position, low_pass[:, None], mode="valid", axes=0)
@@ -131,5 +123,7 @@ def _products(part: tuple[JointSeries, JointSeries, float]) -> tuple[np.ndarray,
 
 
 def _blocks(found: np.ndarray, unit: np.ndarray) -> np.ndarray:
-    whole = len(found) // BLOCK * BLOCK
-    return np.column_stack([products[:whole].reshape(-1, BLOCK).sum(axis=1) for products in (found, unit)])
+    whole = len(found) // SAMPLE_CHECKS.jitter_block * SAMPLE_CHECKS.jitter_block
+    return np.column_stack(
+        [products[:whole].reshape(-1, SAMPLE_CHECKS.jitter_block).sum(axis=1) for products in (found, unit)]
+    )

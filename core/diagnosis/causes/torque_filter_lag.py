@@ -15,14 +15,13 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text
 from .traits import SearchTraits
 
-SHORTEST, LONGEST = 2e-4, 0.1
-"""Time constants in s: less has no effect in any log's bandwidth, more leaves no motion in the torque."""
 STARTS = (0.001, 0.004, 0.016, 0.064)
 ORDER = 2
 PERIODS = 3.0
@@ -54,11 +53,15 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
         del dataset, site
-        return FilterLag(0, operating_point, float(np.clip(scalars["around"], SHORTEST, LONGEST)))
+        return FilterLag(
+            0,
+            operating_point,
+            float(np.clip(scalars["around"], ADMISSIBLE.least_filter_lag, ADMISSIBLE.filter_lag)),
+        )
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a filter that lags."""
-        return bool(0.0 < solved.values[0] < LONGEST)
+        return bool(0.0 < solved.values[0] < ADMISSIBLE.filter_lag)
 
     def statement(self, solved: FittedCause) -> str:
         """State the time constant."""

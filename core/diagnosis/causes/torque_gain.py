@@ -10,12 +10,11 @@ from ...dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text
-
-LARGEST = 0.9
 
 
 @dataclass(frozen=True)
@@ -49,7 +48,7 @@ class TorqueGain(OwnJointCause, CorrectsLog):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a gain error of less than nine tenths."""
-        return bool(abs(solved.values[0]) < LARGEST)
+        return bool(abs(solved.values[0]) < ADMISSIBLE.torque_gain)
 
     def statement(self, solved: FittedCause) -> str:
         """State the gain error in per cent."""

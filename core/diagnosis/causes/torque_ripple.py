@@ -9,14 +9,13 @@ from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_ripple import Ripple
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Quantity, Scalars, Site
 from .shared.harmonics import harmonics, wave_quantities
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
 from .traits import SearchTraits
 
-LOWEST = 2.0
-"""Gravity has one cycle per revolution."""
 MOST = 120
 BAND_SHARE = 0.7
 """At the joint's RMS speed, cycles are scanned up to this share of the data set's bandwidth."""
@@ -38,7 +37,9 @@ class TorqueRipple(OwnJointCause):
         del operating_point
         own = site[0] - 1
         highest = BAND_SHARE * 2.0 * np.pi * dataset.band_hz / max(float(dataset.speed[own]), 1e-6)
-        return harmonics(dataset.state.position[:, own], lowest=LOWEST, highest=highest, most=MOST)
+        return harmonics(
+            dataset.state.position[:, own], lowest=ADMISSIBLE.ripple_harmonic, highest=highest, most=MOST
+        )
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
         """Give the columns."""
@@ -47,7 +48,7 @@ class TorqueRipple(OwnJointCause):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit more cycles per revolution than gravity has."""
-        return super().admissible(solved) and solved.scalars["harmonic"] >= LOWEST
+        return super().admissible(solved) and solved.scalars["harmonic"] >= ADMISSIBLE.ripple_harmonic
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: the drive torque is larger by amplitude cos(harmonic q + phase)."""

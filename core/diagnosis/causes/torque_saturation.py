@@ -11,14 +11,13 @@ from ...dynamics.terms.torque_saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text, quantity_text
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
 """Limits, as shares of the motion's largest torque."""
-PREDICTION_ERROR = 0.03
-"""Relative error of large predicted torques."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +48,7 @@ class TorqueSaturation(OwnJointCause):
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the limit, which is no more certain than the predicted torque that it clips."""
         limit = solved.scalars["limit"]
-        deviation = float(np.hypot(solved.deviations.get("limit", 0.0), PREDICTION_ERROR * limit))
+        deviation = float(np.hypot(solved.deviations.get("limit", 0.0), ADMISSIBLE.saturation_error * limit))
         return (Quantity("limit", solved.site[0], solved.unit("N m"), limit, deviation),)
 
     def statement(self, solved: FittedCause) -> str:

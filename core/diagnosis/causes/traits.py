@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ..thresholds.causes import LINEARISATION
+
 
 def grid_size(grid: Sequence[Mapping[str, float]], scalars: Mapping[str, float]) -> float:
     """Count the points of a grid."""
@@ -37,7 +39,7 @@ class SearchTraits:
 
     transient: bool = False
     like_position_noise: bool = False
-    linearisation_error: float = 0.05
+    linearisation_error: float = LINEARISATION.usual
     self_consistent: tuple[str, ...] = ()
     discrete: tuple[str, ...] = ()
     onset: Mapping[str, slice] = field(default_factory=dict)

@@ -20,23 +20,10 @@ from ..search.hypothesis import Candidate, Hypothesis
 from ..search.likelihood_ratio import bic_gain, likelihood_ratio
 from ..search.residuals import residual
 from ..search.state import SearchState
-from ..thresholds import UNDECIDED
+from ..thresholds.checks import ALTERNATIVES
+from ..thresholds.search import SELECTION
 from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
-
-OTHER_SHARE = 0.03
-"""Share of a finding's rise below which its lead over a other not known to be confused with it is nothing."""
-UNNAMED_SHARE = 0.25
-"""Share of a finding's rise by which a pattern without a name has to lead to refute it."""
-EVENT_SHARE = 0.5
-"""An event at picked instants fits a little of anything: this share of its rise is not counted."""
-LEAST_SEEN = 4.0
-"""Rise to be expected on unseen rows below which these say nothing of a cause."""
-LEAST_GAIN = 0.5
-"""Per cent of the error on unseen rows that a cause beside a clearer one has to gain, or gain for sure."""
-COMPARED = 6
-WORTH_NAMING = 0.1
-"""A other that reaches less than this share of the finding's own rise is not worth a line."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +95,7 @@ def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison,
 
     The most significant member, and one that hardly acts on those rows, only fail where that error grows.
     """
-    if own.margin < -UNDECIDED and not alone:
+    if own.margin < -SELECTION.undecided and not alone:
         return True
     if own.member.cause.traits.transient or fitter.prior is not None:
         return False
@@ -121,7 +108,7 @@ def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison,
         [gain(*left, mask, dataset.block_of_all, joints) for mask in (holdout, fitted)] for joints in places
     ]
     seen = [(there, here) for there, here in both if there is not None and here is not None]
-    if alone or expected < LEAST_SEEN:
+    if alone or expected < ALTERNATIVES.least_expected:
         return any(there.interval_95[1] < 0.0 for there, _ in seen)
     return bool(seen) and all(_refuted_unseen(there, here) for there, here in seen)
 
@@ -130,7 +117,9 @@ def _refuted_unseen(there: Gain, here: Gain) -> bool:
     """Tell whether held-out rows show no gain, and contradict that of the fitted rows if there is one."""
     low, high = there.interval_95
     none = there.total_percent < 0.0 and here.total_percent < 0.0
-    return none or (low <= 0.0 and there.total_percent < LEAST_GAIN and high < here.total_percent)
+    return none or (
+        low <= 0.0 and there.total_percent < ALTERNATIVES.least_gain and high < here.total_percent
+    )
 
 
 def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
@@ -144,8 +133,8 @@ def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Cand
 def _beaten_by_unnamed(own: Comparison) -> bool:
     """Tell whether an unnamed pattern explains much more than a member in its place."""
     if own.member.cause.traits.transient:
-        return own.over_unnamed < EVENT_SHARE * own.statistic
-    return own.over_unnamed < -max(UNDECIDED, UNNAMED_SHARE * own.statistic)
+        return own.over_unnamed < ALTERNATIVES.event_share * own.statistic
+    return own.over_unnamed < -max(SELECTION.undecided, ALTERNATIVES.unnamed_share * own.statistic)
 
 
 def compare_member(state: SearchState, index: int) -> Comparison:
@@ -167,7 +156,7 @@ def compare_member(state: SearchState, index: int) -> Comparison:
         like = _by_position_noise(fitter, own, (member, other))
         if not why and behind < max(like, _undecided_below(member, other, own_ratio)):
             ambiguous.append(_undecided(member, other, ratio, behind, like))
-        elif ratio > WORTH_NAMING * own_ratio:
+        elif ratio > ALTERNATIVES.worth_naming * own_ratio:
             refuted.append(_refuted(other, ratio, own_ratio, why))
     return Comparison(
         index, member, own_ratio, own_gain, float(margin), tuple(ambiguous), tuple(refuted), without
@@ -183,14 +172,14 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
         for scored in fitter.scan(without)
         if scored.candidate.key not in taken and scored.candidate.cause.id not in closed
     ]
-    trials = [with_candidate(fitter, without, scored) for scored in others[:COMPARED]]
+    trials = [with_candidate(fitter, without, scored) for scored in others[: ALTERNATIVES.compared]]
     whole = [fitter.fit(trial.members, trial) for trial in trials]
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 
 
 def _undecided_below(member: Candidate, other: Candidate, own_ratio: float) -> float:
     known = imitations(member.cause.id).get(other.cause.id)
-    return max(UNDECIDED, (known.share if known else OTHER_SHARE) * own_ratio)
+    return max(SELECTION.undecided, (known.share if known else ALTERNATIVES.other_share) * own_ratio)
 
 
 def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
@@ -209,7 +198,7 @@ def _undecided(
     known = imitations(member.cause.id).get(other.cause.id)
     why = known.why if known else "the columns of both are nearly collinear in this motion"
     experiment = known.experiment if known else other.cause.experiment
-    noise = f"; position noise may account for {like:.1f}" if like > UNDECIDED else ""
+    noise = f"; position noise may account for {like:.1f}" if like > SELECTION.undecided else ""
     return Alternative(
         other.cause.id,
         other.site,

@@ -11,23 +11,19 @@ from scipy.stats import norm
 from ...arrays import Indices, JointSeries
 from ..dataset.dataset import Dataset
 from ..result import UnnamedPattern
-
-SECONDS, APART = 0.3, 0.5
-"""Length of a stretch, and how far from it `elsewhere` begins, s."""
-CLEAR = 6.0
-"""Times the RMS elsewhere that the median size within a stretch has to be."""
-LEAST_ROWS, LEAST_ELSEWHERE = 8, 200
+from ..thresholds.checks import UNNAMED
 
 
 def burst(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
     """Give the largest burst of a residual (rows x joints), N m or N; None where there is none."""
     found = [one for joint in range(dataset.joints) for one in _stretches(dataset, residual, joint)]
     ratio, joint, begin = max(found, default=(0.0, 0, 0.0))
-    if ratio < CLEAR:
+    if ratio < UNNAMED.burst_ratio:
         return None
     chance = float(norm.logsf(ratio) + np.log(2.0 * len(found))) / float(np.log(10.0))
+    middle = begin + 0.5 * UNNAMED.burst_seconds
     statement = (
-        f"Burst in the residual of joint {joint + 1} at {begin + 0.5 * SECONDS:.3g} s: {ratio:.2g} times the "
+        f"Burst in the residual of joint {joint + 1} at {middle:.3g} s: {ratio:.2g} times the "
         "RMS at other times, of a shape that no listed cause has"
     )
     return UnnamedPattern(joint + 1, statement, ratio**2, chance)
@@ -41,7 +37,7 @@ def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tupl
         (float(np.median(size[inside]) / max(elsewhere, 1e-300)), joint, begin)
         for log in np.unique(dataset.log[rows])
         for begin, inside, beside in _windows(dataset, rows, int(log))
-        if len(size) - len(beside) >= LEAST_ELSEWHERE
+        if len(size) - len(beside) >= UNNAMED.least_rows
         for elsewhere in [float(np.sqrt(np.mean(np.delete(size, beside) ** 2)))]
     ]
 
@@ -50,11 +46,17 @@ def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, Ind
     """Give, per span of a log, its begin, the places of its rows, and those of its neighbourhood too."""
     own = np.flatnonzero(dataset.log[rows] == log)
     time = dataset.time[rows][own]
-    begins = np.arange(time.min(), time.max(), 0.5 * SECONDS)
+    begins = np.arange(time.min(), time.max(), 0.5 * UNNAMED.burst_seconds)
     found = []
     for begin in begins:
-        after, before = time - begin, begin + SECONDS - time
+        after, before = time - begin, begin + UNNAMED.burst_seconds - time
         inside = own[(after >= 0.0) & (before >= 0.0)]
-        if len(inside) >= LEAST_ROWS:
-            found.append((float(begin), inside, own[(after > -APART) & (before > -APART)]))
+        if len(inside) >= UNNAMED.burst_rows:
+            found.append(
+                (
+                    float(begin),
+                    inside,
+                    own[(after > -UNNAMED.burst_distance) & (before > -UNNAMED.burst_distance)],
+                )
+            )
     return found

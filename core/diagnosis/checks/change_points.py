@@ -14,18 +14,16 @@ from scipy.ndimage import uniform_filter1d
 
 from ...arrays import Indices, JointSeries, Vector
 from ...numerics.chi2_tail import log_chi2_tail
-from ..dataset.dataset import ROWS_OVER_BAND
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis
+from ..thresholds.checks import UNNAMED
+from ..thresholds.dataset import BAND
 from .unnamed_pattern import UnnamedPatternCause
 
 SMOOTHED = (3, 5, 9, 15)
 """Rows that are averaged."""
 FAR = (0.0, 0.3, 0.6, 0.9, 1.2)
 """How far over counts, in RMS of the smoothed residual."""
-LEAST_ROWS, LEAST_CHANGES = 200, 2
-MOST_LOG_TRIALS = 600.0
-"""What has more ways than this (a logarithm) could be anything."""
 _UNLISTED = UnnamedPatternCause()
 
 
@@ -39,12 +37,12 @@ def switching_candidates(
     dataset, found = fitter.dataset, []
     for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
         rows = int(np.count_nonzero(usable))
-        if rows < LEAST_ROWS or dataset.log.any():
+        if rows < UNNAMED.least_rows or dataset.log.any():
             continue
         ways = []
         for changes in _changes(np.where(usable, series, 0.0)):
-            trials = _log_trials(len(changes), rows / ROWS_OVER_BAND)
-            if len(changes) >= LEAST_CHANGES and trials < MOST_LOG_TRIALS:
+            trials = _log_trials(len(changes), rows / BAND.rows)
+            if len(changes) >= UNNAMED.least_changes and trials < UNNAMED.most_log_trials:
                 instants = 0.5 * (dataset.time[changes] + dataset.time[changes + 1])
                 scalars = _UNLISTED.switching(instants)
                 ways.append(Candidate(_UNLISTED, (joint,), scalars, float(np.exp(trials))))

@@ -8,14 +8,23 @@ Advances in Large Margin Classifiers (1999), for the logistic form.
 import numpy as np
 
 from ..result import Gain
-
-CERTAIN = 0.99
+from ..thresholds.checks import CONFIDENCE
+from ..thresholds.search import SELECTION
 
 
 def confidence(statistic: float, margin: float, measured: Gain | None) -> float:
     """Give the probability that the named cause is the true one."""
-    strength = np.clip((statistic - 25.0) / 25.0, -1.0, 2.0)
-    lead = np.clip(margin / 6.0, -1.0, 4.0)
+    strength = np.clip(
+        (statistic - CONFIDENCE.clear_statistic) / CONFIDENCE.clear_statistic,
+        CONFIDENCE.least_strength,
+        CONFIDENCE.most_strength,
+    )
+    lead = np.clip(margin / SELECTION.undecided, CONFIDENCE.least_lead, CONFIDENCE.most_lead)
     helps = 0.0 if measured is None else float(np.sign(measured.interval_95[0]))
-    score = 0.6 + 0.7 * strength + 0.8 * lead + 0.5 * helps
-    return float(min(1.0 / (1.0 + np.exp(-score)), CERTAIN))
+    score = (
+        CONFIDENCE.offset
+        + CONFIDENCE.per_strength * strength
+        + CONFIDENCE.per_lead * lead
+        + CONFIDENCE.per_gain * helps
+    )
+    return float(min(1.0 / (1.0 + np.exp(-score)), CONFIDENCE.certain))

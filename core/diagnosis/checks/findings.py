@@ -14,6 +14,7 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
 from ..search.residuals import residual
 from ..search.state import SearchState
+from ..thresholds.checks import CONFIDENCE
 from .alternatives import Comparison
 from .confidence import confidence
 from .figure import curve
@@ -127,7 +128,7 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
         cure=cause.cure,
         statement=found.statement,
         quantities=found.quantities,
-        confidence=float(min(sure, 0.99)),
+        confidence=float(min(sure, CONFIDENCE.certain)),
         p_value=found.p_value,
         explained_fraction=float(np.clip(np.max(found.residual_share), 0.0, 1.0)),
         evidence=(Evidence("Statistic of the sample check", "raw check", found.statistic),),

@@ -5,9 +5,9 @@ import numpy as np
 from ...arrays import JointSeries
 from ...numerics.block_bootstrap import FEWEST_BLOCKS, interval_95, resampled_sums
 from ..result import Gain
+from ..thresholds.search import HOLDOUT
 
 DRAWS = 400
-BLOCK_ROWS = 25
 SEED = 0
 
 
@@ -54,6 +54,6 @@ def _groups(marked: np.ndarray, block: np.ndarray) -> list[np.ndarray]:
     return [
         part
         for run in np.split(rows, cuts)
-        for part in np.array_split(run, max(1, len(run) // BLOCK_ROWS))
+        for part in np.array_split(run, max(1, len(run) // HOLDOUT.block_rows))
         if len(part)
     ]

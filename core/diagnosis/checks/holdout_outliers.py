@@ -17,15 +17,10 @@ from ..regression.prewhitening import prewhitened_residual
 from ..regression.rows import extended
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
+from ..thresholds.search import HOLDOUT
 
 Explained = tuple[HypothesisFitter, Hypothesis]
 """A fitter and a hypothesis that it fitted."""
-OVER_LARGEST, OVER_USUAL = 2.5, 6.0
-"""How many times the largest and the usual mean square of the fitted blocks a held-out one must have."""
-LEAST_ROWS = 8
-"""Of a block, to be judged."""
-AS_MANY = 0.5
-"""Other blocks hold out this share at least of each joint's rows clear of reversals: few judge nothing."""
 
 
 def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
@@ -36,7 +31,11 @@ def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
         left = prewhitened_residual(part, fitted.noise, missed)[:, 0]
         known = fitted.left(found.fit.values)
         new, old = (_powers(fitter.dataset, *one) for one in ((part.rows, left), (seen.rows, known)))
-        if len(new) and len(old) and new.max() > max(OVER_LARGEST * old.max(), OVER_USUAL * old.mean()):
+        if (
+            len(new)
+            and len(old)
+            and new.max() > max(HOLDOUT.over_largest * old.max(), HOLDOUT.over_usual * old.mean())
+        ):
             return True
     return False
 
@@ -71,7 +70,7 @@ def with_other_holdout(dataset: Dataset) -> Dataset | None:
         others = blocks[(np.searchsorted(blocks, held) + shift) % len(blocks)]
         held_out |= own & np.isin(dataset.block, others)
     now, then = (np.count_nonzero(dataset.clear[one], axis=0) for one in (dataset.held_out, held_out))
-    return replace(dataset, held_out=held_out) if np.all(then >= AS_MANY * now) else None
+    return replace(dataset, held_out=held_out) if np.all(then >= HOLDOUT.as_many * now) else None
 
 
 def _powers(dataset: Dataset, rows: Indices, left: Vector) -> np.ndarray:
@@ -79,5 +78,5 @@ def _powers(dataset: Dataset, rows: Indices, left: Vector) -> np.ndarray:
     block = dataset.block_of_all[rows]
     counts = np.bincount(block)
     power = np.bincount(block, left**2)
-    enough = counts >= LEAST_ROWS
+    enough = counts >= HOLDOUT.least_rows
     return np.asarray(power[enough] / counts[enough])

@@ -13,13 +13,9 @@ from ...arrays import Indices, JointSeries, Vector
 from ..dataset.dataset import Dataset
 from ..residual.blocks import row_blocks
 from ..result import UnnamedPattern
+from ..thresholds.checks import UNNAMED
 
-SMOOTHED = 5
-"""Rows that are averaged: noise shrinks, levels stay."""
 NORMAL = 3.0
-CLEAR = 5.0
-"""Deviations below the normal value from which on levels are seen."""
-LEAST_ROWS = 200
 
 
 def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
@@ -27,13 +23,13 @@ def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern 
     blocks = row_blocks(dataset)
     found = []
     for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
-        if np.count_nonzero(usable) < LEAST_ROWS:
+        if np.count_nonzero(usable) < UNNAMED.least_rows:
             continue
-        smooth = uniform_filter1d(np.where(usable, series, 0.0), SMOOTHED)[usable]
+        smooth = uniform_filter1d(np.where(usable, series, 0.0), UNNAMED.level_rows)[usable]
         size, deviation = kurtosis(smooth, blocks[usable])
         found.append(((NORMAL - size) / max(deviation, 1e-12), joint, size))
     clearest, joint, size = max(found, default=(0.0, 0, NORMAL))
-    if clearest < CLEAR:
+    if clearest < UNNAMED.level_deviations:
         return None
     chance = float(norm.logsf(clearest) + np.log(len(found))) / float(np.log(10.0))
     statement = (

@@ -10,9 +10,9 @@ from ..search.entry_test import is_significant, passes_holdout
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis
 from ..search.likelihood_ratio import bic_gain
+from ..thresholds.checks import UNNAMED
 from .unnamed_pattern import UnnamedPatternCause
 
-TRIED = 3
 _UNLISTED = UnnamedPatternCause()
 
 
@@ -30,7 +30,7 @@ def best_unnamed_pattern(
     fitter: HypothesisFitter, now: Hypothesis, unnamed: tuple[Candidate, ...]
 ) -> Hypothesis | None:
     """Give a hypothesis with the pattern that explains most of what another leaves; None where none does."""
-    scans = fitter.scan(now, unnamed)[:TRIED]
+    scans = fitter.scan(now, unnamed)[: UNNAMED.tried]
     trials = [fitter.fit_with(now, _finest(fitter, now, one.candidate)) for one in scans]
     clear = [trial for trial in trials if is_significant(fitter, now, trial, fitter.dataset.joints)]
     whole = [fitter.fit(trial.members, trial) for trial in clear]

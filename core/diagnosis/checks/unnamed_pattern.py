@@ -19,6 +19,7 @@ from ..causes.protocol import FittedCause, Quantity, Scalars, Site
 from ..causes.shared.own_joint import OwnJointCause
 from ..causes.traits import SearchTraits
 from ..dataset.dataset import Dataset
+from ..thresholds.checks import UNNAMED
 
 WAVES = (1.0, 2.0)
 SLOWEST, QUICKEST = 0.15, 1.0
@@ -98,7 +99,13 @@ def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], 
 
 def _seconds(dataset: Dataset) -> float:
     """Give the length of the longest log, s, no more than a minute: what lasts longer is drift."""
-    return float(np.clip(max(motion.log.duration for motion in dataset.motions), 4.0, 60.0))
+    return float(
+        np.clip(
+            max(motion.log.duration for motion in dataset.motions),
+            UNNAMED.least_seconds,
+            UNNAMED.most_seconds,
+        )
+    )
 
 
 def _scalars(name: str, numbers: Numbers) -> Scalars:

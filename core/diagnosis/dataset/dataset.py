@@ -34,17 +34,11 @@ from ...robot.model import RobotModel
 from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState
+from ..thresholds.dataset import BAND, ROWS
 from .onset_filter import onset_rows
 from .segments import segments_of, thinning
 from .stretch import Stretch
 
-BAND_OVER_MOTION = 40.0
-RATE_OVER_BAND = 12.0
-POSITION_OVER_BAND = 3.0
-ROWS_OVER_BAND = 2.5
-ORDER = 2
-"""A gentle filter: what happens at a reversal rings on for one period of the cut-off, not for three."""
-LONGEST_SECONDS = 120.0
 BATCH = 64
 """Series that are filtered at once: as many as stay near the processor."""
 
@@ -155,7 +149,7 @@ def build_dataset(
     *,
     held_out: frozenset[BlockKey],
     blocks: int,
-    width: float = BAND_OVER_MOTION,
+    width: float = BAND.over_motion,
 ) -> Dataset:
     """Condition the logs for a diagnosis.
 
@@ -174,7 +168,7 @@ def build_dataset(
         If no row is left to look at.
     """
     motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
-    share = min(1.0, LONGEST_SECONDS / sum(log.duration for log in logs))
+    share = min(1.0, ROWS.seconds / sum(log.duration for log in logs))
     pieces = [segments_of(number, motion, model.robot, share) for number, motion in enumerate(motions)]
     parts = [piece for one in pieces for piece in one]
     if not parts:
@@ -221,15 +215,15 @@ def _options(log: JointLog, width: float) -> FilterOptions:
     effect: it is used only where there are spikes.
     """
     band = choose_recipe(log, FilterOptions()).motion_band_hz
-    cutoff = min(width * band, log.rate_hz / RATE_OVER_BAND)
+    cutoff = min(width * band, log.rate_hz / BAND.rate)
     thin = thinning(log.rate_hz, cutoff)
     spiky = any((one.kind, one.channel) == ("outliers", "position") for one in log.defects)
     return FilterOptions(
         median_order=FilterOptions.median_order if spiky else 1,
         cutoff_hz=cutoff,
-        position_cutoff_hz=min(POSITION_OVER_BAND * cutoff, 0.4 * log.rate_hz),
-        order=ORDER,
-        decimation=thin * int(log.rate_hz / (ROWS_OVER_BAND * cutoff) / thin),
+        position_cutoff_hz=min(BAND.position * cutoff, BAND.position_over_rate * log.rate_hz),
+        order=BAND.order,
+        decimation=thin * int(log.rate_hz / (BAND.rows * cutoff) / thin),
     )
 
 

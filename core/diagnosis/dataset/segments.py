@@ -16,15 +16,10 @@ from ...signals.condition import Motion
 from ...signals.parallel import ParallelFilter
 from ...signals.segment import Segment
 from ...signals.state import MotionState
+from ..thresholds.dataset import BAND, ROWS
 from .spikes import without_spikes
 from .stiction import resting, sticking
 from .stretch import Stretch
-
-STATE_OVER_BAND = 8.0
-"""States are thinned to eight times the band: nothing above the position filter is left to alias."""
-REVERSAL_REACH = 1.0
-"""Rows nearer to a reversal than this many periods of the cut-off are set apart."""
-STRETCH_SECONDS = 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +42,7 @@ def segments_of(number: int, motion: Motion, robot: RobotModel, share: float) ->
     out, done = [], 0
     for segment in motion.segments:
         step = segment.rate_hz / motion.recipe.decimation
-        length = max(int(STRETCH_SECONDS * step), 1)
+        length = max(int(ROWS.stretch_seconds * step), 1)
         wanted = max(1, int(np.ceil(segment.kept * share / length)))
         size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
         firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
@@ -106,7 +101,7 @@ def thinning(rate_hz: float, cutoff_hz: float) -> int:
     >>> thinning(1000.0, 20.0)
     6
     """
-    return max(1, int(rate_hz / (STATE_OVER_BAND * cutoff_hz)))
+    return max(1, int(rate_hz / (BAND.states * cutoff_hz)))
 
 
 def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
@@ -114,7 +109,7 @@ def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
 
     `period` is that of the cut-off, in samples.
     """
-    reach = int(np.ceil(REVERSAL_REACH * period))
+    reach = int(np.ceil(ROWS.reversal_periods * period))
     counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
     low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
     return np.asarray(counts[high] == counts[low])

@@ -10,22 +10,19 @@ from ...arrays import JointMask, JointSeries
 from ...dynamics.terms.external_contact import Span
 from ...log.model import JointLog
 from ...signals.derivative import median
-
-ORDER = 5
-"""Of the running median that a push passes and a spike does not."""
-QUANTILE, MOST = 0.95, 20.0
-"""A remainder of so many times this quantile of all is a spike, even where noise has heavy tails."""
-AROUND_S = 2.0
-"""Time on either side of a span that says what is usual."""
+from ..thresholds.dataset import ROWS
 
 
 def spiked(log: JointLog, span: Span) -> bool:
     """Tell whether a raw sample within a span of a log is a spike of some joint's torque."""
     first = float(log.source.rows(0, 1).time[0])
-    begin, end = (round((edge - first) * log.rate_hz) for edge in (span[0] - AROUND_S, span[1] + AROUND_S))
+    begin, end = (
+        round((edge - first) * log.rate_hz)
+        for edge in (span[0] - ROWS.spike_seconds, span[1] + ROWS.spike_seconds)
+    )
     rows = log.source.rows(max(begin, 0), min(end, log.samples))
     effort = rows.current if rows.torque is None else rows.torque
-    if effort is None or len(rows.time) <= ORDER:
+    if effort is None or len(rows.time) <= ROWS.spike_order:
         return False
     _, spikes = _split(effort)
     inside = (rows.time >= span[0]) & (rows.time <= span[1])
@@ -34,7 +31,7 @@ def spiked(log: JointLog, span: Span) -> bool:
 
 def without_spikes(torque: JointSeries) -> JointSeries:
     """Put the running median in the place of spikes; all other samples stay as they are."""
-    if len(torque) <= ORDER:
+    if len(torque) <= ROWS.spike_order:
         return torque
     middle, spikes = _split(torque)
     return np.where(spikes, middle, torque)
@@ -42,9 +39,9 @@ def without_spikes(torque: JointSeries) -> JointSeries:
 
 def _split(torque: JointSeries) -> tuple[JointSeries, JointMask]:
     """Give the running median, and mark what stands apart from it; the ends are their own."""
-    reach = ORDER // 2
+    reach = ROWS.spike_order // 2
     middle = torque.copy()
-    middle[reach:-reach] = median(np.ascontiguousarray(torque), ORDER)
+    middle[reach:-reach] = median(np.ascontiguousarray(torque), ROWS.spike_order)
     remainder = np.abs(torque - middle)
-    usual = np.maximum(np.quantile(remainder[reach:-reach], QUANTILE, axis=0), 1e-300)
-    return middle, remainder > MOST * usual
+    usual = np.maximum(np.quantile(remainder[reach:-reach], ROWS.spike_quantile, axis=0), 1e-300)
+    return middle, remainder > ROWS.spike_ratio * usual

@@ -17,14 +17,8 @@ from ...dynamics.terms.coupling import motor_speed
 from ...dynamics.terms.effect import step_of
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
+from ..thresholds.dataset import ROWS
 from .stretch import Stretch
-
-SHAPES = 4.0
-"""Polynomials per period of the look's cut-off, twice what an ideal filter would let through."""
-MOST_SHAPES = 32
-"""A longer stretch is cut: a parked joint's polynomials would be many, and all of them as long as the log."""
-STILL_SHARE = 0.01
-"""A coupled motor rests when it is slower than this share of its RMS speed."""
 
 
 def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.ndarray:
@@ -32,7 +26,7 @@ def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.nda
     marks = _rests(state.velocity, still)
     for coupling in robot.couplings:
         speed = motor_speed(coupling, state)[:, None]
-        motor = _rests(speed, STILL_SHARE * np.sqrt(np.mean(speed**2, axis=0)))
+        motor = _rests(speed, ROWS.still_share * np.sqrt(np.mean(speed**2, axis=0)))
         marks[:, [joint - 1 for joint in coupling.joints]] |= motor
     return marks
 
@@ -40,7 +34,7 @@ def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.nda
 def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_array, ...]:
     """Give, per joint, filtered columns for the friction of every stretch of time in which it rests."""
     band = band_hz * step_of(stretch.state)
-    longest = int(MOST_SHAPES / (SHAPES * band))
+    longest = int(ROWS.most_shapes / (ROWS.shapes * band))
     runs = [_cut(_runs(marks[:, joint]), longest) for joint in range(marks.shape[1])]
     return tuple(_columns(stretch, one, band) for one in runs)
 
@@ -96,6 +90,6 @@ def _cut(runs: list[tuple[int, int]], longest: int) -> list[tuple[int, int]]:
 
 
 def _polynomials(begin: int, end: int, band: float) -> Series:
-    count = min(end - begin, 2 + int(np.ceil(SHAPES * band * (end - begin))))
+    count = min(end - begin, 2 + int(np.ceil(ROWS.shapes * band * (end - begin))))
     shapes = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, end - begin), count - 1)
     return np.ascontiguousarray(shapes.T)

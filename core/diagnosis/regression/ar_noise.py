@@ -14,12 +14,7 @@ from scipy.sparse import csr_array
 
 from ...arrays import Indices, Matrix, SquareMatrix, Vector, Weights
 from ...numerics.recursions import innovate, reflect
-
-HIGHEST_ORDER = 12
-ROWS_PER_ORDER, ROWS_PER_REFLECTION = 30, 10
-FORGOTTEN = 2e-3
-"""Share by which correlations with the past are taken for smaller. A noise that remembers all costs nothing:
-a fit would leave ever more of the slow torque to it."""
+from ..thresholds.regression import NOISE
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,8 +104,8 @@ def fit_ar_noise(
     """
     predictors, variances = _burg(residual, place)
     if order is None:
-        order = min(len(variances) - 1, len(residual) // ROWS_PER_ORDER)
-    raised = 1.0 / max(1.0 - taken / max(len(residual), 1), 0.1)
+        order = min(len(variances) - 1, len(residual) // NOISE.rows_per_order)
+    raised = 1.0 / max(1.0 - taken / max(len(residual), 1), NOISE.least_freedom)
     return ARNoise(tuple(predictors[: order + 1]), np.sqrt(raised * variances[: order + 1]))
 
 
@@ -129,6 +124,8 @@ def places(follows: np.ndarray) -> Indices:
 
 def _burg(residual: Vector, place: Indices) -> tuple[list[Weights], Weights]:
     """Give predictors of rising order by Burg's method, which the ends of runs do not bias."""
-    predictors, variances = np.zeros((1 + HIGHEST_ORDER, HIGHEST_ORDER)), np.zeros(1 + HIGHEST_ORDER)
-    known = reflect(np.array(residual), place, FORGOTTEN, ROWS_PER_REFLECTION, predictors, variances)
+    predictors, variances = np.zeros((1 + NOISE.order, NOISE.order)), np.zeros(1 + NOISE.order)
+    known = reflect(
+        np.array(residual), place, NOISE.shrinkage, NOISE.rows_per_reflection, predictors, variances
+    )
     return [predictors[order, :order] for order in range(known + 1)], variances[: known + 1]

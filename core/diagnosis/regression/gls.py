@@ -18,6 +18,7 @@ from scipy.linalg.lapack import dpotrs
 
 from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from ...estimate.gaussian_prior import GaussianPrior
+from ..thresholds.regression import NOISE
 from .ar_noise import ARNoise, fit_ar_noise
 from .prewhitening import Prewhitened, whitened
 from .rows import JointRows
@@ -26,13 +27,6 @@ RIDGE = 1e-10
 """Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
 STEPS, EXACT = 5, 1e-6
 """Steps of a solution at most, until another would add less than this to twice the likelihood."""
-OPEN_SHARE = 1e-6
-"""A column of which the others already span all but this share is no evidence for anything."""
-ROUNDS, TRIAL_ROUNDS = 3, 2
-SETTLED = 0.1
-"""What noise estimated anew has to add to a joint's log-likelihood; what decides adds three or more."""
-TOO_MUCH = 1.3
-"""Residual of a fit under coloured noise over that of an ordinary one that is too much."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +80,7 @@ def fit(
     joints: tuple[JointRows, ...],
     noise: tuple[ARNoise, ...] | None = None,
     *,
-    rounds: int = ROUNDS,
+    rounds: int = NOISE.rounds,
     prior: GaussianPrior | None = None,
     ordinary: bool = False,
 ) -> Fit:
@@ -115,7 +109,7 @@ def noise_absorbs_effect(joints: tuple[JointRows, ...], found: Fit) -> bool:
     """Tell whether a fit leaves much more residual on some joint than an ordinary fit does."""
     plain = _ordinary(joints, found.prior)
     pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
-    return any(float(ours @ ours) > TOO_MUCH**2 * float(theirs @ theirs) for ours, theirs in pairs)
+    return any(float(ours @ ours) > NOISE.absorbed**2 * float(theirs @ theirs) for ours, theirs in pairs)
 
 
 def _ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit:
@@ -147,7 +141,7 @@ def refit(
     kept: int,
     touched: frozenset[int] | None = None,
     *,
-    rounds: int = ROUNDS,
+    rounds: int = NOISE.rounds,
 ) -> Fit:
     """Fit the same rows to other columns, estimating the noise again from that of another fit.
 
@@ -182,7 +176,7 @@ def _reestimated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[i
         rows, known = joints[joint], found.joints[joint]
         residual = seen.joints[joint].residual(rows, seen.values)
         estimated = fit_ar_noise(residual, rows.place, taken=degrees_of_freedom(rows, joints))
-        if estimated.departure(known.noise, residual, rows.place) > SETTLED:
+        if estimated.departure(known.noise, residual, rows.place) > NOISE.settled:
             parts[joint] = whitened(rows, estimated)
     if tuple(parts) == found.joints:
         return found

@@ -14,7 +14,8 @@ from scipy.linalg.lapack import dtrtrs
 
 from ...arrays import EquationRows, Indices, Matrix, Weights
 from ...numerics.recursions import sum_begun
-from .gls import OPEN_SHARE, Fit
+from ..thresholds.regression import COLUMNS
+from .gls import Fit
 from .rows import Columns, JointRows
 
 
@@ -169,10 +170,10 @@ def _tested(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
     size = np.sqrt(np.maximum(squares, 1e-300))
     left = grams / (size[:, :, None] * size[:, None, :])
     clear = np.clip(np.diagonal(left, axis1=1, axis2=2), 0.0, 1.0).max(axis=1)
-    tested = np.isfinite(left).all(axis=(1, 2)) & (clear >= OPEN_SHARE)
+    tested = np.isfinite(left).all(axis=(1, 2)) & (clear >= COLUMNS.open)
     out = [_open(right.shape[1])] * len(right)
     values, vectors = np.linalg.eigh(left[tested])
-    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > OPEN_SHARE)
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > COLUMNS.open)
     spread = vectors / size[tested][:, :, None]
     with_other_holdout = np.einsum("nij,ni->nj", spread, right[tested])
     covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)

@@ -14,10 +14,7 @@ from scipy.stats import t as student
 
 from ...arrays import Indices, Vector
 from ..dataset.dataset import Dataset
-
-BLOCKS = 20
-LEVEL = 0.975
-"""Each end of the interval is missed by one in forty."""
+from ..thresholds.residual import PREDICTION
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +36,7 @@ def row_blocks(dataset: Dataset) -> Indices:
     borders = np.append(np.flatnonzero(dataset.starts), len(dataset.time))
     done = 0
     for start, stop in pairwise(borders):
-        count = max(1, round(BLOCKS * float(stop - start) / len(dataset.time)))
+        count = max(1, round(PREDICTION.blocks * float(stop - start) / len(dataset.time)))
         label[start:stop] = done + np.arange(stop - start) * count // (stop - start)
         done += count
     return label
@@ -68,7 +65,7 @@ def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Sha
     share = float(gain.sum() / power.sum())
     missed = (gain - share * power) / power.sum()
     deviation = float(np.sqrt(len(gain) / (len(gain) - 1) * np.sum(missed**2)))
-    reach = float(student.ppf(LEVEL, len(gain) - 1)) * deviation
+    reach = float(student.ppf(PREDICTION.quantile, len(gain) - 1)) * deviation
     scaled = np.full(len(prediction), np.nan)
     scaled[judged] = factor[place] * guess
     return Share(_within(share), (_within(share - reach), _within(share + reach)), scaled)

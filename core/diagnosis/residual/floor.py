@@ -16,15 +16,12 @@ from scipy.signal import detrend, welch
 from ...arrays import JointSeries, JointVector, Vector
 from ...signals.zero_phase import gain
 from ..dataset.dataset import Dataset
+from ..thresholds.residual import FLOOR
 from .period import Repeats, both_clear, later_by, repeating, repeats
 
 FloorSource = Literal["repeats", "high_band", "none"]
-HIGH_BAND_OVER_LOOK = 1.5
-HIGH_BAND_END = 0.45
-"""The high band ends below half the rate, where an anti-aliasing filter of the logger may already act."""
 WINDOW_SECONDS = 0.5
-FEWEST_ROWS = 100
-"""Pairs of rows that repeat each other, below which repeats say too little."""
+_BELOW_NYQUIST, _POINTS = 0.499, 4096
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +80,7 @@ def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
 def passed(dataset: Dataset, frequency_hz: Vector) -> Vector:
     """Give the share of white noise's power that the look's parallel filter passes at some frequencies."""
     motion = dataset.motions[0]
-    below = np.clip(frequency_hz, 0.0, 0.499 * motion.log.rate_hz)
+    below = np.clip(frequency_hz, 0.0, _BELOW_NYQUIST * motion.log.rate_hz)
     recipe = motion.recipe
     return gain(below, cutoff_hz=recipe.cutoff_hz, rate_hz=motion.log.rate_hz, order=recipe.order) ** 2
 
@@ -93,7 +90,7 @@ def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
     low, high, rows = np.zeros(dataset.joints), np.zeros(dataset.joints), 0
     for motion in dataset.motions:
         for segment in motion.segments:
-            last = min(segment.kept, int(60.0 * segment.rate_hz / motion.recipe.decimation))
+            last = min(segment.kept, int(FLOOR.segment_seconds * segment.rate_hz / motion.recipe.decimation))
             torque = segment.tile(motion.effort_scale, 0, last, 0).torque
             density = _halves(torque, segment.rate_hz, motion.recipe.cutoff_hz)
             if density is not None:
@@ -102,7 +99,7 @@ def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
     if not rows:
         return np.full(dataset.joints, np.nan), np.full(dataset.joints, np.nan)
     low, high = low / rows, high / rows
-    grid = np.linspace(0.0, 0.499 * dataset.motions[0].log.rate_hz, 4096)
+    grid = np.linspace(0.0, _BELOW_NYQUIST * dataset.motions[0].log.rate_hz, _POINTS)
     width = float(np.trapezoid(passed(dataset, grid), grid))
     tilt = np.divide(low, high, out=np.full(dataset.joints, np.nan), where=high > 0.0)
     return np.sqrt(0.5 * (low + high) * width), tilt
@@ -111,8 +108,8 @@ def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
 def _halves(torque: JointSeries, rate_hz: float, cutoff_hz: float) -> tuple[JointVector, JointVector] | None:
     """Give the mean power density of the high band's lower and upper half per joint."""
     size = int(WINDOW_SECONDS * rate_hz)
-    begin, end = HIGH_BAND_OVER_LOOK * cutoff_hz, HIGH_BAND_END * rate_hz
-    if len(torque) < 4 * size or begin >= 0.8 * end:
+    begin, end = FLOOR.over_band * cutoff_hz, FLOOR.end * rate_hz
+    if len(torque) < FLOOR.windows * size or begin >= FLOOR.least_width * end:
         return None
     frequency, density = welch(torque.T, rate_hz, nperseg=size, detrend=detrend, average="median")
     middle = 0.5 * (begin + end)
@@ -132,4 +129,4 @@ def _from_repeats(dataset: Dataset, residual: JointSeries, found: Repeats) -> Jo
         total += np.sum(np.where(both, difference**2, 0.0), axis=0)
         count += both.sum(axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.where(count >= FEWEST_ROWS, np.sqrt(0.5 * total / count), np.nan)
+        return np.where(count >= FLOOR.least_pairs, np.sqrt(0.5 * total / count), np.nan)

@@ -17,20 +17,11 @@ from ...dynamics.prediction import Prediction
 from ...errors import ExcitationError
 from ..dataset.dataset import Dataset
 from ..regression.ar_noise import ARNoise
+from ..thresholds.residual import PREDICTION
 from .blocks import Share, row_blocks, share_on_blocks
 from .coordinates import coordinate, coordinate_series
 from .memory import memory
 
-FOLDS = 5
-TREES = 40
-LEAVES = 6
-ROWS_IN_LEAF = 20
-RATE = 0.1
-LEVELS = 63
-"""Trees look for their splits among this many quantiles of a coordinate."""
-FEWEST_ROWS = 200
-LONGEST_GAP = 0.5
-"""The gap is half a block at most; noise that remembers for longer cannot be told from drift."""
 _PLACES = 10
 _WHERE = ("velocity", "position", "load", "time")
 
@@ -103,7 +94,7 @@ def predictable_share(
     block, shared = row_blocks(dataset), _shared(dataset)
     found = []
     for joint in range(dataset.joints):
-        if rows[joint] < FEWEST_ROWS:
+        if rows[joint] < PREDICTION.least_rows:
             found.append(_not_judged(joint + 1, len(dataset.time)))
             continue
         features = np.column_stack([shared, _own(dataset, operating_point, joint)])
@@ -123,11 +114,11 @@ def refuse_too_little(mask: JointMask) -> Indices:
         If every joint has too few rows to hold any out.
     """
     rows = mask.sum(axis=0)
-    if rows.max() < FEWEST_ROWS:
+    if rows.max() < PREDICTION.least_rows:
         raise ExcitationError(
             "the log holds too little motion to hold any of it out: no joint has enough instants away from "
             "standstill and reversals",
-            evidence={"instants": rows.tolist(), "needed": FEWEST_ROWS},
+            evidence={"instants": rows.tolist(), "needed": PREDICTION.least_rows},
             remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
         )
     return np.asarray(rows)
@@ -145,18 +136,18 @@ def _unseen(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, 
 
     out = np.full(len(target), np.nan)
     with threadpool_limits(limits=1):
-        for fold in range(FOLDS):
-            held = block % FOLDS == fold
+        for fold in range(PREDICTION.folds):
+            held = block % PREDICTION.folds == fold
             near = np.convolve(held, np.ones(2 * gap + 1), mode="same") > 0.5
             seen, asked = mask & ~near, mask & held
-            if seen.sum() < 2 * ROWS_IN_LEAF or not asked.any():
+            if seen.sum() < 2 * PREDICTION.leaf_rows or not asked.any():
                 continue
             trees = HistGradientBoostingRegressor(
-                max_iter=TREES,
-                learning_rate=RATE,
-                max_leaf_nodes=LEAVES,
-                min_samples_leaf=ROWS_IN_LEAF,
-                max_bins=LEVELS,
+                max_iter=PREDICTION.trees,
+                learning_rate=PREDICTION.rate,
+                max_leaf_nodes=PREDICTION.leaves,
+                min_samples_leaf=PREDICTION.leaf_rows,
+                max_bins=PREDICTION.quantiles,
                 early_stopping=False,
                 random_state=0,
             )
@@ -165,7 +156,7 @@ def _unseen(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, 
 
 
 def _gap(noise: ARNoise, block: Indices) -> int:
-    longest = LONGEST_GAP * float(np.median(np.bincount(block)))
+    longest = PREDICTION.longest_gap * float(np.median(np.bincount(block)))
     return max(1, min(memory(noise), int(longest)))
 
 

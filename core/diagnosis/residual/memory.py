@@ -12,9 +12,8 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from ...arrays import Indices, Matrix, SquareMatrix, Vector
 from ..regression.ar_noise import ARNoise
+from ..thresholds.residual import PREDICTION
 
-FORGOTTEN = 0.1
-"""A noise has forgotten where its correlation with the past stays below this."""
 _LONGEST = 8192
 
 
@@ -44,7 +43,7 @@ def memory(noise: ARNoise) -> int:
     4
     """
     covariance = irfft(spectrum(noise, _LONGEST), _LONGEST)[: _LONGEST // 2]
-    remembered = np.flatnonzero(np.abs(covariance) >= FORGOTTEN * covariance[0])
+    remembered = np.flatnonzero(np.abs(covariance) >= PREDICTION.forgotten * covariance[0])
     return int(remembered[-1]) + 1
 
 

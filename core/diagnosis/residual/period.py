@@ -12,14 +12,12 @@ from scipy.fft import irfft, next_fast_len, rfft
 from ...arrays import JointMask, JointSeries, Rows, Vector
 from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
+from ..thresholds.residual import FLOOR
 
-SAME = 0.02
-"""A joint is where it was when it misses by less than this share of its RMS swing (and speed)."""
-FEWEST_SECONDS = 2.0
-LEAST_SHARE = 0.3
-"""Of the instants that have one a period later, at least this share must repeat."""
 NEWTON_STEPS = 5
-_TAPS = 24
+_TAPS, _TAPS_OF_A_LOG = 24, 4
+_LONGEST_LAG = 0.9
+_WHOLE = 1e-6
 _KAISER = 6.0
 
 
@@ -35,10 +33,10 @@ def repeats(dataset: Dataset) -> Repeats | None:
     """Find the shortest period of the longest stretch; None where the motion does not repeat."""
     stretch = max(dataset.stretches, key=lambda one: one.rows.stop - one.rows.start)
     position = dataset.state.position[stretch.rows]
-    if len(position) < 4 * _TAPS:
+    if len(position) < _TAPS_OF_A_LOG * _TAPS:
         return None
     step = float(np.mean(np.diff(dataset.time[stretch.rows])))
-    moving = np.std(position, axis=0) > 1e-3 * np.std(position, axis=0).max()
+    moving = np.std(position, axis=0) > FLOOR.moving * np.std(position, axis=0).max()
     mismatch = _mismatch(position[:, moving])
     for valley in _valleys(mismatch):
         lag = _refined(
@@ -46,7 +44,7 @@ def repeats(dataset: Dataset) -> Repeats | None:
         )
         found = Repeats(lag, lag * step)
         same = repeating(dataset, stretch, found)
-        if same.sum() * step >= FEWEST_SECONDS and same.mean() >= LEAST_SHARE:
+        if same.sum() * step >= FLOOR.repeat_seconds and same.mean() >= FLOOR.repeat_share:
             return found
     return None
 
@@ -56,8 +54,8 @@ def repeating(dataset: Dataset, stretch: Stretch, found: Repeats) -> np.ndarray:
     same = None
     for series in (dataset.state.position[stretch.rows], dataset.state.velocity[stretch.rows]):
         later = later_by(series, found.rows)
-        swing = np.maximum(np.std(series, axis=0), 1e-3 * np.std(series, axis=0).max())
-        near = np.all(np.abs(later - series[: len(later)]) <= SAME * swing, axis=1)
+        swing = np.maximum(np.std(series, axis=0), FLOOR.moving * np.std(series, axis=0).max())
+        near = np.all(np.abs(later - series[: len(later)]) <= FLOOR.same * swing, axis=1)
         same = near if same is None else same & near
     return np.zeros(0, dtype=bool) if same is None else same
 
@@ -75,7 +73,7 @@ def later_by(series: Rows, rows: float) -> Rows:
     """
     whole = int(np.floor(rows))
     part = rows - whole
-    if part < 1e-6:
+    if part < _WHOLE:
         return series[whole:]
     offsets = np.arange(1 - _TAPS // 2, _TAPS // 2 + 1)
     weights = np.sinc(offsets - part) * _kaiser((offsets - part) / (_TAPS / 2))
@@ -117,13 +115,13 @@ def _mismatch(position: JointSeries) -> Vector:
 
 def _valleys(mismatch: Vector) -> list[int]:
     """List the lags of low minima beyond the first rise, shortest first."""
-    last = int(0.8 * len(mismatch))
-    risen = np.flatnonzero(mismatch[:last] > 0.5)
+    last = int(FLOOR.longest_lag * len(mismatch))
+    risen = np.flatnonzero(mismatch[:last] > FLOOR.risen)
     if not len(risen):
         return []
     inner = np.arange(max(int(risen[0]), 1), last - 1)
     here, left, right = mismatch[inner], mismatch[inner - 1], mismatch[inner + 1]
-    low = (here < left) & (here <= right) & (here < 0.3)
+    low = (here < left) & (here <= right) & (here < FLOOR.valley)
     return [int(one) for one in inner[low]]
 
 
@@ -132,7 +130,7 @@ def _refined(position: JointSeries, slope: JointSeries, lag: float) -> float:
 
     A motion that grows out of rest does not repeat where it grows; that half decides nothing.
     """
-    last = 0.9 * (len(position) - 1)
+    last = _LONGEST_LAG * (len(position) - 1)
     scale = np.std(position, axis=0)
     for _ in range(NEWTON_STEPS):
         later = later_by(position, lag)

@@ -10,11 +10,9 @@ from functools import cached_property
 
 from ..causes.protocol import Site
 from ..regression.rows import Columns
+from ..thresholds.search import SEARCH
 from .candidates import Candidates
 from .hypothesis import Candidate
-
-NEAR = 0.01
-"""Share of a joint's torque within which two predictions rank candidates of the joint alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +45,7 @@ class CandidateCache:
         Approximate: columns of derivatives may change by a larger share than the torque does, and so may
         what a candidate of one joint adds on the others.
         """
-        changed = {one: ~(one.change(now) <= NEAR) for one in self._points}
+        changed = {one: ~(one.change(now) <= SEARCH.cached_change) for one in self._points}
         whole = now if changed[self.whole].any() else self.whole
         joints = tuple(now if changed[one][joint] else one for joint, one in enumerate(self.joints))
         return self if (whole, joints) == (self.whole, self.joints) else CandidateCache(whole, joints)

@@ -3,19 +3,10 @@
 import numpy as np
 
 from ..causes.masking import masks
+from ..thresholds.search import MASKING
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import bounded_likelihood_ratio, likelihood_ratio, likelihood_ratio_by_joint, log_p
-
-BESIDE_SHARE = 0.5
-"""What keeps this share of its rise beside a finding is no other to it."""
-LEFT_SHARE, CLEAR_SHARE = 0.25, 0.5
-"""A cause leaves up to this share of its rise on a joint; this share of a member's has to be beyond that."""
-EVENT_OVER_OTHER, FAR_BEYOND_LUCK = 0.05, 1e-30
-"""An event fits a little of anything: it brings this share at least of what any other cause does, or is no
-more likely by luck than that. Pushes that nobody gave reached 0.04 and 1e-25 beside strong effects."""
-WITHIN = 0.9
-"""Share of an event's rows in which another cause acts, from which on it is what that one leaves."""
 
 
 def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hypothesis) -> bool:
@@ -39,19 +30,19 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
         without = fitter.fit((*whole.members[:place], *whole.members[place + 1 :]), whole)
         if own.traits.transient:
             within = leaves and _acts_within(whole, index, place)
-            least = likelihood_ratio(without, whole) * (1.0 if within else EVENT_OVER_OTHER)
+            least = likelihood_ratio(without, whole) * (1.0 if within else MASKING.event_over_other)
             if own_ratio.sum() < least and (within or not _is_extreme(less, whole, index)):
                 return True
             continue
-        left = LEFT_SHARE * np.maximum(likelihood_ratio_by_joint(without, whole), 0.0)
-        if np.maximum(own_ratio - left, 0.0).sum() < CLEAR_SHARE * own_ratio.sum():
+        left = MASKING.left * np.maximum(likelihood_ratio_by_joint(without, whole), 0.0)
+        if np.maximum(own_ratio - left, 0.0).sum() < MASKING.clear * own_ratio.sum():
             return True
     return False
 
 
 def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, other: Candidate, alone: float) -> bool:
     """Tell whether a candidate explains as much beside a hypothesis: then it is no alternative."""
-    return fitter.scan(own, [other])[0].statistic > BESIDE_SHARE * alone
+    return fitter.scan(own, [other])[0].statistic > MASKING.beside * alone
 
 
 def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) -> bool:
@@ -64,7 +55,7 @@ def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) 
 
 def _is_extreme(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
     chance = log_p(less, whole, bounded_likelihood_ratio(less, whole, index), index)
-    return bool(chance < np.log(FAR_BEYOND_LUCK))
+    return bool(chance < np.log(MASKING.event_level))
 
 
 def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
@@ -75,4 +66,4 @@ def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
         if other.any():
             together += int((acts & other).sum())
             alone += int((acts & ~other).sum())
-    return together > WITHIN * (together + alone)
+    return together > MASKING.within * (together + alone)

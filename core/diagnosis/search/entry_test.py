@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..causes.masking import excludes
+from ..thresholds.search import ENTRY, HOLDOUT, SEARCH
 from .confounding import is_masked
 from .fitter import HypothesisFitter
 from .holdout import holdout_likelihood_ratio, holdout_share
@@ -22,36 +23,12 @@ NOTHING: Excluded = {}
 Ranked = Sequence[tuple[ScoredCandidate, float]]
 """Candidates, and the most that each may bring."""
 
-LEVEL = 1e-4
-"""Chance of naming anything in a log that hides nothing."""
-FURTHER_LEVEL = 1e-7
-"""The same beside another cause: no columns are exact, and what they leave is not luck,"""
-UNCHANGED = 0.9
-"""unless, on a joint of its own, it was as clear, within this share, before any other cause was known."""
-TRIED = 16
-"""Candidates of a scan that are fitted, with the noise learned anew where they act."""
-RAISED, BESIDES = 4.0, 500.0
-"""A candidate may bring so many times what is foreseen of it once it is fitted, and so much besides: more was
-never seen. What cannot be better than one that is clear is fitted only where that one does not hold."""
-FITTED_WHOLE = 4
-"""The best of them, fitted with the noise of all joints learned anew."""
-UNSEEN_SHARE = 0.25
-"""Share of the rise to be expected on held-out rows that has to be seen there,"""
-UNLUCKY = 2.5
-"""unless it is so small that luck, within so many of its deviations, can take it away."""
-EVENT_LEVEL = 1e-6
-"""The same for an event, which is looked for where noise is largest,"""
-RARE = 0.1
-"""and for what acts in less than this share of a joint's rows, as one burst of noise does."""
-LEAST_SHARE = 0.004
-"""Least share of a joint's whitened residual square that a cause has to explain."""
-
 
 def best_entry(
     fitter: HypothesisFitter,
     now: Hypothesis,
     excluded_kinds: Excluded = NOTHING,
-    most: int = TRIED,
+    most: int = SEARCH.tried,
     least: float = 0.0,
 ) -> Hypothesis | None:
     """Give the hypothesis with the best cause that may enter, of so many tried; None where none may.
@@ -70,7 +47,9 @@ def best_entry(
     ]
     tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.traits.transient]
     reach = zip(tried, predicted_likelihood_ratios(fitter, now, tried), strict=True)
-    ranked = sorted(((one, RAISED * brings + BESIDES) for one, brings in reach), key=lambda pair: -pair[1])
+    ranked = sorted(
+        ((one, ENTRY.raised * brings + ENTRY.besides) for one, brings in reach), key=lambda pair: -pair[1]
+    )
     found: Hypothesis | None = None
     left: Ranked = [(one, most) for one, most in ranked if most > least]
     while left and found is None:
@@ -110,7 +89,7 @@ def _best_on_holdout(
 ) -> Hypothesis | None:
     """Give the best of some trials that passes the hold-out test and is not masked by a member."""
     # A shared parameter carries an effect to other joints, so the noise of all of them is estimated again.
-    whole = [fitter.fit(trial.members, trial) for trial in likely[:FITTED_WHOLE]]
+    whole = [fitter.fit(trial.members, trial) for trial in likely[: SEARCH.fitted_whole]]
     # A transient cause explains a little of anything, and comes after those that act all the time.
     ranked = sorted(
         whole, key=lambda trial: (trial.members[-1].cause.traits.transient, -bic_gain(now, trial))
@@ -141,7 +120,7 @@ def passes_exit_test(fitter: HypothesisFitter, without: Hypothesis, now: Hypothe
     if not now.allows(index):
         return False
     if not without.members:
-        return bool(wald_statistic(now, index) > -2.0 * np.log(LEVEL))
+        return bool(wald_statistic(now, index) > -2.0 * np.log(ENTRY.level))
     return _passes_entry_test(fitter, without, now, fitter.kinds, index)
 
 
@@ -154,11 +133,11 @@ def _is_independent(
         return False
     if not all(one and one.isdisjoint(member.site) for one in others):
         return False
-    if not member.site or not is_significant(fitter, now, trial, kinds, LEVEL, index):
+    if not member.site or not is_significant(fitter, now, trial, kinds, ENTRY.level, index):
         return False
     none = fitter.fit(())
     alone, beside = likelihood_ratio(none, fitter.fit_with(none, member)), likelihood_ratio(now, trial)
-    return min(alone, beside) > UNCHANGED * max(alone, beside)
+    return min(alone, beside) > ENTRY.unchanged * max(alone, beside)
 
 
 def is_significant(
@@ -172,7 +151,7 @@ def is_significant(
     """Tell whether a member is significant among so many kinds, and large enough to matter."""
     if level is None:
         rare = _acts_rarely(trial, index)
-        level = FURTHER_LEVEL if now.members else EVENT_LEVEL if rare else LEVEL
+        level = ENTRY.further_level if now.members else ENTRY.event_level if rare else ENTRY.level
     hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_likelihood_ratio(now, trial, index), index)
     return bool(chance < hurdle and _share(now, trial) > _least_share(fitter, trial.members[index]))
@@ -184,7 +163,7 @@ def _acts_rarely(trial: Hypothesis, index: int) -> bool:
         return True
     own = trial.columns_of(index)
     acting = [part.of(own).any(axis=1) for part in trial.fit.joints]
-    return all(float(rows.mean()) < RARE for rows in acting if rows.any())
+    return all(float(rows.mean()) < ENTRY.rare for rows in acting if rows.any())
 
 
 def passes_holdout(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis) -> bool:
@@ -199,7 +178,7 @@ def passes_holdout(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis)
     )
     deviation = 2.0 * float(np.sqrt(max(expected, 1.0)))
     return holdout_likelihood_ratio(fitter, now, trial) >= min(
-        UNSEEN_SHARE * expected, expected - UNLUCKY * deviation
+        HOLDOUT.share * expected, expected - HOLDOUT.deviations * deviation
     )
 
 
@@ -221,6 +200,6 @@ def _share(now: Hypothesis, trial: Hypothesis) -> float:
 
 def _least_share(fitter: HypothesisFitter, member: Candidate) -> float:
     if not member.cause.traits.like_position_noise:
-        return LEAST_SHARE
+        return ENTRY.least_share
     joints = member.site or range(1, fitter.dataset.joints + 1)
-    return max(LEAST_SHARE, *(float(fitter.dataset.position_share[joint - 1]) for joint in joints))
+    return max(ENTRY.least_share, *(float(fitter.dataset.position_share[joint - 1]) for joint in joints))

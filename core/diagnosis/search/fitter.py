@@ -19,17 +19,14 @@ from ...regressor.columns import ColumnPlan
 from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause
 from ..dataset.dataset import Dataset
-from ..regression.gls import TRIAL_ROUNDS, Fit, fit, noise_absorbs_effect, refit
+from ..regression.gls import Fit, fit, noise_absorbs_effect, refit
 from ..regression.rows import Columns, JointRows, extended, rows_of_joints
 from ..regression.score_test import Panel, Score, score, score_onsets
+from ..thresholds.regression import NOISE
+from ..thresholds.search import REFINEMENT, SEARCH
 from .candidate_cache import CandidateCache, cache_at
 from .candidates import Candidates, extended_prediction, no_candidates
 from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate, best_of_kinds
-
-SCORED_ANEW = 24
-"""Best kinds of a scan that are scored again where columns are of an earlier operating point."""
-ONSET_JOINTS = 3
-"""Joints that decide when something began."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,7 +161,7 @@ class HypothesisFitter:
             joint: float(np.sum((under.fit.joints[joint].whitening @ own[self.rows.fitted[joint].rows]) ** 2))
             for joint, own in part.items()
         }
-        largest = sorted(size, key=lambda joint: -size[joint])[:ONSET_JOINTS]
+        largest = sorted(size, key=lambda joint: -size[joint])[: REFINEMENT.onset_joints]
         return score_onsets(under.fit, self.rows.fitted, {joint: part[joint] for joint in largest}, starts)
 
     def scan(self, under: Hypothesis, candidates: Sequence[Candidate] | None = None) -> list[ScoredCandidate]:
@@ -186,8 +183,8 @@ class HypothesisFitter:
         found = best_of_kinds(asked, scores)
         if self.cache.of(self.at):
             return found
-        again = self.scan(under, [scored.candidate for scored in found[:SCORED_ANEW]])
-        return sorted([*again, *found[SCORED_ANEW:]], key=lambda scored: scored.log_p)
+        again = self.scan(under, [scored.candidate for scored in found[: SEARCH.scored_anew]])
+        return sorted([*again, *found[SEARCH.scored_anew :]], key=lambda scored: scored.log_p)
 
     @property
     def _panel(self) -> Panel:
@@ -230,7 +227,9 @@ class HypothesisFitter:
         columns = self.columns(members)
         rows = extended(self.rows.fitted, columns)
         kept, touched = len(start.fit.values), frozenset(columns[-1])
-        found = self._hypothesis(members, columns, refit(rows, start.fit, kept, touched, rounds=TRIAL_ROUNDS))
+        found = self._hypothesis(
+            members, columns, refit(rows, start.fit, kept, touched, rounds=NOISE.trial_rounds)
+        )
         if found.possible or not candidate.cause.admissible(found.solved(len(start.members))):
             return found
         return self.fit(members)

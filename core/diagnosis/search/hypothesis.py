@@ -11,8 +11,9 @@ from ...numerics.chi2_tail import log_chi2_tail
 from ...robot.joint_units import is_prismatic
 from ...robot.model import RobotModel
 from ..causes.protocol import Cause, FittedCause, Scalars, Site
-from ..regression.gls import OPEN_SHARE, Fit
+from ..regression.gls import Fit
 from ..regression.score_test import Score
+from ..thresholds.regression import COLUMNS
 
 ColumnKey = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: the key of cached columns."""
@@ -95,7 +96,7 @@ class Hypothesis:
         place = self.columns_of(index)
         scale = self.fit.scale[place]
         spread = np.linalg.eigvalsh(self.fit.covariance[place, place] * np.outer(scale, scale))
-        return max(int(np.count_nonzero(spread < 1.0 / OPEN_SHARE)), 1)
+        return max(int(np.count_nonzero(spread < 1.0 / COLUMNS.open)), 1)
 
     def covariance(self, index: int) -> SquareMatrix:
         """Give the covariance of a member's linear parameters where its scalars are what they are."""

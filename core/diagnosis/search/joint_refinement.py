@@ -7,18 +7,12 @@ by it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on refining no
 
 from dataclasses import replace
 
+from ..thresholds.search import REFINEMENT, SELECTION
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import likelihood_ratio
 from .profile_likelihood import refine_scalars, with_deviations
 from .state import SearchState
-
-REFINEMENTS = 8
-"""Times that operating point and members are refined at most,"""
-WORTH_REFINING = 6.0
-"""as long as that raises twice the log-likelihood by as much."""
-KEPT = 0.5
-"""Share of an effect's likelihood ratio statistic that has to remain where the model is linearised at it."""
 
 
 def refine_jointly(state: SearchState) -> SearchState:
@@ -33,10 +27,10 @@ def refine_jointly(state: SearchState) -> SearchState:
     inadmissible = chosen.possible and not now.chosen.allows(-1)
     if inadmissible or _costs_too_much(state.fitter, chosen, now.chosen):
         return state.at(state.fitter, _with_refined(state.fitter, chosen, len(chosen.members) - 1))
-    for _ in range(REFINEMENTS - 1):
+    for _ in range(REFINEMENT.rounds - 1):
         again = _refined_once(now)
         gained = likelihood_ratio(now.chosen, again.chosen)
-        if gained < WORTH_REFINING or (now.chosen.possible and not again.chosen.possible):
+        if gained < SELECTION.undecided or (now.chosen.possible and not again.chosen.possible):
             break
         now = again
     return now
@@ -44,10 +38,10 @@ def refine_jointly(state: SearchState) -> SearchState:
 
 def _costs_too_much(fitter: HypothesisFitter, before: Hypothesis, after: Hypothesis) -> bool:
     """Tell whether linearising at a hypothesis loses most of what its last member brings."""
-    if likelihood_ratio(before, after) > -WORTH_REFINING:
+    if likelihood_ratio(before, after) > -SELECTION.undecided:
         return False
     without = fitter.fit(before.members[:-1], before)
-    return likelihood_ratio(without, after) < KEPT * likelihood_ratio(without, before)
+    return likelihood_ratio(without, after) < REFINEMENT.kept * likelihood_ratio(without, before)
 
 
 def _refined_once(state: SearchState) -> SearchState:

@@ -6,11 +6,9 @@ Source: Schwarz, Ann. Stat. 6(2), 1978, for the criterion.
 import numpy as np
 
 from ...arrays import JointVector
+from ..thresholds.search import ENTRY
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis, ScoredCandidate
-
-MOST_OF_A_ROW = 16.0
-"""Squared deviations that a row may count for."""
 
 
 def log_p(now: Hypothesis, trial: Hypothesis, most: float = np.inf, index: int = -1) -> float:
@@ -33,7 +31,7 @@ def bounded_likelihood_ratio(now: Hypothesis, trial: Hypothesis, index: int = -1
     for part in trial.fit.joints:
         rows = part.of(own).any(axis=1) if event else slice(None)
         old, new = (
-            np.minimum(part.left(one)[rows] ** 2, MOST_OF_A_ROW) for one in (before, trial.fit.values)
+            np.minimum(part.left(one)[rows] ** 2, ENTRY.row_limit) for one in (before, trial.fit.values)
         )
         total += float(np.sum(old - new))
     return total

@@ -14,20 +14,19 @@ from scipy.optimize import root_scalar
 from ...arrays import Vector
 from ...numerics.chi2_tail import log_chi2_tail
 from ..regression.score_test import Score
+from ..thresholds.search import REFINEMENT
 from .fitter import HypothesisFitter
 from .grid import between, neighbours
 from .hypothesis import Candidate, Hypothesis, allowed
 
+RELATIVE_STEP, LEAST_STEP, WIDENINGS = 1e-3, 1e-9, 7
+"""Least step over which a curvature is read, relative and absolute, and how often it is doubled at most."""
 YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
 """within this share of it."""
-LIKELY, APART = 12, 0.2
-"""Instants at which a cause may begin to act that are looked at closely, so many seconds apart at least."""
 AROUND = np.linspace(-1.0, 1.0, 21)
 """From a settled instant to others that are asked how likely they are, s."""
-NEARLY = 1.96
-"""Deviations of a scalar within which 95 % of its values lie."""
 
 
 def refine_scalars(
@@ -120,7 +119,9 @@ def _at_likeliest_onset(
     worth = np.array([one.statistic for one in fitter.score_onsets(under, throughout, some, rows)])
     peaks: list[int] = []
     for place in np.argsort(-worth, kind="stable"):
-        if len(peaks) < LIKELY and all(abs(time[rows[place]] - time[rows[one]]) > APART for one in peaks):
+        if len(peaks) < REFINEMENT.onsets and all(
+            abs(time[rows[place]] - time[rows[one]]) > REFINEMENT.onset_distance for one in peaks
+        ):
             peaks.append(int(place))
     trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
     found = fitter.score(under, trials)
@@ -176,10 +177,10 @@ def _deviation_and_slope(
 ) -> tuple[float, Vector]:
     """Read a scalar's deviation off the curvature of the profile likelihood, and the values' slope."""
     here = candidate.scalars[name]
-    step = max(0.5 * (around[1] - around[0]), 1e-3 * abs(here), 1e-9)
+    step = max(0.5 * (around[1] - around[0]), RELATIVE_STEP * abs(here), LEAST_STEP)
     low, middle, high = _scores_beside(fitter, under, candidate, name, step)
-    for _ in range(7):
-        if _drop(low, middle, high) > 0.5 or here - 2.0 * step <= 0.0 < here:
+    for _ in range(WIDENINGS):
+        if _drop(low, middle, high) > REFINEMENT.drop or here - 2.0 * step <= 0.0 < here:
             break
         wider = _scores_beside(fitter, under, candidate, name, 2.0 * step)
         if min(one.clear_share for one in wider) <= 0.0:
@@ -209,8 +210,10 @@ def _deviation_of_interval(seen: Mapping[float, float], here: float) -> float:
     The likelihood of an instant has edges, and no curvature to read a deviation from.
     """
     best = max(seen.values())
-    likely = [abs(value - here) for value, statistic in seen.items() if best - statistic < NEARLY**2]
-    return max(likely) / NEARLY
+    likely = [
+        abs(value - here) for value, statistic in seen.items() if best - statistic < REFINEMENT.interval**2
+    ]
+    return max(likely) / REFINEMENT.interval
 
 
 def _drop(low: Score, middle: Score, high: Score) -> float:

@@ -6,11 +6,9 @@ import numpy as np
 
 from ...arrays import JointSeries, JointVector
 from ..regression.rows import extended
+from ..thresholds.checks import VERDICT
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis
-
-MOST_AT_REST = 0.9
-"""A joint whose friction at rest is free on more than this share of the rows hardly moves."""
 
 
 def residual(fitter: HypothesisFitter, under: Hypothesis, without: Iterable[int] = ()) -> JointSeries:
@@ -39,6 +37,6 @@ def stiction_share(fitter: HypothesisFitter, under: Hypothesis) -> JointVector:
         whole = part.torque - part.columns @ under.fit.values
         left = part.residual(under.fit.values)
         ratio = float(left @ left) / max(float(whole @ whole), 1e-300)
-        moves = taken < MOST_AT_REST * count
+        moves = taken < VERDICT.at_rest * count
         shares.append(max(1.0 - ratio * count / (count - taken), 0.0) if moves else np.nan)
     return np.array(shares)

@@ -10,15 +10,11 @@ Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 import numpy as np
 
 from ..causes.masking import excludes, masks
-from ..thresholds import UNDECIDED
+from ..thresholds.search import SEARCH, SELECTION
 from .hypothesis import Hypothesis
-from .joint_refinement import WORTH_REFINING
 from .likelihood_ratio import likelihood_ratio
 from .state import SearchState
 from .stepwise import continue_search, start_with
-
-SEVERAL = 2
-"""Findings that may have one common cause."""
 
 
 def restart_from_common_cause(found: SearchState) -> SearchState:
@@ -26,14 +22,14 @@ def restart_from_common_cause(found: SearchState) -> SearchState:
     best = found
     for cause in found.fitter.causes:
         several = [member for member in found.chosen.members if member.cause.id in masks(cause.id)]
-        if len(several) < SEVERAL or cause.id in {member.cause.id for member in found.chosen.members}:
+        if len(several) < SEARCH.several or cause.id in {member.cause.id for member in found.chosen.members}:
             continue
         start = _started_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
         if start is None:
             continue
         other = continue_search(start, known=found.through)
         met = other.chosen is not start.chosen and other.keys in found.through
-        if not met and bic(other.chosen) > bic(best.chosen) + UNDECIDED:
+        if not met and bic(other.chosen) > bic(best.chosen) + SELECTION.undecided:
             best = other
     return best
 
@@ -57,9 +53,9 @@ def restart_at_operating_point(found: SearchState) -> SearchState:
     """
     fitter = found.fitter.linearised_at(found.chosen)
     now = fitter.fit(found.chosen.members, found.chosen)
-    if likelihood_ratio(found.chosen, now) < -WORTH_REFINING:
+    if likelihood_ratio(found.chosen, now) < -SELECTION.undecided:
         other = continue_search(SearchState(fitter, found.none, now, found.steps))
-        if bic(other.chosen) > bic(found.chosen) + UNDECIDED:
+        if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided:
             return other
     return found
 

@@ -10,18 +10,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from .confounding import BESIDE_SHARE, is_masked
+from ..thresholds.search import MASKING, SEARCH, SELECTION
+from .confounding import is_masked
 from .entry_test import best_entry, is_significant, passes_exit_test, with_candidate
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate
 from .joint_refinement import refine_jointly
 from .likelihood_ratio import bic_gain, likelihood_ratio
 from .state import Keys, SearchState, Step
-
-SWAPS, BETTER = 6, 6.0
-"""Candidates fitted in a member's place, and by how much the criterion of a swap has to be better."""
-MOST = 5
-"""Causes searched for at most."""
 
 
 def search_stepwise(
@@ -59,9 +55,9 @@ def continue_search(
         Sets of causes from which another search went on: one that comes to them would go the same way.
     """
     state = so_far
-    for number in range(len(so_far.chosen.members), MOST):
+    for number in range(len(so_far.chosen.members), SEARCH.causes):
         if progress is not None:
-            progress(number / MOST)
+            progress(number / SEARCH.causes)
         better = best_entry(state.fitter, state.chosen, state.excluded)
         if better is None:
             break
@@ -109,7 +105,7 @@ def _exits_and_swaps(state: SearchState) -> Iterator[SearchState]:
     """
     yield state
     earlier = [state.keys]
-    for _ in range(2 * MOST):
+    for _ in range(2 * SEARCH.causes):
         changed = _exit_or_swap(state)
         if changed is None:
             return
@@ -148,10 +144,10 @@ def _exit_or_swap(state: SearchState) -> SearchState | None:
         if not member.cause.traits.transient:
             # A transient cause does not take the place of one that acts all the time.
             closed |= {other.key: np.inf for other in fitter.candidates if other.cause.traits.transient}
-        hurdle = bic_gain(smaller[index], now, index) + BETTER
-        swapped = best_entry(fitter, smaller[index], closed, SWAPS, hurdle)
+        hurdle = bic_gain(smaller[index], now, index) + SELECTION.undecided
+        swapped = best_entry(fitter, smaller[index], closed, SEARCH.swaps, hurdle)
         if swapped is not None:
             after = state.at(fitter, swapped)
             after = after.recorded("swapped", swapped.members[-1], likelihood_ratio(now, swapped))
-            return after.excluding(member.key, BESIDE_SHARE * brings[index])
+            return after.excluding(member.key, MASKING.beside * brings[index])
     return None

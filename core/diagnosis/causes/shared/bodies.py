@@ -7,9 +7,8 @@ import numpy as np
 from ....arrays import LinkParameters, SquareMatrix
 from ....estimate.body import nearest_body
 from ....robot.parameters import INERTIAL_SYMBOLS
+from ...thresholds.causes import ADMISSIBLE
 
-TOLERATED, TOLERATED_SHARE = 30.0, 0.03
-"""Tolerated squared distance from a body: in standard deviations, and as a share of the whole effect."""
 MASS = INERTIAL_SYMBOLS.index("M")
 
 
@@ -23,12 +22,12 @@ def is_body(values: LinkParameters, covariance: SquareMatrix) -> bool:
 
     Its mass has to differ significantly from zero: ten free numbers without mass are no body.
     """
-    if abs(values[MASS]) < 2.0 * np.sqrt(max(float(covariance[MASS, MASS]), 0.0)):
+    if abs(values[MASS]) < ADMISSIBLE.mass_deviations * np.sqrt(max(float(covariance[MASS, MASS]), 0.0)):
         return False
     deviation = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     unit = values / deviation
     whole = float(unit @ np.linalg.lstsq(covariance / np.outer(deviation, deviation), unit, rcond=1e-10)[0])
-    return body_of(values, covariance)[1] < max(TOLERATED, TOLERATED_SHARE * whole)
+    return body_of(values, covariance)[1] < max(ADMISSIBLE.body_distance, ADMISSIBLE.body_share * whole)
 
 
 @lru_cache(maxsize=64)

@@ -14,16 +14,10 @@ from scipy.sparse import csr_array
 from ....arrays import JointSeries, Samples, Vector
 from ....dynamics.terms.external_contact import Span, swell
 from ....numerics.chi2_tail import log_chi2_tail
+from ...thresholds.causes import EVENTS
 
-SHORTEST, LONGEST = 0.2, 3.2
-"""Lengths in s: shorter events are outliers, longer ones last."""
-FALSE_ALARM = 1e-3
-"""False alarm probability of an event in a log of noise alone,"""
-TRIALS_OF_A_SPAN = 2.0
-"""where shifting and stretching the best span doubles the number of trials."""
-LEAST_SHARE = 0.2
-"""An event has at least this share of the best one's score."""
-HALVINGS = 4
+FIRST_STEP, HALVINGS = 0.25, 4
+_NOTHING, _RIDGE = 1e-12, 1e-6
 ROUNDING = 1e-9
 """Relative lead over an earlier span: many spans with few rows have the same score, and rounding must not
 choose."""
@@ -51,7 +45,7 @@ def find_events(
     search = _Search(time, columns, left, inverse_covariances)
     spans = search.spans()
     scores = search.scores(spans)
-    hurdle = np.log(FALSE_ALARM / max(TRIALS_OF_A_SPAN * len(spans), 1.0))
+    hurdle = np.log(EVENTS.level / max(EVENTS.trials_of_span * len(spans), 1.0))
     freedom = int(np.count_nonzero(columns.any(axis=(0, 2))))
     found: list[Span] = []
     best = 0.0
@@ -61,7 +55,7 @@ def find_events(
         first = int(np.argmax(scores >= (1.0 - ROUNDING) * scores.max()))
         span = search.refined(spans[first], found)
         score = search.score(span)
-        if score < LEAST_SHARE * best or not log_chi2_tail(score, freedom) < hurdle:
+        if score < EVENTS.least_share * best or not log_chi2_tail(score, freedom) < hurdle:
             break
         best = max(best, score)
         found.append(span)
@@ -89,7 +83,7 @@ class _Search:
 
     def spans(self) -> list[Span]:
         first, last = float(self.ordered[0]), float(self.ordered[-1])
-        lengths = SHORTEST * 2.0 ** np.arange(round(np.log2(LONGEST / SHORTEST)) + 1)
+        lengths = EVENTS.shortest * 2.0 ** np.arange(round(np.log2(EVENTS.longest / EVENTS.shortest)) + 1)
         return [
             (float(start), float(start + length))
             for length in lengths
@@ -119,8 +113,10 @@ class _Search:
         grams = (both @ self.grams.reshape(-1, size * size)).reshape(-1, size, size)
         gains = csr_array((heights, rows, starts), (len(spans), len(self.gains))) @ self.gains
         traces = np.trace(grams, axis1=1, axis2=2)[:, None]
-        scale = np.sqrt(np.maximum(np.diagonal(grams, axis1=1, axis2=2), 1e-12 * np.maximum(traces, 1e-30)))
-        scaled = grams / (scale[:, :, None] * scale[:, None, :]) + 1e-6 * np.eye(size)
+        scale = np.sqrt(
+            np.maximum(np.diagonal(grams, axis1=1, axis2=2), _NOTHING * np.maximum(traces, 1e-30))
+        )
+        scaled = grams / (scale[:, :, None] * scale[:, None, :]) + _RIDGE * np.eye(size)
         solved = np.linalg.solve(scaled, (gains / scale)[:, :, None])[:, :, 0]
         return np.asarray(np.sum(gains / scale * solved, axis=1))
 
@@ -129,14 +125,14 @@ class _Search:
 
         The peak stays within the log: a peak outside is not observable.
         """
-        step, best = 0.25 * (span[1] - span[0]), self.score(span)
+        step, best = FIRST_STEP * (span[1] - span[0]), self.score(span)
         for _ in range(HALVINGS):
             improved = True
             while improved:
                 improved = False
                 for change in ((-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step)):
                     trial = (span[0] + change[0], span[1] + change[1])
-                    lasts = SHORTEST < trial[1] - trial[0] < 2.0 * LONGEST
+                    lasts = EVENTS.shortest < trial[1] - trial[0] < 2.0 * EVENTS.longest
                     inside = self.ordered[0] <= 0.5 * (trial[0] + trial[1]) <= self.ordered[-1]
                     if not (lasts and inside and _apart(trial, others)):
                         continue

@@ -13,7 +13,8 @@ from tests.core.diagnosis.processes import (
     exact_noise,
     ljung_box,
 )
-from veritorque.core.diagnosis.regression.ar_noise import HIGHEST_ORDER, ARNoise, fit_ar_noise, places
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise, fit_ar_noise, places
+from veritorque.core.diagnosis.thresholds.regression import NOISE
 
 every_process = pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY], ids=["white", "slow", "wavy"])
 GAPS = np.array([True] * 25 + [False] + [True] * 4 + [False] * 2 + [True, False] + [True] * 26)
@@ -50,7 +51,7 @@ def test_what_was_learned_from_coloured_noise_makes_it_white(weights, seed):
     series = drawn(weights, np.random.default_rng(seed), 3000)
     place = one_run(len(series))
     white = fit_ar_noise(series[:, 0], place).whitened(series, place)[:, 0]
-    assert ljung_box(white, fitted=HIGHEST_ORDER) > 1e-3
+    assert ljung_box(white, fitted=NOISE.order) > 1e-3
     assert np.var(white) == pytest.approx(1.0, abs=0.02)
     if weights:
         assert ljung_box(series[:, 0]) < 1e-12

@@ -6,10 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.core.diagnosis.residual.worlds import world
-from veritorque.core.diagnosis.residual.blocks import BLOCKS, row_blocks, share_on_blocks
+from veritorque.core.diagnosis.residual.blocks import row_blocks, share_on_blocks
+from veritorque.core.diagnosis.thresholds.residual import PREDICTION
 
 ROWS = 2000
-BLOCK = np.arange(ROWS) // (ROWS // BLOCKS)
+BLOCK = np.arange(ROWS) // (ROWS // PREDICTION.blocks)
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
@@ -69,5 +70,5 @@ def test_blocks_are_contiguous_and_nearly_equal():
     block = row_blocks(world().dataset)
     assert set(np.diff(block)) == {0, 1}
     sizes = np.bincount(block)
-    assert len(sizes) == BLOCKS
+    assert len(sizes) == PREDICTION.blocks
     assert np.ptp(sizes) <= 1

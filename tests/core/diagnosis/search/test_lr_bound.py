@@ -9,10 +9,11 @@ from tests.core.diagnosis.made_up import nothing_found
 from tests.core.diagnosis.scenes import Effect, fitter_of, linearised, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES
-from veritorque.core.diagnosis.search.entry_test import RAISED, with_candidate
+from veritorque.core.diagnosis.search.entry_test import with_candidate
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratios
+from veritorque.core.diagnosis.thresholds.search import ENTRY
 from veritorque.core.estimate.gaussian_prior import GaussianPrior
 from veritorque.core.reduction.base import base_model
 
@@ -66,7 +67,7 @@ def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
     scans = fitter.scan(none)[:16]
     brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
     assert brings.max() > 100.0
-    assert np.all(brings < RAISED * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0))
+    assert np.all(brings < ENTRY.raised * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0))
 
 
 def test_beside_what_is_found_already_only_the_rest_is_foreseen():
@@ -102,4 +103,4 @@ def test_what_will_bring_most_is_foreseen_to(make, effect):
     reach = np.array(predicted_likelihood_ratios(fitter, none, scans))
     assert brings.max() > 100.0
     assert reach[brings.argmax()] > 0.5 * brings.max()
-    assert np.all(brings < RAISED * np.maximum(reach, 5.0))
+    assert np.all(brings < ENTRY.raised * np.maximum(reach, 5.0))

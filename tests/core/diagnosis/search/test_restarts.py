@@ -15,7 +15,7 @@ from veritorque.core.diagnosis.search.restarts import (
 )
 from veritorque.core.diagnosis.search.state import SearchState
 from veritorque.core.diagnosis.search.stepwise import search_stepwise
-from veritorque.core.diagnosis.thresholds import UNDECIDED
+from veritorque.core.diagnosis.thresholds.search import SELECTION
 
 PARTS = ("first", "second", "third")
 RATES = (7.0, 11.0, 4.0)
@@ -53,7 +53,7 @@ def test_what_one_cause_explains_with_fewer_numbers_is_that_cause():
     found = found_one_by_one()
     better = restart_from_common_cause(found)
     assert named(better) == ["whole"]
-    assert bic(better.chosen) > bic(found.chosen) + UNDECIDED
+    assert bic(better.chosen) > bic(found.chosen) + SELECTION.undecided
     assert [(step.action, step.candidate.cause.id) for step in better.steps] == [("swapped", "whole")]
 
 

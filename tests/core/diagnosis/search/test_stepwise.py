@@ -18,19 +18,13 @@ from veritorque.core.diagnosis.causes.traits import SearchTraits
 from veritorque.core.diagnosis.checks.alternatives import compare_alternatives, compare_member
 from veritorque.core.diagnosis.search import fitter as fitter_module
 from veritorque.core.diagnosis.search import stepwise as search
-from veritorque.core.diagnosis.search.entry_test import (
-    BESIDES,
-    FURTHER_LEVEL,
-    LEVEL,
-    RAISED,
-    is_significant,
-    passes_exit_test,
-)
+from veritorque.core.diagnosis.search.entry_test import is_significant, passes_exit_test
 from veritorque.core.diagnosis.search.likelihood_ratio import bic_gain, likelihood_ratio, log_p
 from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratios
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.state import SearchState
 from veritorque.core.diagnosis.search.stepwise import confirm, search_stepwise
+from veritorque.core.diagnosis.thresholds.search import ENTRY
 
 QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -106,7 +100,7 @@ def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_
     first, second = fitter.scan(none)
     assert first.candidate.cause.id == "quick"
     (small,) = predicted_likelihood_ratios(fitter, none, [second])
-    assert RAISED * small + BESIDES < bic_gain(none, fitter.fit_with(none, first.candidate))
+    assert ENTRY.raised * small + ENTRY.besides < bic_gain(none, fitter.fit_with(none, first.candidate))
     assert names(search_stepwise(fitter)) == [("quicker", (2,))]
 
 
@@ -179,7 +173,7 @@ def weakly(fitter, first, second):
     """Tell whether a second cause is clear enough to be the first one, but not to be just another one."""
     now = fitter.fit((first,))
     chance = log_p(now, fitter.fit_with(now, second)) + np.log(fitter.kinds)
-    return np.log(FURTHER_LEVEL) < chance < np.log(LEVEL)
+    return np.log(ENTRY.further_level) < chance < np.log(ENTRY.level)
 
 
 def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_that():

@@ -1,0 +1,102 @@
+"""Hold the numbers that decide what a cause may be: bounds of its size, and the error of its columns."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Admissible:
+    """Bound the size of causes by what a robot can have. All are set by hand unless a source is named."""
+
+    encoder_offset: float = 0.5
+    """Radians (metres) of an encoder offset: beyond, the table belongs to another robot."""
+    encoder_eccentricity: float = 0.3
+    """Radians, amplitude of an encoder's eccentricity."""
+    kinematic_error: float = 0.3
+    """Radians or metres of an error in the kinematic table."""
+    gravity_tilt: float = 0.5
+    """Radians between the described and the real direction of gravity."""
+    torque_gain: float = 0.9
+    """Relative error of a torque channel's gain: below 1, so that its sign is right."""
+    time_delay: float = 0.05
+    """Seconds of a delay between torque and position."""
+    least_filter_lag: float = 2e-4
+    """Seconds, time constant below which a filter has no effect in any log's band."""
+    filter_lag: float = 0.1
+    """Seconds, time constant beyond which no motion is left in the torque."""
+    contact_force: float = 1000.0
+    """Newton: a larger force would break the robot."""
+    contact_lever: float = 0.5
+    """Metres from the last frame to a point of contact."""
+    contact_deviations: float = 3.0
+    """Standard deviations by which a moment may exceed the force at that lever."""
+    contacts: int = 5
+    """Contacts in one log."""
+    payload: float = 500.0
+    """Kilogram of a payload's change."""
+    payload_centre: float = 1.0
+    """Metres, standard deviation beyond which a coordinate of its centre is not reported."""
+    body_distance: float = 30.0
+    """Squared standard deviations between ten parameters and the nearest body."""
+    body_share: float = 0.03
+    """The same as a share of the squared effect, for columns that are not exact."""
+    mass_deviations: float = 2.0
+    """Standard deviations by which a body's mass has to differ from zero."""
+    coupling_distance: int = 2
+    """Joints between which a transmission couples: the next or the one after it."""
+    coupling_deviations: float = 2.0
+    """Standard deviations by which a coupled inertia may be negative, and the largest must be positive."""
+    backlash_narrower: float = 8.0
+    """Factor by which backlash may be narrower than the width that its crossings were computed for."""
+    backlash_wider: float = 5.0
+    """Factor by which it may be wider."""
+    power_distance: float = 0.1
+    """Difference of a friction exponent from 0 and 1, whose columns the model already has."""
+    ripple_harmonic: float = 2.0
+    """Cycles per revolution of a torque ripple: gravity has one."""
+    saturation_error: float = 0.03
+    """Relative error of the largest predicted torques, which a torque limit is known to."""
+
+
+@dataclass(frozen=True)
+class Linearisation:
+    """State the relative error of columns of first order: no size is known better. All are set by hand."""
+
+    usual: float = 0.05
+    """Relative, for most causes."""
+    backlash: float = 0.15
+    """Relative, for backlash."""
+    elasticity: float = 0.15
+    """Relative, for joint elasticity."""
+    eccentricity: float = 0.1
+    """Relative, for an encoder's eccentricity."""
+
+
+@dataclass(frozen=True)
+class Events:
+    """Decide which short spans hold a contact."""
+
+    level: float = 1e-3
+    """Probability of an event in a log of noise alone. Set by hand."""
+    trials_of_span: float = 2.0
+    """Factor on the number of spans, for shifting and stretching the best one. Set by hand."""
+    spans: int = 1200
+    """Spans of a log of half a minute that a contact's p-value is corrected for. Counted from the grid."""
+    onsets: int = 120
+    """Instants between two of a payload's grid that the refinement distinguishes, for its p-value.
+
+    Counted.
+    """
+    least_share: float = 0.2
+    """Share of the best event's score that others have to reach. Set by hand."""
+    shortest: float = 0.2
+    """Seconds: what is shorter is an outlier. Set by hand."""
+    longest: float = 3.2
+    """Seconds of the longest span in the grid: what is longer lasts. Set by hand."""
+    edge: float = 0.6
+    """Standard deviation of an event's edge, in lengths of the event and relative deviations of its force.
+
+    Source: a half sine's edge is known as well as its height, times a little over half its length.
+    """
+
+
+ADMISSIBLE, LINEARISATION, EVENTS = Admissible(), Linearisation(), Events()

@@ -1,0 +1,112 @@
+"""Hold the numbers that decide how findings are judged, and what is called unexplained."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Alternatives:
+    """Compare a finding with its alternatives."""
+
+    other_share: float = 0.03
+    """Share of a finding's likelihood ratio by which it must lead over any other cause. Set by hand."""
+    similar_share: float = 0.15
+    """The same over a cause with nearly parallel columns: their error grows with the effect. Set by hand."""
+    first_order_share: float = 0.4
+    """The same where the two agree to first order in frequency. Set by hand."""
+    unnamed_share: float = 0.25
+    """Share of a finding's likelihood ratio by which an unnamed pattern has to lead to refute it.
+
+    Set by hand.
+    """
+    event_share: float = 0.5
+    """Share of its likelihood ratio by which a cause in short spans has to lead over patterns.
+
+    Set by hand.
+    """
+    least_expected: float = 4.0
+    """Likelihood ratio expected on held-out rows below which these decide little. Set by hand."""
+    least_gain: float = 0.5
+    """Per cent by which a cause has to reduce the error on held-out rows. Set by hand."""
+    compared: int = 6
+    """Alternatives that are fitted. Set by hand."""
+    worth_naming: float = 0.1
+    """Share of a finding's likelihood ratio from which a refuted alternative is listed. Set by hand."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Decide what is called unexplained."""
+
+    unexplained_share: float = 0.03
+    """Share of a joint's mean square residual, lower end of the 95 % interval, from which on it is structure.
+
+    Set by hand.
+    """
+    at_rest: float = 0.9
+    """Share of a joint's rows with free friction from which on it hardly moves. Set by hand."""
+
+
+@dataclass(frozen=True)
+class Unnamed:
+    """Decide which unnamed patterns are reported."""
+
+    tried: int = 3
+    """Best patterns that are fitted. Set by hand."""
+    least_seconds: float = 4.0
+    """Seconds that a log counts for at least when rates are laid out. Set by hand."""
+    most_seconds: float = 60.0
+    """Seconds that it counts for at most: what is slower is drift. Set by hand."""
+    least_rows: int = 200
+    """Usable rows of a joint from which on its residual is judged. Set by hand."""
+    least_changes: int = 2
+    """Changes of level from which on a torque is called switching. Set by hand."""
+    most_log_trials: float = 600.0
+    """Natural logarithm of the number of ways to place the changes beyond which none is judged.
+
+    Set by hand.
+    """
+    level_rows: int = 5
+    """Rows that are averaged before the kurtosis is taken. Set by hand."""
+    level_deviations: float = 5.0
+    """Standard deviations below the kurtosis of normal noise from which levels are reported. Set by hand."""
+    burst_seconds: float = 0.3
+    """Seconds of a window in which a burst is sought. Set by hand."""
+    burst_distance: float = 0.5
+    """Seconds from a window to the rows that it is compared with. Set by hand."""
+    burst_ratio: float = 6.0
+    """Ratio of the median size in a window to the RMS elsewhere from which it is a burst. Set by hand."""
+    burst_rows: int = 8
+    """Rows of a window from which on it is judged. Set by hand."""
+
+
+@dataclass(frozen=True)
+class Confidence:
+    """Turn a finding's evidence into a probability that its cause is the right one.
+
+    Form: Platt, Advances in Large Margin Classifiers (1999). The coefficients were set on simulated logs with
+    known causes, and checked on others.
+    """
+
+    certain: float = 0.99
+    """Probability, the highest that is reported. Set by hand."""
+    clear_statistic: float = 25.0
+    """Likelihood ratio at which the strength is 0; from twice that on it grows by 1 each."""
+    least_strength: float = -1.0
+    """Smallest strength."""
+    most_strength: float = 2.0
+    """Largest strength."""
+    least_lead: float = -1.0
+    """Smallest lead over the alternatives, in units of an undecided difference."""
+    most_lead: float = 4.0
+    """Largest lead, in the same units."""
+    offset: float = 0.6
+    """Log odds at no strength and no lead."""
+    per_strength: float = 0.7
+    """Log odds per unit of strength."""
+    per_lead: float = 0.8
+    """Log odds per unit of lead."""
+    per_gain: float = 0.5
+    """Log odds for a gain on held-out rows, and against one for a loss."""
+
+
+ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()
