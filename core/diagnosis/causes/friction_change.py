@@ -7,6 +7,7 @@ from ...dynamics.term import Term
 from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Scalars, Site
 from .shared.own_joint import OwnJointCause
 from .shared.text import clearness, quantity_text
@@ -32,6 +33,8 @@ class FrictionChange(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """State the significant changes, or the most significant one."""
         found = self.quantities(solved)
-        clear = [change for change in found if clearness(change) > 2.0] or [max(found, key=clearness)]
+        clear = [change for change in found if clearness(change) > ADMISSIBLE.stated_deviations] or [
+            max(found, key=clearness)
+        ]
         changes = " and ".join(f"{WORDS[change.name]} by {quantity_text(change)}" for change in clear)
         return f"Friction change on joint {solved.site[0]} since the reference: {changes}"

@@ -9,6 +9,7 @@ from ...dynamics.terms.link_parameters import LinkChange
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Scalars, Site
 from .shared.bodies import is_body
 from .shared.own_joint import OwnJointCause, links_by_joint
@@ -48,7 +49,7 @@ class LinkParameters(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """State the parameters that differ most, in units of their standard deviation."""
         first = sorted(self.quantities(solved), key=clearness, reverse=True)[:LISTED]
-        clear = [change for change in first if clearness(change) > 2.0] or first[:1]
+        clear = [change for change in first if clearness(change) > ADMISSIBLE.stated_deviations] or first[:1]
         changes = ", ".join(
             f"{change.name.removeprefix('delta_')} by {quantity_text(change)}" for change in clear
         )

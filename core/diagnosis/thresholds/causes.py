@@ -53,6 +53,8 @@ class Admissible:
     """Difference of a friction exponent from 0 and 1, whose columns the model already has."""
     ripple_harmonic: float = 2.0
     """Cycles per revolution of a torque ripple: gravity has one."""
+    stated_deviations: float = 2.0
+    """Standard deviations from which a change is stated among others of the same cause."""
     saturation_error: float = 0.03
     """Relative error of the largest predicted torques, which a torque limit is known to."""
 

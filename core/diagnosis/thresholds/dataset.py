@@ -10,7 +10,7 @@ class Band:
     over_motion: float = 40.0
     """Ratio of the band to the motion's: compliance, ripple and delays lie above the motion. Set by hand."""
     narrowest: float = 10.0
-    """The same at least, as wide as the filter of the identification."""
+    """The same at least, as wide as the filter of the identification. Set by hand."""
     rate: float = 12.0
     """Ratio of the log's rate to the band at least. Set by hand."""
     position: float = 3.0
@@ -25,7 +25,7 @@ class Band:
     Set by hand.
     """
     order: int = 2
-    """Order of the Butterworth filter: an effect at a reversal rings for one period, not for three."""
+    """Order of the Butterworth filter: an effect at a reversal rings for one period, not three. Set by hand."""
     noise_share: float = 0.05
     """Share of a joint's mean square residual that position noise may have. Set by hand."""
     noise_power: float = 0.2
@@ -57,11 +57,11 @@ class Rows:
     stretch_seconds: float = 30.0
     """Seconds of one stretch of a long log. Set by hand."""
     reversal_periods: float = 1.0
-    """Periods of the cut-off around a reversal in which rows are set apart. The filter's ringing."""
+    """Periods of the cut-off around a reversal in which rows are set apart. Source: the filter's ringing."""
     still_share: float = 0.01
     """Share of its RMS speed below which a coupled motor rests. Set by hand."""
     shapes: float = 4.0
-    """Polynomials of stiction per period of the cut-off, twice what an ideal filter lets through."""
+    """Polynomials of stiction per period of the cut-off, twice what an ideal filter passes. Set by hand."""
     most_shapes: int = 32
     """Polynomials of one stretch at rest; a longer one is cut. Set by hand."""
     spike_order: int = 5

@@ -57,7 +57,7 @@ class Holdout:
     over_largest: float = 2.5
     """Ratio of a held-out block's mean square to the largest fitted block's from which it is an outlier.
 
-    Set by hand.
+    Source: 1,152 simulated logs, docs/decisions.md.
     """
     over_usual: float = 6.0
     """Ratio of the same to the mean of the fitted blocks, which has to be exceeded as well. Set by hand."""
@@ -76,21 +76,24 @@ class Masking:
     beside: float = 0.5
     """Share of its likelihood ratio that a cause keeps beside a finding if it is no alternative to it.
 
-    Set by hand.
+    Source: docs/decisions.md.
     """
     left: float = 0.25
     """Share of a cause's likelihood ratio, per joint, that its columns' error may leave. Set by hand."""
     clear: float = 0.5
-    """Share of a member's likelihood ratio that has to lie beyond what others leave. Set by hand."""
+    """Share of a member's likelihood ratio that has to lie beyond what others leave.
+
+    Source: 686 and 840 simulated logs, docs/decisions.md.
+    """
     event_over_other: float = 0.05
     """Share of another cause's likelihood ratio that a cause in short spans has to reach.
 
-    Source: false contacts beside strong effects in simulated logs reached 0.04.
+    Source: false contacts beside strong effects in simulated logs reached 0.04, docs/decisions.md.
     """
     event_level: float = 1e-30
     """Probability below which a cause in short spans is accepted all the same.
 
-    Source: false contacts beside strong effects in simulated logs reached 1e-25.
+    Source: false contacts beside strong effects in simulated logs reached 1e-25, docs/decisions.md.
     """
     within: float = 0.9
     """Share of a span's rows in which another cause acts from which on the span is that one's.
@@ -119,7 +122,10 @@ class Search:
     scored_anew: int = 24
     """Best candidates of a scan that are scored again at the present operating point. Set by hand."""
     cached_change: float = 0.01
-    """Share of a joint's torque by which predictions may differ for columns to be used again. Set by hand."""
+    """Share of a joint's torque by which predictions may differ for columns to be used again.
+
+    Source: at 5 % a measured log was answered otherwise, docs/decisions.md.
+    """
 
 
 @dataclass(frozen=True)

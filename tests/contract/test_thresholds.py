@@ -1,0 +1,217 @@
+"""Keep every number that decides a diagnosis in `core/diagnosis/thresholds`, with its meaning and source."""
+
+import ast
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2] / "core" / "diagnosis"
+THRESHOLDS = sorted((ROOT / "thresholds").glob("[a-z]*.py"))
+MODULES = sorted(path for path in ROOT.rglob("*.py") if path not in THRESHOLDS)
+
+NAMED = {
+    "grid": {
+        "causes/backlash": "NARROWEST WIDEST STEPS",
+        "causes/cable_force": "SHARES",
+        "causes/friction_position_dependent": "MOST",
+        "causes/friction_presliding": "NARROWEST WIDEST STEPS",
+        "causes/friction_stribeck": "SLOWEST QUICKEST STEPS",
+        "causes/friction_temperature": "SHARES",
+        "causes/friction_viscous_nonlinear": "EXPONENTS",
+        "causes/joint_elasticity": "LOWEST HIGHEST POINTS DAMPING_RATIOS",
+        "causes/payload_change": "INSTANTS",
+        "causes/shared/harmonics": "DISTINCT",
+        "causes/shared/own_joint": "MOTOR_SHARES",
+        "causes/time_delay": "STARTS",
+        "causes/torque_filter_lag": "STARTS",
+        "causes/torque_offset_drift": "SHARES",
+        "causes/torque_ripple": "MOST BAND_SHARE",
+        "causes/torque_saturation": "SHARES",
+        "checks/change_points": "SMOOTHED FAR",
+        "checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS",
+        "search/grid": "FINER",
+        "search/profile_likelihood": "AROUND",
+    },
+    "numerics": {
+        "bandwidth": "_POINTS",
+        "causes/backlash": "SMOOTHING_OVER_BAND",
+        "causes/shared/events": "FIRST_STEP HALVINGS _NOTHING _RIDGE ROUNDING",
+        "causes/torque_filter_lag": "ORDER PERIODS",
+        "checks/gain": "SEED",
+        "checks/kurtosis": "NORMAL",
+        "regression/gls": "RIDGE STEPS EXACT",
+        "regression/innovation_covariance": "MIDDLE",
+        "regression/nuisance": "LEAST EARLIER RIDGE",
+        "regression/prewhitening": "ROUNDING",
+        "residual/floor": "WINDOW_SECONDS _BELOW_NYQUIST _POINTS",
+        "residual/memory": "_LONGEST",
+        "residual/period": "NEWTON_STEPS _TAPS _TAPS_OF_A_LOG _LONGEST_LAG _WHOLE _KAISER",
+        "search/profile_likelihood": "RELATIVE_STEP LEAST_STEP WIDENINGS YIELDINGS SAME_SIZE",
+    },
+    "effort": {
+        "bandwidth": "_SAMPLES",
+        "causes/dropped_samples": "ROWS",
+        "checks/gain": "DRAWS",
+        "dataset/dataset": "BATCH",
+    },
+    "figure": {
+        "causes/link_parameters": "LISTED",
+        "checks/figure": "BINS TOLD",
+        "residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
+        "residual/learner": "_PLACES",
+        "residual/spectrum": "LONGEST SHORTEST",
+    },
+}
+"""Constants of modules that decide nothing, by the reason why.
+
+A grid discretises what is refined afterwards; numerics are tolerances, orders and constants of mathematics;
+effort only costs time or memory; a figure is looked at and decides nothing.
+"""
+UNNAMED = {
+    "causes/external_contact": {"3": "a force has three components"},
+    "causes/torque_gain_nonlinear": {"3.0": "root of a cubic", "1.5": "root of a cubic"},
+    "checks/kurtosis": {
+        "3.0": "fourth central moment",
+        "4.0": "fourth central moment",
+        "5": "powers 0 to 4",
+        "6.0": "fourth central moment",
+    },
+    "diagnose": {"0.1": "progress"},
+    "causes/timestamp_jitter": {"2": "joints are compared in pairs"},
+    "residual/atlas": {"2": "one bin has no curve"},
+    "residual/learner": {"0.5": "a sum of zeros and ones is not zero"},
+}
+"""Numbers within functions that decide nothing, with the reason why."""
+PLAIN = {0, 1, 2, 0.5, 10, 100, 1000}
+"""Numbers of formulae and units; where something is compared, clipped or a default, only the first two."""
+GUARD = 1e-6
+"""Smaller ones keep a quotient finite."""
+TEXT = {"number_text", "tell", "lru_cache"}
+"""Functions whose numbers are digits of a text, shares of the progress, or a memory's size."""
+SOURCED = re.compile(r"[Ss]et by hand|set on|Source|[Cc]ounted|law|smallest number|[A-Z]\w+ & [A-Z]\w+")
+
+
+def number(node: ast.AST) -> bool:
+    return isinstance(node, ast.Constant) and type(node.value) in (int, float)
+
+
+def named(module: ast.Module) -> set[str]:
+    """List the constants of a module that hold numbers."""
+    found = set()
+    for node in module.body:
+        targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
+        value = getattr(node, "value", None)
+        if isinstance(node, ast.Assign | ast.AnnAssign) and value is not None:
+            names = [one.id for target in targets for one in ast.walk(target) if isinstance(one, ast.Name)]
+            if all(name.lstrip("_").isupper() for name in names) and any(map(number, ast.walk(value))):
+                found |= set(names)
+    return found
+
+
+def unnamed(module: ast.Module) -> set[str]:
+    """List the numbers of a module's functions and classes that could decide something."""
+    definitions = (ast.FunctionDef, ast.ClassDef)
+    return {text for one in module.body if isinstance(one, definitions) for text in deciding(one)}
+
+
+def deciding(node: ast.AST, *, strict: bool = False) -> Iterator[str]:
+    """List the numbers below a node that are not plain; where they decide by themselves, `strict` ones."""
+    if number(node):
+        plain = {0, 1} if strict else PLAIN
+        guards = not strict and isinstance(node.value, float) and node.value <= GUARD
+        if node.value not in plain and not guards:
+            yield repr(node.value)
+        return
+    if isinstance(node, ast.JoinedStr | ast.Subscript):
+        children = [node.value] if isinstance(node, ast.Subscript) else []
+    elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) and number(node.right):
+        children = [node.left] + ([node.right] if isinstance(node.right.value, float) else [])
+    elif isinstance(node, ast.Call) and called(node) in TEXT:
+        children = [one for one in node.args if not number(one)]
+    elif isinstance(node, ast.Compare) and counts(node):
+        children = [one for one in (node.left, *node.comparators) if not (number(one) and one.value == 2)]
+    else:
+        children = list(ast.iter_child_nodes(node))
+    alone = isinstance(node, ast.Compare | ast.arguments | ast.AnnAssign) or (
+        isinstance(node, ast.Call) and called(node) == "clip"
+    )
+    for child in children:
+        yield from deciding(child, strict=alone and number(child))
+
+
+def called(node: ast.Call) -> str:
+    return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+
+
+def counts(node: ast.Compare) -> bool:
+    """Tell whether a comparison is of a length: less than two are no pair."""
+    return any(isinstance(one, ast.Call) and called(one) == "len" for one in (node.left, *node.comparators))
+
+
+def label(path: Path) -> str:
+    return path.relative_to(ROOT).with_suffix("").as_posix()
+
+
+def fields() -> Iterator[tuple[str, str]]:
+    """Give every field of every group, with what is said of it and of its group."""
+    for path in THRESHOLDS:
+        for group in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(group, ast.ClassDef):
+                said = [*group.body[1:], None]
+                for node, after in pairwise(said):
+                    if isinstance(node, ast.AnnAssign):
+                        own = after.value.value if isinstance(after, ast.Expr) else ""
+                        yield f"{path.stem}.{group.name}.{node.target.id}", own, ast.get_docstring(group)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=label)
+def test_a_constant_of_a_module_decides_nothing_and_says_why(path):
+    reasoned = {name for modules in NAMED.values() for name in modules.get(label(path), "").split()}
+    assert named(ast.parse(path.read_text(encoding="utf-8"))) == reasoned
+
+
+@pytest.mark.parametrize("path", MODULES, ids=label)
+def test_no_number_within_a_function_decides(path):
+    assert unnamed(ast.parse(path.read_text(encoding="utf-8"))) == set(UNNAMED.get(label(path), {}))
+
+
+@pytest.mark.parametrize(("name", "own", "group"), list(fields()), ids=lambda one: str(one)[:40])
+def test_every_threshold_says_what_it_decides_and_where_it_is_from(name, own, group):
+    assert own.strip().endswith("."), name
+    assert SOURCED.search(f"{group} {own}"), name
+
+
+def test_every_threshold_is_used():
+    code = "\n".join(path.read_text(encoding="utf-8") for path in ROOT.parent.rglob("*.py"))
+    assert [name for name, *_ in fields() if not used(name, code)] == []
+
+
+def used(name: str, code: str) -> bool:
+    _, group, field = name.split(".")
+    instance = re.sub(r"(?<!^)(?=[A-Z])", "_", group).upper()
+    return re.search(rf"\b{instance}\.{field}\b", code) is not None
+
+
+@pytest.mark.parametrize(
+    ("code", "found"),
+    [
+        ("def f(x):\n    return len(x) < 4", {"4"}),
+        ("def f(x):\n    return x > 0.5", {"0.5"}),
+        ("def f(x):\n    return 0.85 * x", {"0.85"}),
+        ("def f(x):\n    return np.clip(x, 0.5, 3.0)", {"0.5", "3.0"}),
+        ("def f(x, level=1e-4):\n    return x < level", {"0.0001"}),
+        ("class C:\n    share: float = 0.15", {"0.15"}),
+        ("def f(x):\n    return max(x, 1e-300) ** 2 * 0.5 + x[3]", set()),
+        ("def f(x):\n    return len(x) < 2", set()),
+    ],
+)
+def test_a_number_that_could_decide_is_found(code, found):
+    assert unnamed(ast.parse(code)) == found
+
+
+@pytest.mark.parametrize("code", ["LEVEL = 1e-4", "A, LEVEL = x, 3", "LEVEL: float = 0.1"])
+def test_a_constant_that_holds_a_number_is_found(code):
+    assert "LEVEL" in named(ast.parse(code))
