@@ -25,7 +25,7 @@ class Band:
     Set by hand.
     """
     order: int = 2
-    """Order of the Butterworth filter: an effect at a reversal rings for one period, not three. Set by hand."""
+    """Order of the Butterworth filter: effects at a reversal ring for one period, not three. Set by hand."""
     noise_share: float = 0.05
     """Share of a joint's mean square residual that position noise may have. Set by hand."""
     noise_power: float = 0.2
