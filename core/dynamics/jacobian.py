@@ -1,6 +1,6 @@
-"""Give how fast a link's frame moves per unit of joint speed.
+"""Compute the geometric Jacobian of a link's frame.
 
-By virtual work its transpose gives what a wrench on the link puts on the joints. Source: Khalil & Dombre
+By virtual work its transpose maps a wrench on the link to joint torques. Source: Khalil & Dombre
 (2002), ch. 5.
 """
 
@@ -14,7 +14,7 @@ Jacobian = Float[np.ndarray, "samples 6 joints"]
 
 
 def jacobian(robot: RobotModel, link: int, position: JointSeries) -> Jacobian:
-    """Give velocity (m/s, first three rows) and spin (rad/s) of a link's frame per unit of joint speed.
+    """Give linear (m/s, first three rows) and angular velocity (rad/s) of a link per unit of joint speed.
 
     Parameters
     ----------
@@ -30,19 +30,19 @@ def jacobian(robot: RobotModel, link: int, position: JointSeries) -> Jacobian:
     rotation, place = np.tile(np.eye(3), (samples, 1, 1)), np.zeros((samples, 3))
     chain = [robot.links[index] for index in robot.supports[link - 1]]
     axes, places = [], []
-    for one in chain:
-        place = place + rotation @ one.translation
-        rotation = rotation @ one.rotation
-        coordinate = one.ratio * position[:, one.joint - 1] + one.offset
-        if one.kind == "prismatic":
+    for carrier in chain:
+        place = place + rotation @ carrier.translation
+        rotation = rotation @ carrier.rotation
+        coordinate = carrier.ratio * position[:, carrier.joint - 1] + carrier.offset
+        if carrier.kind == "prismatic":
             place = place + coordinate[:, None] * rotation[:, :, 2]
         axes.append(rotation[:, :, 2])
         places.append(place)
-        if one.kind == "revolute":
-            rotation = rotation @ _turn(coordinate)
+        if carrier.kind == "revolute":
+            rotation = rotation @ _rotations(coordinate)
     out = np.zeros((samples, 6, position.shape[1]))
-    for one, axis, origin in zip(chain, axes, places, strict=True):
-        out[:, :, one.joint - 1] += one.ratio * _column(one, axis, place - origin)
+    for carrier, axis, origin in zip(chain, axes, places, strict=True):
+        out[:, :, carrier.joint - 1] += carrier.ratio * _column(carrier, axis, place - origin)
     return out
 
 
@@ -52,7 +52,7 @@ def _column(link: Link, axis: np.ndarray, lever: np.ndarray) -> np.ndarray:
     return np.hstack([np.cross(axis, lever), axis])
 
 
-def _turn(angle: np.ndarray) -> np.ndarray:
+def _rotations(angle: np.ndarray) -> np.ndarray:
     turn = np.zeros((len(angle), 3, 3))
     turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angle)
     turn[:, 1, 0] = np.sin(angle)

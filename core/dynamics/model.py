@@ -1,7 +1,6 @@
-"""Put a robot and its torque effects together into one model that is linear in named parameters.
+"""Combine a robot and its torque terms into one model that is linear in named parameters.
 
-Extending a model means adding a term; the extended model is the same type, so every later chapter treats it
-alike.
+A model is extended by adding a term; the extended model has the same type.
 """
 
 from collections.abc import Mapping
@@ -32,12 +31,12 @@ STANDARD_TERMS: Mapping[str, type[RigidBody | RotorInertia | Viscous | Coulomb |
     "offset": Offset,
     "coupling": GearCoupling,
 }
-"""The terms that can be asked for by name; a new effect adds one file and one line here."""
+"""The terms that can be chosen by name; a new standard term is one file and one line here."""
 
 
 @dataclass(frozen=True, eq=False)
 class DynamicModel:
-    """Hold a robot and the terms whose columns times parameters add up to its joint torque."""
+    """Hold a robot and the terms: its joint torque is the sum of their columns times parameters."""
 
     robot: RobotModel
     terms: tuple[Term, ...]
@@ -65,19 +64,19 @@ class DynamicModel:
         return torque
 
     def split(self, parameters: Parameters) -> tuple[tuple[Term, Weights], ...]:
-        """Give every term its own of the standard parameters."""
+        """Split the standard parameters by term."""
         counts = [len(term.parameters(self.robot)) for term in self.terms]
         shares = np.split(np.asarray(parameters, dtype=float), np.cumsum(counts)[:-1])
         return tuple(zip(self.terms, shares, strict=True)) if counts else ()
 
     def with_term(self, term: Term) -> "DynamicModel":
         """Extend the model; a term of the same name is replaced."""
-        kept = tuple(one for one in self.terms if one.name != term.name)
+        kept = tuple(other for other in self.terms if other.name != term.name)
         return replace(self, terms=(*kept, term))
 
 
 def term_torque(term: Term, robot: RobotModel, parameters: Parameters, state: MotionState) -> JointSeries:
-    """Give the torque of one term, N m or N; bodies take the recursion once, not once per parameter."""
+    """Give the torque of one term, N m or N; rigid bodies need one recursion, not one per parameter."""
     if isinstance(term, RigidBody):
         return inverse_dynamics(robot, parameters.reshape(-1, 10), state)
     torque = np.zeros_like(state.position, dtype=float)

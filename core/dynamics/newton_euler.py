@@ -1,7 +1,7 @@
-"""Compute joint torque by the recursive Newton-Euler algorithm, plainly, for whole arrays of samples.
+"""Compute joint torque by the recursive Newton-Euler algorithm for whole arrays of samples.
 
-This is the reference that the compiled regressor is held against: it shares no formula with it beyond the
-laws of mechanics. Sources: Luh, Walker & Paul 1980; Khalil & Dombre (2002), ch. 9.
+This is the reference for tests of the compiled regressor, with which it shares no formula beyond the laws of
+mechanics. Sources: Luh, Walker & Paul 1980; Khalil & Dombre (2002), ch. 9.
 """
 
 import numpy as np
@@ -50,7 +50,7 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
 def unit_torques(robot: RobotModel, number: int, state: MotionState) -> np.ndarray:
     """Give the torque per unit of each of one link's inertial parameters, the others' being zero.
 
-    Only the links that carry it are gone through, with all ten bodies at once.
+    Only the links that carry it are traversed, with all ten unit bodies at once.
 
     Parameters
     ----------

@@ -80,7 +80,7 @@ def _section(cause: Cause | SampleCheck) -> str:
         f"{ONLY_AGAINST * (cause in ONLY_CHANGES)}"
         f"| number | unit |\n|---|---|\n{units}\n"
         f"Shown by: {cause.experiment}.\n\n"
-        "Imitates:\n\n" + "".join(_imitation(*entry) for entry in imitations(cause.id).items())
+        "May be mistaken for:\n\n" + "".join(_imitation(*entry) for entry in imitations(cause.id).items())
     )
 
 

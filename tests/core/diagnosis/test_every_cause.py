@@ -58,7 +58,7 @@ BALL = from_mass_properties(1.0, np.array([0.1, 0.2, 0.3]), 0.01 * np.eye(3))
 """Ten equal numbers are no body."""
 
 every_cause = pytest.mark.parametrize("cause", BY_ID.values(), ids=BY_ID)
-every_raw_cause = pytest.mark.parametrize("cause", SAMPLE_CHECKS, ids=lambda one: one.id)
+every_sample_check = pytest.mark.parametrize("cause", SAMPLE_CHECKS, ids=lambda one: one.id)
 every_torque_cause = pytest.mark.parametrize("cause", AGAINST_REFERENCE, ids=lambda one: one.id)
 
 
@@ -69,7 +69,7 @@ def scene() -> Scene:
 
 @pytest.fixture(scope="module")
 def parked() -> Scene:
-    """Look at a log whose second joint stands at zero, to the last digit, while the others move."""
+    """Prepare a log whose second joint rests at exactly zero while the others move."""
     time, position, torque = recording()
     position[:, 1] = 0.0
     return scene_of(time, position, torque)
@@ -110,14 +110,14 @@ def causes_of_file(stem: str) -> list[type]:
 
 
 @pytest.mark.parametrize("stem", FILES)
-def test_a_file_of_causes_holds_one_cause_of_its_own_name_and_the_catalogue_has_it(stem):
+def test_a_file_of_causes_holds_one_cause_of_its_own_name_and_the_registry_has_it(stem):
     (kind,) = causes_of_file(stem)
     assert kind.id == stem
     assert kind.__name__ == "".join(word.capitalize() for word in stem.split("_"))
     assert type(BY_ID[stem]) is kind
 
 
-def test_the_catalogue_has_no_cause_twice_and_none_without_a_file():
+def test_the_registry_has_no_cause_twice_and_none_without_a_file():
     listed = [one.id for one in (*CAUSES, *SAMPLE_CHECKS)]
     assert len(set(listed)) == len(listed)
     assert sorted(BY_ID) == FILES
@@ -129,7 +129,7 @@ def test_the_causes_are_the_published_ones():
 
 
 @every_cause
-def test_a_cause_says_what_it_is_what_it_cures_and_what_would_show_it(cause):
+def test_a_cause_states_what_it_is_what_it_corrects_and_what_would_show_it(cause):
     assert cause.title[0].isupper()
     assert not cause.title.endswith(".")
     assert cause.cure in ("term", "signal", "robot")
@@ -146,7 +146,7 @@ def test_a_cause_names_its_numbers_once_each_with_a_unit(cause):
 
 
 @every_cause
-def test_a_confusion_names_another_known_cause_why_and_an_experiment(cause):
+def test_an_imitation_names_another_known_cause_why_and_an_experiment(cause):
     assert imitations(cause.id)
     for other, entry in imitations(cause.id).items():
         assert other in set(BY_ID) - {cause.id}
@@ -199,8 +199,8 @@ def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
 
 
 @every_torque_cause
-def test_what_a_cause_leaves_or_keeps_out_is_another_that_a_search_could_add(cause, scene):
-    """It may leave what looks like itself only where it could be at another joint, too."""
+def test_what_a_cause_masks_or_excludes_is_another_that_a_search_could_add(cause, scene):
+    """It may mask itself only where it could be at another joint, too."""
     others = {one.id for one in CAUSES} - {cause.id}
     elsewhere = {cause.id} if len(cause.sites(scene.dataset, scene.operating_point)) > 1 else set()
     assert set(excludes(cause.id)) <= others
@@ -208,8 +208,8 @@ def test_what_a_cause_leaves_or_keeps_out_is_another_that_a_search_could_add(cau
 
 
 @every_torque_cause
-def test_causes_that_keep_each_other_out_are_told_to_be_confused_with_each_other(cause):
-    """What only one of the two keeps out is what its own columns leave."""
+def test_causes_that_exclude_each_other_imitate_each_other(cause):
+    """What only one of the two excludes resembles the remainder of its own columns."""
     mutual = {name for name in excludes(cause.id) if cause.id in excludes(name)}
     assert mutual <= set(imitations(cause.id))
 
@@ -238,12 +238,12 @@ def test_columns_come_from_the_prediction_and_not_from_the_measured_torque(cause
 
 @every_torque_cause
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_nature_has_no_parameter_that_is_not_finite(cause, scene, value):
+def test_an_estimate_that_is_not_finite_is_not_admissible(cause, scene, value):
     assert not cause.admissible(solved(cause, scene, value))
 
 
 @every_torque_cause
-def test_nature_allows_some_size(cause, scene):
+def test_some_size_is_admissible(cause, scene):
     sizes = [sign * 10.0**power for power in range(-6, 2) for sign in (1.0, -1.0)]
     found = [solved(cause, scene, size) for size in sizes]
     if len(found[0].values) == len(BALL):
@@ -305,22 +305,25 @@ def test_a_repair_changes_what_it_says_and_can_be_done_from_the_numbers_alone(ca
         assert differences(robot, cause.corrected_robot(robot, joints, numbers))
     if isinstance(cause, CorrectsLog):
         rows = whole_rows(motion.log)
-        mended = cause.corrected_rows(rows, joints, numbers)
-        changed = [np.abs(mended.torque - rows.torque).max(), np.abs(mended.position - rows.position).max()]
+        corrected = cause.corrected_rows(rows, joints, numbers)
+        changed = [
+            np.abs(corrected.torque - rows.torque).max(),
+            np.abs(corrected.position - rows.position).max(),
+        ]
         assert np.isfinite(changed).all()
         assert max(changed) > 0.0
-        np.testing.assert_array_equal(mended.time, rows.time)
+        np.testing.assert_array_equal(corrected.time, rows.time)
 
 
-@every_raw_cause
-def test_a_fault_of_the_samples_says_why_no_log_can_be_mended_of_it(cause: SampleCheck):
+@every_sample_check
+def test_a_fault_of_the_samples_states_why_no_log_can_be_corrected_for_it(cause: SampleCheck):
     assert cause.beyond_repair[0].isupper()
     assert not cause.beyond_repair.endswith(".")
     assert len(cause.beyond_repair.split()) > 5
 
 
-@every_raw_cause
-def test_a_fault_of_the_samples_is_found_where_it_is_and_not_in_samples_in_order(cause: SampleCheck):
+@every_sample_check
+def test_a_fault_of_the_samples_is_found_where_it_is_and_not_in_samples_without_one(cause: SampleCheck):
     clean = eventful_scene()
     assert cause.examine(clean.dataset, clean.operating_point) == ()
     announced = dict(cause.units)

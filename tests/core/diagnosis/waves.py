@@ -38,7 +38,7 @@ class BuiltOn(WaveTerm):
 
 
 class WaveCause(OwnJointCause):
-    """Suspect a sum of waves on the second joint."""
+    """Candidate cause: a sum of waves on the second joint."""
 
     waves: ClassVar[Mapping[float, float]]
     units = (("amplitude", "N m"),)

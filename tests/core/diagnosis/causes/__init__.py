@@ -1,1 +1,1 @@
-"""What every suspected cause promises: where it looks, what nature allows, what it says."""
+"""What every candidate cause promises: its sites, its admissible estimates, its statement."""

@@ -1,4 +1,4 @@
-"""Short events are found where they are and nowhere else, whatever the noise remembers."""
+"""Short events are found where they are and nowhere else, under any correlated noise."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ PUSHES = (((4.0, 4.6), (12.0, 0.0)), ((20.0, 21.0), (-9.0, 15.0)))
 
 
 def found_in(weights, left):
-    """Look for events on two joints under noise of the same kind, each of which has a column of its own."""
+    """Find events on two joints under noise of the same kind, each of which has its own column."""
     columns = np.tile(np.eye(2), (len(TIME), 1, 1))
     white = exact_noise(weights).whitening(PLACE)
     return sorted(find_events(TIME, columns, left, [csr_array(white.T @ white)] * 2, most=5))
@@ -46,7 +46,7 @@ def test_events_are_found_where_they_are_and_nothing_else_is(weights):
 
 
 @pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY])
-def test_a_span_is_taken_as_far_as_its_noise_lets_it_be_seen(weights):
+def test_a_span_reaches_as_far_as_its_noise_allows(weights):
     """The square that it explains under the noise's dense covariance decides, and nothing else."""
     span = (4.0, 4.6)
     shape = swell(TIME, span)[100:400]
@@ -57,8 +57,8 @@ def test_a_span_is_taken_as_far_as_its_noise_lets_it_be_seen(weights):
         assert len(found_in(weights, left)) == expected
 
 
-def test_of_spans_that_are_worth_the_same_rounding_does_not_choose():
-    """Where one row alone is seen, whatever holds it explains all of it."""
+def test_of_spans_with_the_same_score_rounding_does_not_choose():
+    """Where a single row has weight, every span with it explains all of it."""
     columns, seen = np.tile(np.eye(2), (len(TIME), 1, 1)), np.zeros(len(TIME))
     seen[600] = 1.0
     rng, left = np.random.default_rng(1), np.zeros((len(TIME), 2))
@@ -70,13 +70,14 @@ def test_of_spans_that_are_worth_the_same_rounding_does_not_choose():
 
 
 def test_noise_that_is_large_for_a_while_by_itself_is_hardly_ever_an_event():
-    """Luck is set to one log of a thousand, and shifting and stretching may find a few times that."""
+    """The false alarm probability is one in a thousand logs; shifting and stretching may find a few times
+    that."""
     rng = np.random.default_rng(0)
     found = [found_in((0.98,), drawn((0.98,), rng, len(TIME), 2)) for _ in range(60)]
     assert sum(map(bool, found)) <= 3
 
 
-def test_slow_noise_is_not_taken_for_quick_noise_because_some_of_it_is_small():
+def test_slow_noise_is_not_taken_for_fast_noise_because_some_of_it_is_small():
     dataset, mask = eventful_scene().dataset, fitted_rows(eventful_scene().dataset)
     left = drawn((0.98,), np.random.default_rng(1), len(dataset.time), dataset.joints)
     for joint, found in enumerate(inverse_covariances(dataset, left, mask)):
@@ -95,7 +96,7 @@ def test_a_channel_that_is_dead_leaves_finite_weights():
     assert all(np.isfinite(one.data).all() for one in inverse_covariances(dataset, left, mask))
 
 
-def test_the_noise_of_a_misfit_does_not_know_what_happens_once():
+def test_the_noise_of_a_residual_does_not_contain_a_single_event():
     dataset, operating_point = eventful_scene().dataset, eventful_scene().operating_point
     left, mask = torque_residual(dataset, operating_point), fitted_rows(dataset)
     found = inverse_covariances(dataset, left, mask)

@@ -1,4 +1,4 @@
-"""Hold load-dependent friction to the torque that goes through the gear: a rotor's own stays before it."""
+"""Load-dependent friction follows the torque through the transmission, without the motor-side inertia."""
 
 import numpy as np
 import pytest
@@ -20,14 +20,14 @@ ROTOR, SHARE = 1.5, 0.15
 
 
 def loaded(state):
-    """Turn a rotor that nobody knows of on joint 1, and let what its gear transmits brake it."""
+    """Add an undeclared rotor to joint 1, and friction that depends on the transmitted torque."""
     model = standard_model(skew_arm())
     load = Prediction(model, true_parameters(model)).load(state)[:, 0]
     friction = SHARE * np.sign(state.velocity[:, 0]) * np.abs(load)
     return (ROTOR * state.acceleration[:, 0] + friction)[:, None] * [1.0, 0.0, 0.0]
 
 
-def test_friction_tells_the_rotor_that_no_fit_tells_from_its_link():
+def test_friction_separates_the_rotor_that_no_fit_separates_from_its_link():
     (found,) = diagnose(asked(measured_arm(loaded))).findings
     assert (found.cause, found.joints) == ("friction_load_dependent", (1,))
     share, rotor = found.quantities
@@ -38,7 +38,7 @@ def test_friction_tells_the_rotor_that_no_fit_tells_from_its_link():
     assert "motor-side inertia" in found.statement
 
 
-def test_a_rotor_is_never_heavier_than_all_that_turns():
+def test_a_rotor_never_has_more_inertia_than_the_joint():
     scene = measured_arm()
     shares = [
         one["motor_inertia"]
@@ -49,7 +49,7 @@ def test_a_rotor_is_never_heavier_than_all_that_turns():
     assert 0.9 * least < farthest < least
 
 
-def test_a_rotor_that_was_searched_for_once_is_settled_where_no_grid_has_it_any_more():
+def test_a_rotor_that_was_scanned_once_is_refined_where_no_grid_has_it_any_more():
     fitter = fitter_of(measured_arm(), (FrictionLoadDependent(),))
     none = nothing_found(fitter)
     found = refine_scalars(
@@ -59,7 +59,7 @@ def test_a_rotor_that_was_searched_for_once_is_settled_where_no_grid_has_it_any_
 
 
 @pytest.mark.parametrize(("joint", "points"), [(1, 4), (3, 1)], ids=["unknown", "known"])
-def test_a_rotor_is_searched_for_only_where_it_is_one_with_the_link(joint, points):
+def test_a_rotor_is_scanned_only_where_it_is_part_of_the_link(joint, points):
     scene = measured_arm()
     grid = FrictionLoadDependent().grid(scene.dataset, scene.operating_point, (joint,))
     assert len(grid) == points

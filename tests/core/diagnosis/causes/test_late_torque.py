@@ -1,4 +1,4 @@
-"""Hold late torque to its own time, however late it is: what a fit absorbs of it must not hide it."""
+"""A delayed torque is found at its own delay, however large: the part that a fit absorbs must not hide it."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.terms.torque_filter_lag import low_passed
 
 NEARLY_A_WALK = 0.995
-"""How much of a sample's noise is left in the next one."""
+"""Share of a sample's noise in the next one."""
 
 
 def ideal_torque(state):
@@ -22,7 +22,7 @@ def ideal_torque(state):
 
 
 def drifting_noise(shape):
-    """Give noise that remembers for nearly a second, of 1 N m."""
+    """Give noise with a correlation time of nearly a second, 1 N m RMS."""
     drawn = np.random.default_rng(11).normal(size=shape) * np.sqrt(1.0 - NEARLY_A_WALK**2)
     return lfilter([1.0], [1.0, -NEARLY_A_WALK], drawn, axis=0)
 

@@ -1,4 +1,4 @@
-"""Hold causes to what they promise: grids without holes, sites that make sense, sizes that nature allows."""
+"""Causes have grids without gaps, meaningful sites and physically admissible sizes."""
 
 from dataclasses import replace
 
@@ -69,7 +69,7 @@ ALIKE = 0.75
 
 @pytest.fixture(scope="module")
 def scene() -> tuple[Dataset, Prediction]:
-    """Look at 20 s of a three-joint robot's motion; the torque is pinocchio's."""
+    """Prepare 20 s of a three-joint robot's motion; the torque is pinocchio's."""
     robot, bodies = (
         random_robot(np.random.default_rng(1), 3, prismatic=0.0),
         random_bodies(np.random.default_rng(2), 3),
@@ -111,7 +111,7 @@ def test_a_cause_says_in_one_sentence_which_joint_and_how_much(
 
 
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.id)
-def test_a_cause_names_rivals_with_an_experiment_each(cause: Cause) -> None:
+def test_a_cause_names_what_it_imitates_with_an_experiment_each(cause: Cause) -> None:
     assert cause.experiment
     assert imitations(cause.id)
     for other, entry in imitations(cause.id).items():
@@ -134,7 +134,7 @@ def test_the_numbers_of_a_finding_come_with_unit_and_deviation(
     [CableForce(), FrictionPresliding(), RotorInertiaMissing(), TorqueSaturation(), JointCoupling()],
     ids=lambda cause: cause.id,
 )
-def test_nature_does_not_allow_friction_springs_and_inertia_of_the_wrong_sign(
+def test_friction_springs_and_inertia_of_the_wrong_sign_are_not_admissible(
     cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
     assert cause.admissible(as_found(cause, *scene, 2.0))
@@ -149,7 +149,7 @@ def test_a_coupling_may_lack_inertia_within_its_uncertainty_but_not_everything(
 
 
 @pytest.mark.parametrize("cause", SCANNED, ids=lambda cause: cause.id)
-def test_neighbours_of_a_grid_are_so_alike_that_nothing_between_them_is_missed(
+def test_neighbours_of_a_grid_are_so_correlated_that_nothing_between_them_is_missed(
     cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
     dataset, operating_point = scene
@@ -166,7 +166,7 @@ def _left(columns: np.ndarray, model: np.ndarray) -> np.ndarray:
     return np.asarray(columns - model @ np.linalg.lstsq(model, columns, rcond=None)[0])
 
 
-def test_ripple_is_looked_for_as_far_as_the_band_shows_it(scene: tuple[Dataset, Prediction]) -> None:
+def test_ripple_is_scanned_up_to_the_bandwidth(scene: tuple[Dataset, Prediction]) -> None:
     dataset, operating_point = scene
     highest = max(scalars["harmonic"] for scalars in TorqueRipple().grid(dataset, operating_point, (1,)))
     assert highest * dataset.speed[0] < 2.0 * np.pi * dataset.band_hz < 3.0 * highest * dataset.speed[0]
@@ -176,7 +176,7 @@ def test_only_joints_without_a_declared_rotor_may_miss_one(scene: tuple[Dataset,
     assert RotorInertiaMissing().sites(*scene) == [(1,)]
 
 
-def test_a_declared_coupling_is_not_suspected(scene: tuple[Dataset, Prediction]) -> None:
+def test_a_declared_coupling_is_no_candidate(scene: tuple[Dataset, Prediction]) -> None:
     dataset, operating_point = scene
     assert set(JointCoupling().sites(dataset, operating_point)) == {(1, 2), (2, 3), (1, 3)}
     declared = replace(dataset.robot, couplings=(Coupling("wrist", 3, (2, 3), (1.0, 1.0)),))
@@ -236,7 +236,7 @@ def test_the_deviation_of_a_phase_holds_that_of_the_harmonic() -> None:
     assert stated == pytest.approx(np.std(phases), rel=0.05)
 
 
-def test_a_short_range_tells_only_distant_harmonics_apart_and_a_long_one_whole_waves() -> None:
+def test_a_short_range_separates_only_distant_harmonics_and_a_long_one_integer_ones() -> None:
     short, long = (
         [one["harmonic"] for one in harmonics(np.array([0.0, reach]), lowest=2.0, highest=20.0, most=99)]
         for reach in (0.4, 5.0)
@@ -248,7 +248,7 @@ def test_a_short_range_tells_only_distant_harmonics_apart_and_a_long_one_whole_w
 @pytest.mark.parametrize(
     "cause", [one for one in CAUSES if one.id != "joint_coupling"], ids=lambda cause: cause.id
 )
-def test_what_is_told_of_a_joint_that_slides_is_in_metres_and_newtons(cause, scene):
+def test_a_statement_about_a_prismatic_joint_is_in_metres_and_newtons(cause, scene):
     found = replace(as_found(cause, *scene, 0.1), slides=True)
     units = {one.name: one.unit for one in cause.quantities(found) if one.name != "phase"}
     told = [*units.values(), cause.statement(found)]

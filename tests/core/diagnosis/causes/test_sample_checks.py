@@ -1,4 +1,4 @@
-"""Raw checks find what was done to the samples, with its size, and are silent on logs that are in order."""
+"""Sample checks find a fault of the samples with its size, and nothing in logs without one."""
 
 from functools import cache
 
@@ -50,7 +50,7 @@ def motion(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def recorded(
     jitter: float = 0.0, lost: float = 0.0, step: float = FINE, *, honest: bool = False, seed: int = 7
 ) -> JointLog:
-    """Record the wheels; `honest` stamps say when samples were really taken."""
+    """Record the wheels; `honest` stamps are the real sampling instants."""
     rng = np.random.default_rng(seed)
     stamps = np.arange(int(SECONDS * RATE_HZ)) / RATE_HZ
     real = stamps + jitter * rng.normal(size=len(stamps))
@@ -74,11 +74,11 @@ def looked_at(log: JointLog) -> Dataset:
 
 
 @pytest.mark.parametrize("cause", sorted(CHECKS))
-def test_nothing_is_found_in_a_log_that_is_in_order(cause):
+def test_nothing_is_found_in_a_log_without_a_fault(cause):
     assert findings(cause, recorded()) == ()
 
 
-def test_scattered_instants_with_honest_stamps_are_no_fault():
+def test_scattered_instants_with_true_stamps_are_no_fault():
     assert findings("timestamp_jitter", recorded(jitter=2e-4, honest=True)) == ()
 
 
@@ -118,7 +118,7 @@ def test_a_coarse_encoder_is_found_on_its_own_joint_with_its_step():
 @pytest.mark.parametrize(
     ("cause", "fault"), [("timestamp_jitter", {"jitter": 4e-4}), ("encoder_quantization", {"step": 5e-3})]
 )
-def test_the_share_of_a_fault_is_what_it_really_adds(cause, fault):
+def test_the_share_of_a_fault_is_its_true_share(cause, fault):
     held = operating_point()
     spoilt, clean = recorded(**fault), recorded()
     (found,) = findings(cause, spoilt)
@@ -128,7 +128,7 @@ def test_the_share_of_a_fault_is_what_it_really_adds(cause, fault):
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_the_deviation_of_the_scatter_is_honest(seed):
+def test_the_deviation_of_the_jitter_is_calibrated(seed):
     (found,) = findings("timestamp_jitter", recorded(jitter=2e-4, seed=seed))
     (std,) = found.quantities
     assert abs(std.value - 2e-4) < 3.5 * std.standard_deviation < 5e-5

@@ -1,4 +1,4 @@
-"""Causes that doubt the robot or its surroundings: where they look, and what nature allows them to find."""
+"""Causes in the robot's description or its surroundings: their sites and admissible estimates."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ def solved(values, scalars, *, deviation=0.01, site=(6,)) -> FittedCause:
     return FittedCause(site, values, deviation**2 * np.eye(len(values)), scalars, {})
 
 
-def test_a_contact_whose_moment_no_lever_explains_is_impossible():
+def test_a_contact_whose_moment_no_lever_explains_is_not_admissible():
     cause, wrench = ExternalContact(), np.zeros((2, len(WRENCH)))
     wrench[:, 0] = 10.0
     assert cause.admissible(solved(wrench.ravel(), SPANS))
@@ -33,7 +33,7 @@ def test_a_contact_whose_moment_no_lever_explains_is_impossible():
     assert not cause.admissible(solved(wrench.ravel(), SPANS))
 
 
-def test_a_contact_reports_every_push_and_first_the_force_that_is_known_best():
+def test_a_contact_reports_every_force_and_first_the_most_certain_one():
     wrench = np.zeros((2, len(WRENCH)))
     wrench[:, :3] = [[3.0, 4.0, 0.0], [0.0, 0.0, 2.0]]
     pushes = solved(wrench.ravel(), SPANS)
@@ -42,7 +42,7 @@ def test_a_contact_reports_every_push_and_first_the_force_that_is_known_best():
     assert found == pytest.approx({"force": 2.0, "force_1": 5.0, "force_2": 2.0, **SPANS})
 
 
-def test_a_body_that_is_taken_off_has_a_negative_mass_and_its_centre_where_it_was():
+def test_a_removed_body_has_a_negative_mass_and_its_centre_where_it_was():
     load = -2.0 * np.array([0, 0, 0, 0, 0, 0, 0.1, 0.2, -0.3, 1.0])
     quantities = PayloadChange().quantities(solved(load, {"time": 4.0}))
     found = {one.name: one.value for one in quantities}
@@ -51,7 +51,7 @@ def test_a_body_that_is_taken_off_has_a_negative_mass_and_its_centre_where_it_wa
 
 
 @pytest.mark.parametrize(("error", "told"), [(-0.02, "smaller by 0.02 "), (0.02, "larger by 0.02 ")])
-def test_an_entry_that_is_too_large_has_to_shrink_and_one_that_is_too_small_to_grow(error, told):
+def test_an_entry_that_is_too_large_has_to_be_smaller_and_one_that_is_too_small_larger(error, told):
     assert told in KinematicError().statement(solved([error], {"entry": 0.0}))
 
 
@@ -81,20 +81,20 @@ def test_the_phase_of_an_eccentric_disc_is_that_of_a_sine():
     assert [one.value for one in found] == pytest.approx([0.02, 1.2])
 
 
-def test_a_tilt_that_an_arm_cannot_feel_is_not_reported():
+def test_a_tilt_that_is_not_observable_is_not_reported():
     open_axis = FittedCause((), np.array([0.0, 0.02]), np.diag([1e10, 1e-6]), {}, {})
     cause = GravityMisalignment()
     assert [one.name for one in cause.quantities(open_axis)] == ["tilt_y"]
     assert "x axis" not in cause.statement(open_axis)
 
 
-def test_play_of_another_width_than_the_crossings_were_computed_for_is_impossible():
+def test_backlash_of_another_width_than_the_crossings_were_computed_for_is_not_admissible():
     assert Backlash().admissible(solved([1e-3], {"around": 2e-3}))
     assert not Backlash().admissible(solved([1e-3], {"around": 2e-2}))
     assert not Backlash().admissible(solved([-1e-3], {"around": 1e-3}))
 
 
-def test_a_tree_has_several_ends_and_a_sliding_joint_no_angle():
+def test_a_tree_has_several_ends_and_a_prismatic_joint_no_angle():
     rng = np.random.default_rng(3)
     robot = random_robot(rng, 4, prismatic=0.0)
     links = list(robot.links)
