@@ -1,6 +1,7 @@
 import hashlib
 import json
 import re
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from veritorque.app.kinds.diagnose import HIDDEN_LOG_ID
 from veritorque.app.kinds.identify import EXAMPLE_LOG_ID
 from veritorque.app.pages.files import STATIC
 from veritorque.app.store.logs import log_id
+from veritorque.core.log.channels import CHANNELS
 
 
 class Addresses(HTMLParser):
@@ -57,6 +59,14 @@ def test_a_page_needs_nothing_from_elsewhere_and_every_address_on_it_answers(cli
 
 
 BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"
+
+
+def test_the_form_that_maps_columns_gets_the_table_of_channels_with_its_page(client):
+    content = re.search(r'<meta name="channels" content="(.*?)">', client.get("/new").text)[1]
+    table = json.loads(unescape(content))["channels"]
+    assert list(table) == list(CHANNELS)
+    for name, entry in table.items():
+        assert entry["units"] == [unit.name for unit in CHANNELS[name].quantity.units]
 
 
 @pytest.mark.parametrize("path", ["/studies", "/studies/a/b", "/nothing", "/v1/jobs/job-none/report"])

@@ -43,6 +43,20 @@ def test_channels_are_chosen_by_name(client, log_id):
     assert problem["evidence"]["known"] == ["position", "torque"]
 
 
+def test_what_the_controller_asked_for_is_listed_and_shown_with_its_units(client):
+    names = ["position_ref_1", "position_ref_2", "command_1", "command_2"]
+    lines = csv_log(seconds=4.0).decode().splitlines()
+    text = "\n".join([",".join([lines[0], *names]), *(f"{line},0.5,0.6,7,8" for line in lines[1:])])
+    log = client.post("/v1/logs", content=text.encode(), headers=CSV).json()
+    assert log["channels"] == ["position", "torque", "position_ref", "command"]
+    assert log["ignored_columns"] == []
+    traces = client.get(f"/v1/logs/{log['id']}/traces?channels=position_ref,command").json()["traces"]
+    assert [(trace["channel"], trace["unit"], trace["values"][0]) for trace in traces] == [
+        ("position_ref", "rad or m", 0.5), ("position_ref", "rad or m", pytest.approx(0.6, abs=1e-6)),
+        ("command", "1", 7.0), ("command", "1", 8.0),
+    ]  # fmt: skip  # a table
+
+
 def test_a_stretch_of_a_log_is_looked_at_row_by_row_where_the_whole_is_thinned(client, long_log):
     query = {"points": 100, "from": 3.0, "to": 3.2, "channels": "torque"}
     seen = client.get(f"/v1/logs/{long_log}/traces", params=query).json()
