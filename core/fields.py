@@ -46,6 +46,15 @@ class Fields:
     meanings
         Every field that may stand here, with what it must hold.
 
+    Attributes
+    ----------
+    error
+        Class of the refusals.
+    largest, longest
+        Largest magnitude of a number, greatest length of a text.
+    holds
+        Name of a refused value in the evidence.
+
     Raises
     ------
     VeritorqueError
@@ -55,13 +64,14 @@ class Fields:
     error: ClassVar[type[VeritorqueError]] = VeritorqueError
     largest: ClassVar[float] = LARGEST_NUMBER
     longest: ClassVar[int] = LONGEST_NAME
+    holds: ClassVar[str] = "given"
 
     def __init__(self, value: object, where: str, pointer: str, meanings: Mapping[str, str]) -> None:
         self.where, self.pointer, self.meanings = where, pointer, meanings
         if not isinstance(value, Mapping):
             raise self.error(
                 f"{where} is not an object",
-                evidence={"pointer": pointer, "given": shown(value)},
+                evidence={"pointer": pointer, self.holds: shown(value)},
                 remedy="give an object with " + ", ".join(meanings),
             )
         unknown = [str(name)[:LONGEST_NAME] for name in value if name not in meanings]
@@ -82,7 +92,7 @@ class Fields:
         """Raise the error for one field."""
         evidence = {"pointer": f"{self.pointer}/{name}", "field": name} | evidence
         if name in self.value:
-            evidence["given"] = shown(self.value[name])
+            evidence[self.holds] = shown(self.value[name])
         raise self.error(
             f"{self.where}: {name} {problem}",
             evidence=evidence,

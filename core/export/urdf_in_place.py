@@ -15,7 +15,7 @@ from ..document.identified import IdentifiedRobot
 from ..errors import RobotError
 from ..robot.differences import differences
 from ..robot.frames import rotation_to
-from ..robot.inertia import moved
+from ..robot.inertia import transform_body
 from ..robot.model import RobotModel
 from ..robot.urdf import robot_from_urdf
 from ..robot.urdf_document import UrdfDocument, read_urdf_document
@@ -106,7 +106,7 @@ def _bodies(
     for name, element in links.items():
         if name in bodies:
             part = ET.Element("link")
-            write_inertial(part, moved(bodies[name], rotation_to(axes[name]), np.zeros(3)))
+            write_inertial(part, transform_body(bodies[name], rotation_to(axes[name]), np.zeros(3)))
             ET.indent(part, level=1)
             yield element.parts.get("inertial", element.inside), _inner(part)
         elif name in carriers and "inertial" in element.parts:

@@ -71,6 +71,7 @@ class OptionFields(Fields):
     error = OptionError
     largest = 1e12
     longest = 200
+    holds = "value"
 
 
 PRIOR_FIELDS = {"pull": "a finite number", "entropy": "a finite number"}
@@ -89,15 +90,16 @@ _SECTIONS = {
     "prior": PRIOR_FIELDS,
     "bounds": BOUND_FIELDS,
 }
-OPTION_FIELDS = {
+_SCALARS = {
     "estimator": "the name of an estimator",
     "solver": "the name of a solver",
     "robust": "true or false",
     "terms": "null or a list of at least one torque term, each named once",
     "smooth_coulomb": "true or false",
     "essential": "true or false",
-    **{name: f"an object with {', '.join(fields)}" for name, fields in _SECTIONS.items()},
 }
+_OBJECTS = {name: f"an object with {', '.join(fields)}" for name, fields in _SECTIONS.items()}
+OPTION_FIELDS = dict(sorted((_SCALARS | _OBJECTS).items()))
 REFERENCE_FIELD = {"reference": 'null, the id of a finished job, or "prior"'}
 
 

@@ -14,7 +14,7 @@ from ..errors import LogError
 from .layout import Binding, Layout
 from .model import JointLog
 from .reader import lay_out, open_table, read_table
-from .suggestion import suggested_mapping, suggested_units
+from .suggestion import suggest_mapping, suggest_units
 
 PIECE_ROWS = 1 << 16
 
@@ -71,14 +71,14 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
     try:
         layout = lay_out(table, mapping)
     except LogError as error:
-        suggestion = None if mapping else suggested_mapping(table)
+        suggestion = None if mapping else suggest_mapping(table)
         return LogCheck(form.name, table.names, refusal=error, suggestion=suggestion)
     recognised = (*((layout.time,) if layout.time else ()), *layout.channels)
     try:
         log = read_table(table, layout, name=path.stem, sha256="")
     except LogError as error:
         return LogCheck(form.name, table.names, recognised, refusal=error)
-    units = None if mapping else suggested_units(table, layout, log.defects)
+    units = None if mapping else suggest_units(table, layout, log.defects)
     return LogCheck(form.name, table.names, recognised, log, _reach(log, layout), suggestion=units)
 
 

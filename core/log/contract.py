@@ -8,7 +8,7 @@ import numpy as np
 from ..arrays import JointVector, SampleMask, Series
 from ..errors import LogError
 from .channels import EFFORTS
-from .defects.stretch import Stretch, counted
+from .defects.stretch import Stretch, count_text
 from .layout import Layout
 
 FEWEST_ROWS = 100
@@ -161,7 +161,7 @@ class Contract:
         if self._bad:
             first, (count, rows) = next(iter(self._bad.items()))
             raise LogError(
-                f"the column {first!r} holds {counted(count, 'value')} missing, not finite or beyond any "
+                f"the column {first!r} holds {count_text(count, 'value')} missing, not finite or beyond any "
                 f"size, the first in row {rows[0]}",
                 evidence={
                     "columns": {

@@ -134,9 +134,9 @@ def _bind_time(table: Table, mapping: LogMapping) -> Binding | None:
             remedy='keep the stamps and drop rate_hz, or set "time": null to use the uniform clock',
         )
     if request is not None:
-        return _declared(TIME, request, table)
+        return _bind_request(TIME, request, table)
     if mapping.rate_hz is None:
-        raise _missing(
+        raise _missing_error(
             TIME,
             [TIME],
             table,
@@ -148,9 +148,9 @@ def _bind_time(table: Table, mapping: LogMapping) -> Binding | None:
 def _bind_channel(channel: Channel, table: Table, mapping: LogMapping) -> Binding | None:
     if channel.name in mapping.channels:
         request = mapping.channels[channel.name]
-        return None if request is None else _declared(channel.name, request, table)
+        return None if request is None else _bind_request(channel.name, request, table)
     columns = _default_columns(channel, table)
-    return _declared(channel.name, _si_request(columns), table) if columns else None
+    return _bind_request(channel.name, _si_request(columns), table) if columns else None
 
 
 def _is_other(bound: Binding, position: Binding, mapping: LogMapping) -> bool:
@@ -184,7 +184,7 @@ def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     if len(numbers) < len(wanted) and channel.need == "reference":
         return ()
     if len(numbers) < len(wanted):
-        raise _missing(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
+        raise _missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
     return tuple(wanted)
 
 
@@ -193,17 +193,17 @@ def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
     return ChannelRequest(columns, ("",) * count, (1.0,) * count, (0.0,) * count)
 
 
-def _declared(channel: str, request: ChannelRequest, table: Table) -> Binding:
+def _bind_request(channel: str, request: ChannelRequest, table: Table) -> Binding:
     """Turn a request into gains; default names are SI, others must have declared their unit."""
     missing = [name for name in request.columns if name not in table.names]
     if missing:
-        raise _missing(channel, list(request.columns), table, "map columns that the file has")
+        raise _missing_error(channel, list(request.columns), table, "map columns that the file has")
     default = re.compile(CHANNELS[channel].prefix + ("(_[1-9][0-9]*)?" if channel != TIME else ""))
     if any(
         not unit and not default.fullmatch(name)
         for name, unit in zip(request.columns, request.units, strict=True)
     ):
-        raise _undeclared(channel, request, table)
+        raise _unit_error(channel, request, table)
     named = tuple(unit or next(iter(UNITS[channel])) for unit in request.units)
     units = [UNITS[channel][unit] for unit in named]
     return Binding(
@@ -220,9 +220,9 @@ def _declared(channel: str, request: ChannelRequest, table: Table) -> Binding:
 def _require(table: Table, channels: Sequence[Binding]) -> None:
     names = [channel.name for channel in channels]
     if "position" not in names:
-        raise _missing("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
+        raise _missing_error("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
     if not set(EFFORTS) & set(names):
-        raise _missing(
+        raise _missing_error(
             EFFORTS[0],
             [name for effort in EFFORTS for name in (f"{CHANNELS[effort].prefix}_1", "...")],
             table,
@@ -261,7 +261,7 @@ def _no_column_twice(channels: Sequence[Binding], time: Binding | None) -> None:
         )
 
 
-def _missing(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
+def _missing_error(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
     absent = [name for name in wanted if name not in table.names]
     default = "|".join(channel.prefix for channel in CHANNELS.values())
     candidates = [name for name in table.names if not re.fullmatch(rf"({default})(_\d+)?", name)]
@@ -279,7 +279,7 @@ def _missing(channel: str, wanted: list[str], table: Table, remedy: str) -> LogE
     )
 
 
-def _undeclared(channel: str, request: ChannelRequest, table: Table) -> LogError:
+def _unit_error(channel: str, request: ChannelRequest, table: Table) -> LogError:
     columns = [name for name, unit in zip(request.columns, request.units, strict=True) if not unit]
     readings = readings_by_column(channel, columns[:SHOWN_COLUMNS], table)
     first = next(iter(readings.values()), [])

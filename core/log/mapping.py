@@ -29,6 +29,7 @@ class MappingFields(Fields):
 
     error = LogError
     largest = math.inf
+    holds = "found"
 
 
 MAPPING_FIELDS = {

@@ -153,7 +153,7 @@ STANDING_ROWS = 20
 """More repeats than these in a row are a standstill, or a recorder's; fewer are samples that it missed."""
 
 
-def repeated(rows: LogRows) -> np.ndarray:
+def repeated_rows(rows: LogRows) -> np.ndarray:
     """Mark the rows whose positions and torques (currents, where no torque is logged) repeat the row before.
 
     As for a dropped sample.

@@ -164,11 +164,11 @@ def thin(read: Rows, segments: Stretches, *, points: int) -> Preview:
     points
         The most points per trace, `FEWEST_POINTS` at least.
     """
-    kept = _joined(segments, max(1, points // SHARE_OF_GAPS))
+    kept = _join(segments, max(1, points // SHARE_OF_GAPS))
     size = _rows_per_stretch([stop - start for start, stop in kept], points)
     pieces: list[tuple[Instants, InstantSeries]] = []
     for start, stop in kept:
-        piece = list(_thinned(read, start, stop, size))
+        piece = list(_thin_segment(read, start, stop, size))
         if pieces:
             middle = 0.5 * (pieces[-1][0][-1] + piece[0][0][0])
             pieces.append((np.array([middle]), np.full((1, piece[0][1].shape[1]), np.nan)))
@@ -177,7 +177,7 @@ def thin(read: Rows, segments: Stretches, *, points: int) -> Preview:
     return Preview(np.concatenate(times), np.concatenate(values), size)
 
 
-def _joined(segments: Stretches, most: int) -> Stretches:
+def _join(segments: Stretches, most: int) -> Stretches:
     """Join neighbours evenly until no more than so many are left."""
     if len(segments) <= most:
         return segments
@@ -196,7 +196,7 @@ def _rows_per_stretch(lengths: Sequence[int], points: int) -> int:
     return size
 
 
-def _thinned(read: Rows, start: int, stop: int, size: int) -> Iterator[tuple[Instants, InstantSeries]]:
+def _thin_segment(read: Rows, start: int, stop: int, size: int) -> Iterator[tuple[Instants, InstantSeries]]:
     if size == 1:
         yield read(start, stop)
         return

@@ -20,7 +20,7 @@ UNKNOWN = "?"
 IMPLAUSIBLE = "implausible_unit"
 
 
-def suggested_mapping(table: Table) -> dict[str, object] | None:
+def suggest_mapping(table: Table) -> dict[str, object] | None:
     """Give a mapping that fits the names of the columns; None where the names are not enough.
 
     Units are the most plausible by size, or `UNKNOWN` where no unit fits the size; so is the rate of a log
@@ -31,7 +31,7 @@ def suggested_mapping(table: Table) -> dict[str, object] | None:
     >>> import numpy as np
     >>> from veritorque.core.log.formats.table import MemoryTable
     >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
-    >>> suggested_mapping(MemoryTable(columns))["position"]
+    >>> suggest_mapping(MemoryTable(columns))["position"]
     {'columns': ['pos1'], 'unit': 'deg'}
     """
     profile = _profile(table.names)
@@ -48,7 +48,7 @@ def suggested_mapping(table: Table) -> dict[str, object] | None:
     return clock | {name: mapping[name] for name in CHANNELS if name in mapping}
 
 
-def suggested_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
+def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
     """Give the mapping by which channels of implausible size would be of a plausible one; None if none is."""
     channels = {channel.name: channel for channel in (layout.time, *layout.channels) if channel is not None}
     mapping: dict[str, object] = {}

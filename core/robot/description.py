@@ -178,7 +178,7 @@ def _link(row: Fields, number: int, numbers: Mapping[str, int]) -> Link:
             b=row.number("b", 0.0),
         )
         return Link(name, kind, antecedent, numbers[own], *modified.placement(), row=modified)
-    joint = _mimicked(row, numbers) if row.has("mimics") else numbers[own]
+    joint = _mimicked_joint(row, numbers) if row.has("mimics") else numbers[own]
     ratio, offset = row.number("ratio", 1.0), row.number("offset", 0.0)
     return Link(name, kind, antecedent, joint, _rotation(row), row.numbers("translation", 3), ratio, offset)
 
@@ -187,7 +187,7 @@ def _name(row: Fields, number: int) -> str:
     return row.text("name") if "name" in row.value else f"joint_{number}"
 
 
-def _mimicked(row: Fields, numbers: Mapping[str, int]) -> int:
+def _mimicked_joint(row: Fields, numbers: Mapping[str, int]) -> int:
     master = row.text("mimics")
     if master not in numbers:
         row.refuse("mimics", "names no joint that moves by itself")

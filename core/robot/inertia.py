@@ -83,7 +83,7 @@ def mass_properties(link: LinkParameters) -> tuple[float, Vector3, Rotation]:
     return mass, centre, inertia_about_origin(link) + mass * lever @ lever
 
 
-def moved(link: LinkParameters, rotation: Rotation, translation: Vector3) -> LinkParameters:
+def transform_body(link: LinkParameters, rotation: Rotation, translation: Vector3) -> LinkParameters:
     """Express a body in another frame.
 
     J -> T J T' with T = [[R, t], [0, 1]] the pose of the body's present frame in the new one (t in m).
@@ -92,7 +92,8 @@ def moved(link: LinkParameters, rotation: Rotation, translation: Vector3) -> Lin
     --------
     A unit point mass at the origin, seen from a frame in which that origin lies at z = 1 m:
 
-    >>> moved(np.array([0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0]), np.eye(3), np.array([0.0, 0.0, 1.0]))[[0, 8]]
+    >>> point = np.eye(10)[9]
+    >>> transform_body(point, np.eye(3), np.array([0.0, 0.0, 1.0]))[[0, 8]]
     array([1., 1.])
     """
     pose = np.eye(4)

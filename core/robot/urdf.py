@@ -18,7 +18,7 @@ from ..errors import RobotError
 from ..fields import LARGEST_NUMBER
 from .description import LEVEL_GRAVITY, MOST_JOINTS
 from .frames import rotation_to
-from .inertia import moved
+from .inertia import transform_body
 from .model import Joint, JointKind, Link, RobotModel
 from .urdf_document import MOVING_KINDS, UrdfDocument, UrdfJoint, read_urdf_document
 
@@ -211,7 +211,7 @@ def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravi
         placed[joint.child] = place
         body = document.links[joint.child]
         if body is not None and place.number:
-            bodies[place.number - 1] += moved(body, place.rotation, place.translation)
+            bodies[place.number - 1] += transform_body(body, place.rotation, place.translation)
     known = any(document.links[joint.child] is not None for joint, _ in order)
     return RobotModel(
         name=document.name,

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from ..arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
-from ..log.model import STANDING_ROWS, LogRows, repeated
+from ..log.model import STANDING_ROWS, LogRows, repeated_rows
 
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that stray from a uniform clock by less than a thousandth of a step are uniform."""
@@ -62,7 +62,7 @@ def bridged(rows: LogRows, grid: Instants, longest: float) -> SampleMask:
 
 def dropped(rows: LogRows) -> SampleMask:
     """Mark the repeats that stand for dropped samples; never the last row, beyond which nothing is known."""
-    repeats = repeated(rows)
+    repeats = repeated_rows(rows)
     starts = np.flatnonzero(np.diff(repeats, prepend=False) & repeats)
     stops = np.flatnonzero(np.diff(repeats, append=False) & repeats) + 1
     for start, stop in zip(starts, stops, strict=True):

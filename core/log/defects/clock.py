@@ -11,7 +11,7 @@ import numpy as np
 from ...arrays import Samples
 from ..model import Defect
 from .runs import KEPT, Runs
-from .stretch import Facts, Stretch, counted, sampled_share
+from .stretch import Facts, Stretch, count_text, sampled_share
 
 GAP_STEPS = 3.0
 """A step of more than this many median steps is a gap."""
@@ -87,7 +87,7 @@ class Clock:
         lengths = [after - before for _, before, after in gaps]
         longest = sorted(gaps, key=lambda gap: gap[1] - gap[2])[:KEPT]
         statement = (
-            f"{counted(len(gaps), 'gap')}: steps of more than {GAP_STEPS:g} times the median of "
+            f"{count_text(len(gaps), 'gap')}: steps of more than {GAP_STEPS:g} times the median of "
             f"{step * 1e3:.4g} ms, the longest {max(lengths):.4g} s, together {sum(lengths):.4g} s; "
             f"{_consequence(gaps)}."
         )

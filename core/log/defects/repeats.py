@@ -11,7 +11,7 @@ import numpy as np
 from ...arrays import JointVector
 from ..model import Defect
 from .runs import LongRuns, Runs
-from .stretch import Facts, Stretch, counted, repeats_previous
+from .stretch import Facts, Stretch, count_text, repeats_previous
 
 NOTICED = 1e-3
 """A smaller share of repeated rows is not reported."""
@@ -63,7 +63,7 @@ class Repeats:
             "torques of the row before exactly."
         )
         if frozen:
-            statement += f" In {counted(frozen, 'run')} of them the robot moved on: the log is cut there."
+            statement += f" In {count_text(frozen, 'run')} of them the robot moved on: the log is cut there."
         return [Defect("repeated_rows", "position", None, rows, self._runs.intervals, statement)]
 
 
@@ -79,14 +79,14 @@ def cut(segments: Rows, frozen: Rows) -> Rows:
     >>> cut(((0, 50),), ((20, 30), (10, 40), (15, 20)))
     ((0, 10), (40, 50))
     """
-    out, apart = [], _joined(frozen)
+    out, apart = [], _join(frozen)
     for start, stop in segments:
         inside = [min(max(edge, start), stop) for rows in apart for edge in rows]
         out += list(pairwise([start, *inside, stop]))[::2]
     return tuple((start, stop) for start, stop in out if stop > start)
 
 
-def _joined(rows: Rows) -> Rows:
+def _join(rows: Rows) -> Rows:
     """Join what overlaps."""
     out: list[tuple[int, int]] = []
     for begin, stop in sorted(rows):

@@ -9,7 +9,7 @@ import numpy as np
 from ...arrays import Indices, SampleMask, Samples, Series
 from ..model import Defect
 from .runs import KEPT
-from .stretch import Facts, Stretch, counted
+from .stretch import Facts, Stretch, count_text
 
 BLOCK_SECONDS = 0.1
 MOST_BLOCKS = 100_000
@@ -70,7 +70,7 @@ class Rest:
             elif rests:
                 statement = (
                     f"Joint {joint + 1} rests for {seconds:.3g} s of {facts.duration:.3g} s, in "
-                    f"{counted(len(rests), 'pause')} of {SHORTEST_SECONDS:g} s or more."
+                    f"{count_text(len(rests), 'pause')} of {SHORTEST_SECONDS:g} s or more."
                 )
                 longest = sorted(rests, key=lambda rest: rest[0] - rest[1])[:KEPT]
                 found.append(

@@ -9,7 +9,7 @@ import numpy as np
 from ...arrays import Matrix, Samples, Series, Vector
 from ..model import Defect
 from .runs import Runs
-from .stretch import Facts, Stretch, counted
+from .stretch import Facts, Stretch, count_text
 
 SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05}
 """Smaller jumps, as a share of the channel's range, are noise to everything that follows."""
@@ -51,7 +51,7 @@ class Spikes:
                     largest, span = self._largest[channel][joint], facts.span(channel)[joint]
                     statement = (
                         f"Joint {joint + 1}'s {channel} stands apart from its neighbours in "
-                        f"{counted(runs.rows, 'sample')}, by up to {largest:.3g} "
+                        f"{count_text(runs.rows, 'sample')}, by up to {largest:.3g} "
                         f"{facts.units[channel][joint]} ({100.0 * largest / span:.3g} % of its range)."
                     )
                     found.append(Defect("outliers", channel, joint + 1, runs.rows, runs.intervals, statement))

@@ -138,12 +138,12 @@ def stretches(source: LogSource) -> Iterator[Stretch]:
         )
 
 
-def counted(number: int, noun: str) -> str:
+def count_text(number: int, noun: str) -> str:
     """Write a number with its noun.
 
     Examples
     --------
-    >>> counted(1, "sample"), counted(3, "sample")
+    >>> count_text(1, "sample"), count_text(3, "sample")
     ('1 sample', '3 samples')
     """
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -14,7 +14,7 @@ from ..channels import EFFORTS
 from ..model import STANDING_ROWS, Defect
 from .repeats import JUMP, Repeats, Rows
 from .runs import KEPT, LongRuns
-from .stretch import Facts, Stretch, counted
+from .stretch import Facts, Stretch, count_text
 
 RARELY, OFTEN = 0.1, 0.05
 """A torque that carries noise repeats the value before in a smaller share of the samples than this, and turns
@@ -69,8 +69,8 @@ class Stuck:
         """Give channel, joint (from 1) and runs, a pair of what was known at both ends each."""
         moved = [joint for joint in range(len(self._positions)) if facts.travels(joint)]
         pairs = [
-            *(("position", joint + 1, self._positions[joint].jumped()) for joint in moved),
-            *((self._effort, joint + 1, self._efforts[joint].hung()) for joint in moved),
+            *(("position", joint + 1, self._positions[joint].runs_before_jumps()) for joint in moved),
+            *((self._effort, joint + 1, self._efforts[joint].runs_while_moving()) for joint in moved),
         ]
         own = [(channel, joint, runs[~self._reported(runs)]) for channel, joint, runs in pairs]
         return [(channel, joint, runs) for channel, joint, runs in own if len(runs)]
@@ -119,7 +119,7 @@ class _Signal:
         self._before = float(steps[-1])
         self._low, self._high = min(self._low, values.min()), max(self._high, values.max())
 
-    def jumped(self) -> np.ndarray:
+    def runs_before_jumps(self) -> np.ndarray:
         """Give the runs between a motion and a position that is much farther on than it usually gets."""
         runs = self._exceptional()
         begin, end = runs[:, 0], runs[:, 1]
@@ -130,8 +130,8 @@ class _Signal:
         away = np.minimum(end[:, _STEP], end[:, _NEXT]) > self._jump
         return np.asarray(runs[together & moved & away & (seconds < LONGEST_S)])
 
-    def hung(self) -> np.ndarray:
-        """Give the runs of a noisy channel in which the joint got on, one to the log's end among them."""
+    def runs_while_moving(self) -> np.ndarray:
+        """Give the runs of a noisy channel during which the joint moves, one to the log's end among them."""
         self._runs.close()
         runs = self._exceptional()
         lasted, way = (runs[:, 1, value] - runs[:, 0, value] for value in (_ROW, _WAY))
@@ -179,6 +179,6 @@ def _defect(channel: str, joint: int, runs: np.ndarray) -> Defect:
         joint,
         rows,
         tuple((float(begin), float(end)) for begin, end in runs[longest][:, :, _TIME]),
-        f"Joint {joint}'s {channel} keeps one value exactly in {counted(len(runs), 'run')} of "
+        f"Joint {joint}'s {channel} keeps one value exactly in {count_text(len(runs), 'run')} of "
         f"{rows} rows in all while the joint moves on: the log is cut there.",
     )

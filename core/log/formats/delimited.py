@@ -82,7 +82,7 @@ class DelimitedTable:
                 found = cell["found"][:80]
                 raise not_numeric(self.names[int(cell["column"])], found, _advice(found)) from error
             if (row := _BAD_ROW.search(str(error))) is not None:
-                raise _uneven(row, self.delimiter) from error
+                raise _row_length_error(row, self.delimiter) from error
             raise
 
 
@@ -127,7 +127,7 @@ def _opening_lines(path: Path) -> list[str]:
 
 
 def _lines(head: bytes) -> list[str]:
-    return re.split("\r\n|\r|\n", _decoded(head))
+    return re.split("\r\n|\r|\n", _decode(head))
 
 
 def _content(lines: Sequence[str]) -> list[int]:
@@ -168,7 +168,7 @@ def _check_text(path: Path) -> None:
                 )
 
 
-def _decoded(head: bytes) -> str:
+def _decode(head: bytes) -> str:
     if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
         raise LogError(
             "the first line is longer than 1 MB, which no header of a log is",
@@ -235,7 +235,7 @@ def _advice(found: str) -> str:
     return "store plain numbers, or map another column; a line of units below the header starts with #"
 
 
-def _uneven(row: re.Match[str], delimiter: str) -> LogError:
+def _row_length_error(row: re.Match[str], delimiter: str) -> LogError:
     """Report that a row has more or fewer cells than there are columns."""
     more = int(row["cells"]) > int(row["columns"])
     commas = more and delimiter == "," and "." not in row["text"]

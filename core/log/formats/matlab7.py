@@ -58,7 +58,7 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
     import h5py
 
     if len(group) > MAX_MEMBERS or len(seen) > MAX_MEMBERS or prefix.count(".") > MAX_DEPTH:
-        raise _overgrown(prefix)
+        raise _size_error(prefix)
     for key in group:
         name = f"{prefix}{key}"
         if key.startswith("#"):  # MATLAB's own bookkeeping of cells
@@ -98,7 +98,7 @@ def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # h5py giv
         )
 
 
-def _overgrown(place: str) -> LogError:
+def _size_error(place: str) -> LogError:
     return LogError(
         "the file holds more groups than a log has",
         evidence={"in": place[:100], "at_most": MAX_MEMBERS, "deepest": MAX_DEPTH},

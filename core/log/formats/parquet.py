@@ -51,10 +51,10 @@ class ParquetTable:
             if not self.numeric[self.names.index(name)]:
                 raise not_numeric(name, "a Parquet type other than integer or floating point")
         groups = range(first_group, len(self.group_starts))
-        with reading(FORM, self.path), _opened(self.path) as file:
+        with reading(FORM, self.path), _open(self.path) as file:
             stream = file.iter_batches(BATCH_ROWS, row_groups=groups, columns=list(names), use_threads=False)
             for batch in stream:
-                yield _decoded(batch, names)
+                yield _decode(batch, names)
 
 
 def open_parquet(path: Path) -> ParquetTable:
@@ -65,7 +65,7 @@ def open_parquet(path: Path) -> ParquetTable:
     LogError
         If the footer is damaged, or the columns or rows break the limits.
     """
-    with reading(FORM, path), _opened(path) as file:
+    with reading(FORM, path), _open(path) as file:
         metadata = file.metadata
         check_rows(metadata.num_rows)
         check_density(8 * metadata.num_rows, path.stat().st_size)
@@ -89,7 +89,7 @@ def open_parquet(path: Path) -> ParquetTable:
     )
 
 
-def _opened(path: Path) -> pq.ParquetFile:
+def _open(path: Path) -> pq.ParquetFile:
     """Open without prefetching: it would hold a whole row group in memory."""
     return pq.ParquetFile(
         path,
@@ -101,7 +101,7 @@ def _opened(path: Path) -> pq.ParquetFile:
     )
 
 
-def _decoded(batch: pa.RecordBatch, names: Sequence[str]) -> Series:
+def _decode(batch: pa.RecordBatch, names: Sequence[str]) -> Series:
     block = np.empty((len(names), batch.num_rows))
     for row, name in zip(block, names, strict=True):
         row[:] = numbers(batch.column(name))

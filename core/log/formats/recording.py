@@ -48,7 +48,7 @@ def open_mcap(path: Path) -> MemoryTable:
         try:
             check_density(sum(chunk.uncompressed_size for chunk in reader.chunks), path.stat().st_size)
             topic = _joint_states(reader.connections)
-            return _table(_decoded(reader.messages(topic), ros1=False))
+            return _table(_decode(reader.messages(topic), ros1=False))
         finally:
             reader.close()
 
@@ -66,7 +66,7 @@ def open_bag(path: Path) -> MemoryTable:
 
     with reading(BAG_FORM, path), Reader(path) as reader:
         topic = _joint_states(reader.connections)
-        return _table(_decoded(reader.messages(topic), ros1=True))
+        return _table(_decode(reader.messages(topic), ros1=True))
 
 
 def _require_library() -> None:
@@ -97,7 +97,7 @@ def _joint_states(connections: Any) -> list[Any]:  # noqa: ANN401  # both reader
     return found
 
 
-def _decoded(messages: Any, *, ros1: bool) -> Iterator[State]:  # noqa: ANN401  # both readers' own types
+def _decode(messages: Any, *, ros1: bool) -> Iterator[State]:  # noqa: ANN401  # both readers' own types
     from rosbags.typesys import Stores, get_typestore
 
     types = get_typestore(Stores.ROS1_NOETIC if ros1 else Stores.ROS2_HUMBLE)

@@ -8,7 +8,7 @@ from tests.tools import random_bodies
 from veritorque.core.document.bodies import body_rows, solid_ellipsoid
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.robot.frames import rotation_rpy
-from veritorque.core.robot.inertia import from_mass_properties, mass_properties, moved
+from veritorque.core.robot.inertia import from_mass_properties, mass_properties, transform_body
 
 BODIES = random_bodies(np.random.default_rng(5), 20)
 
@@ -30,7 +30,7 @@ def test_the_ellipsoid_has_the_inertia_of_the_body(link):
 
 @pytest.mark.parametrize("link", BODIES[:5])
 def test_another_frame_turns_the_ellipsoid_and_leaves_its_size(link):
-    turned = moved(link, rotation_rpy(0.3, -0.8, 2.0), np.array([0.1, -0.4, 0.2]))
+    turned = transform_body(link, rotation_rpy(0.3, -0.8, 2.0), np.array([0.1, -0.4, 0.2]))
     assert solid_ellipsoid(turned)[0] == pytest.approx(solid_ellipsoid(link)[0], rel=1e-6)
 
 

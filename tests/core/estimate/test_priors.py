@@ -13,7 +13,7 @@ from veritorque.core.estimate.constraints import Bounds, Prior, link_columns
 from veritorque.core.estimate.estimate import estimate
 from veritorque.core.estimate.options import EstimateOptions
 from veritorque.core.robot.frames import rotation_rpy
-from veritorque.core.robot.inertia import moved, pseudo_inertia
+from veritorque.core.robot.inertia import pseudo_inertia, transform_body
 from veritorque.core.robot.model import Joint, Link, RobotModel
 
 
@@ -80,7 +80,7 @@ def test_the_entropic_prior_does_not_depend_on_the_frame_that_bodies_are_written
     first, second = world_of(robot, seed=1), world_of(turned, seed=1)
     columns = list(link_columns(first.model)[0])
     answers = []
-    for world, believed in ((first, body), (second, moved(body, rotation.T, np.zeros(3)))):
+    for world, believed in ((first, body), (second, transform_body(body, rotation.T, np.zeros(3)))):
         centre, scale = world.truth.copy(), first.prior.scale
         centre[columns] = believed
         # The data speak of the same torque: the equations are those of the second world's own frame.
@@ -91,7 +91,7 @@ def test_the_entropic_prior_does_not_depend_on_the_frame_that_bodies_are_written
             EstimateOptions(solver="cvxpy", entropy=1e2, pull=1e-9, bounds=Bounds(margin=0.0)),
         ).standard
         answers.append(standard[columns])
-    np.testing.assert_allclose(moved(answers[1], rotation, np.zeros(3)), answers[0], atol=2e-4)
+    np.testing.assert_allclose(transform_body(answers[1], rotation, np.zeros(3)), answers[0], atol=2e-4)
 
 
 def _about(first: World, world: World, rotation: np.ndarray) -> object:
@@ -101,7 +101,7 @@ def _about(first: World, world: World, rotation: np.ndarray) -> object:
     columns = list(link_columns(first.model)[0])
     change = np.eye(len(first.truth))
     change[np.ix_(columns, columns)] = np.column_stack(
-        [moved(unit, rotation, np.zeros(3)) for unit in np.eye(10)]
+        [transform_body(unit, rotation, np.zeros(3)) for unit in np.eye(10)]
     )
     # base of the first world as a function of the second's standard parameters, and those of its base
     onto = np.zeros((len(world.truth), len(world.base.kept)))

@@ -14,8 +14,8 @@ from veritorque.core.robot.inertia import (
     inertia_about_origin,
     link_parameters,
     mass_properties,
-    moved,
     pseudo_inertia,
+    transform_body,
 )
 from veritorque.core.robot.parameters import INERTIAL_SYMBOLS
 
@@ -75,7 +75,7 @@ def test_a_moved_body_is_the_body_of_its_moved_points(seed):
     rotation, translation = rotation_rpy(*rng.uniform(-np.pi, np.pi, 3)), rng.normal(size=3)
     expected = _body_of(masses, points @ rotation.T + translation)
     np.testing.assert_allclose(
-        moved(_body_of(masses, points), rotation, translation), expected, rtol=1e-11, atol=1e-11
+        transform_body(_body_of(masses, points), rotation, translation), expected, rtol=1e-11, atol=1e-11
     )
 
 
@@ -85,7 +85,7 @@ def test_a_moved_body_keeps_its_mass_and_turns_its_inertia_about_its_centre(seed
     rng = np.random.default_rng(seed)
     rotation, translation = rotation_rpy(*rng.uniform(-np.pi, np.pi, 3)), rng.normal(size=3)
     mass, centre, inertia = mass_properties(body)
-    after = mass_properties(moved(body, rotation, translation))
+    after = mass_properties(transform_body(body, rotation, translation))
     assert after[0] == pytest.approx(mass, rel=1e-14)
     np.testing.assert_allclose(after[1], rotation @ centre + translation, rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(after[2], rotation @ inertia @ rotation.T, rtol=1e-10, atol=1e-11)
