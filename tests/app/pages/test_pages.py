@@ -170,7 +170,7 @@ def test_the_example_of_the_start_page_is_the_log_that_ships(client, served, nam
 
 @pytest.mark.parametrize("name", ["log.csv", "hidden_log.csv"])
 def test_the_image_takes_the_example_along(name):
-    docker = Path(__file__).parents[2] / "docker"
+    docker = Path(__file__).parents[3] / "docker"
     assert (
         f"examples/yumi/{name}"
         in re.search(r"^COPY examples.*$", (docker / "Dockerfile").read_text(), re.MULTILINE)[0]

@@ -27,7 +27,7 @@ from veritorque.app.store.logs import log_id as id_of_log
 from veritorque.app.version import VERSION
 from veritorque.core.robot import description as core_description
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 OPENAPI = create_app().openapi()
 PATHS = {path: {method.upper() for method in operations} for path, operations in OPENAPI["paths"].items()}
 # What api.md promises and this version serves.

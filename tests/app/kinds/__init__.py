@@ -1,0 +1,1 @@
+"""Run jobs of every kind through the service."""

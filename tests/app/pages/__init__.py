@@ -1,0 +1,1 @@
+"""Hold the pages to what they promise a browser."""

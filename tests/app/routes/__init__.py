@@ -1,0 +1,1 @@
+"""Hold the resources of the service to their contract, by requests."""

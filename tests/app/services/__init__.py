@@ -1,0 +1,1 @@
+"""Hold what several resources share to what it promises."""
