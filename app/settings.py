@@ -84,7 +84,7 @@ class Settings(BaseSettings):
 
     @cached_property
     def needs_keys(self) -> bool:
-        """Tell whether requests have to carry a key."""
+        """Return whether requests have to carry a key."""
         return reaches_other_machines(self.host)
 
     def environment(self) -> dict[str, str]:
@@ -97,7 +97,7 @@ class Settings(BaseSettings):
 
 
 def reaches_other_machines(host: str) -> bool:
-    """Tell whether an address to listen on is anything but loopback.
+    """Return whether an address to listen on is anything but loopback.
 
     Examples
     --------

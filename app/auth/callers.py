@@ -1,6 +1,6 @@
 """Find out who asks: the tenant and the scopes of the key that a request carries.
 
-Whoever may only read is refused to write before anything else is looked at. Without keys, which is possible
+A key without the scope to write is refused before anything else is checked. Without keys, which is possible
 on loopback only, everybody is the one local tenant. Source: RFC 6750, The OAuth 2.0 Bearer Token, 2 and 3.
 """
 
@@ -19,7 +19,7 @@ CHALLENGE = {"WWW-Authenticate": 'Bearer realm="veritorque"'}
 
 @dataclass(frozen=True)
 class Caller:
-    """Name whoever asks: the tenant, what the key permits, and the key where there is one."""
+    """Identify a caller: the tenant, what the key permits, and the key where there is one."""
 
     tenant: str
     scopes: tuple[str, ...]

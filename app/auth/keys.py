@@ -30,17 +30,17 @@ class KeyRing:
         return found if found is not None and hmac.compare_digest(found.sha256, asked) else None
 
     def any(self) -> bool:
-        """Tell whether there is a valid key."""
+        """Return whether there is a valid key."""
         return bool(self._known)
 
     @property
     def fresh(self) -> bool:
-        """Tell whether the keys were read lately."""
+        """Return whether the keys were read recently."""
         return time.monotonic() < self._until
 
     def read(self) -> None:
-        """Read the keys again, unless somebody else just did."""
+        """Read the keys again, unless another thread just did."""
         with self._lock:
             if not self.fresh:
-                self._known = {one.sha256: one for one in self._store.all() if one.revoked_at is None}
+                self._known = {key.sha256: key for key in self._store.all() if key.revoked_at is None}
                 self._until = time.monotonic() + FRESH_S

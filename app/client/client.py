@@ -13,7 +13,7 @@ from .records import Job, Log, Robot
 from .result import Result
 from .transport import Transport, segment
 
-Tell = Callable[[str, float], None]
+Progress = Callable[[str, float], None]
 RobotLike = Robot | str | Path | Mapping[str, object]
 LogLike = Log | object
 """A log that the service keeps, or what `Client.upload` takes."""
@@ -34,7 +34,7 @@ class Client:
     Raises
     ------
     ServiceError
-        Every method: `NoAnswerError` if nobody answers, `RefusedError` if the service says no.
+        Every method: `NoAnswerError` if there is no answer, `RefusedError` if the service says no.
     """
 
     def __init__(self, url: str, key: str | None = None, *, timeout_s: float = 60.0) -> None:
@@ -50,11 +50,11 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """Let go of the connections."""
+        """Close the connections."""
         self._transport.close()
 
     def is_alive(self) -> bool:
-        """Tell whether the service answers."""
+        """Return whether the service answers."""
         try:
             self._transport.document("GET", "/healthz")
         except ServiceError:
@@ -63,7 +63,7 @@ class Client:
 
     def robots(self) -> list[Robot]:
         """List the robots, built-in ones first."""
-        return [Robot.from_document(one) for one in self._all("/v1/robots", "robots")]
+        return [Robot.from_document(robot) for robot in self._all("/v1/robots", "robots")]
 
     def robot(self, identity: str) -> Robot:
         """Read a robot with its description."""
@@ -87,10 +87,10 @@ class Client:
             Of a URDF: gravitational acceleration in the base frame, m/s2.
         """
         parcel = robot_parcel(Path(robot) if isinstance(robot, str) else robot)
-        told = {"base_link": base_link, "tip_link": tip_link}
-        params = {name: value for name, value in told.items() if value is not None}
+        part = {"base_link": base_link, "tip_link": tip_link}
+        params = {name: value for name, value in part.items() if value is not None}
         if gravity is not None:
-            params["gravity"] = ",".join(repr(float(one)) for one in gravity)
+            params["gravity"] = ",".join(repr(float(component)) for component in gravity)
         return Robot.from_document(
             self._transport.document(
                 "POST", "/v1/robots", params=params, content=parcel.content, media_type=parcel.media_type
@@ -156,7 +156,7 @@ class Client:
         request = {
             "kind": kind,
             "robot": self._robot(robot),
-            "logs": [one.id if isinstance(one, Log) else self.upload(one).id for one in several],
+            "logs": [log.id if isinstance(log, Log) else self.upload(log).id for log in several],
             "options": dict(options or {}),
         }
         content = json.dumps(request).encode()
@@ -166,13 +166,13 @@ class Client:
 
     def jobs(self) -> list[Job]:
         """List the jobs, the newest first."""
-        return [Job.from_document(one) for one in self._all("/v1/jobs", "jobs")]
+        return [Job.from_document(job) for job in self._all("/v1/jobs", "jobs")]
 
     def job(self, identity: str) -> Job:
         """Read how far a job is."""
         return Job.from_document(self._transport.document("GET", f"/v1/jobs/{segment(identity)}"))
 
-    def wait(self, job: Job | str, tell: Tell | None = None) -> Result:
+    def wait(self, job: Job | str, tell: Progress | None = None) -> Result:
         """Follow a job to its end and give its result.
 
         Parameters
@@ -188,7 +188,7 @@ class Client:
         self.finish(job, tell)
         return self.result(job)
 
-    def finish(self, job: Job | str, tell: Tell | None = None) -> None:
+    def finish(self, job: Job | str, tell: Progress | None = None) -> None:
         """Follow a job of any kind until it is successful; `result_bytes` reads its result.
 
         Raises

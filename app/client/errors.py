@@ -1,7 +1,7 @@
-"""Say why a service did not do as it was asked: one tree of errors, with cause, evidence and remedy.
+"""Define the errors of the client: one tree, with cause, evidence and remedy.
 
-Every one is a `ServiceError`: `NoAnswerError` where nobody answers, `RefusedError` where the service says no,
-`NoResultError` where a computation ended without a result.
+Every one is a `ServiceError`: `NoAnswerError` if there is no answer, `RefusedError` if the service refuses,
+`NoResultError` if a computation ended without a result.
 """
 
 from collections.abc import Mapping

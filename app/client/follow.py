@@ -56,7 +56,7 @@ class Follower:
             time.sleep(self._pause_s)
 
     def _heard(self) -> Iterator[Job]:
-        """Give what a stream of events tells, until it ends or breaks."""
+        """Give the jobs that a stream of events holds, until it ends or breaks."""
         if self._barren >= BARREN:
             return
         self._barren += 1
@@ -66,7 +66,7 @@ class Follower:
                 self._seen = time.monotonic()
                 yield Job.from_document(document)
         except ServiceError:
-            return  # asking tells whether this lasts
+            return  # the next request shows whether this lasts
 
     def _asked(self) -> Iterator[Job]:
         """Give what the service says when it is asked; nothing while it is away, as long as that may last."""

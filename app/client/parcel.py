@@ -103,7 +103,7 @@ def _npz(arrays: Mapping[str, Any]) -> bytes:
     import numpy as np
 
     buffer = io.BytesIO()
-    np.savez(buffer, allow_pickle=False, **{str(name): np.asarray(one) for name, one in arrays.items()})
+    np.savez(buffer, allow_pickle=False, **{str(name): np.asarray(array) for name, array in arrays.items()})
     return buffer.getvalue()
 
 

@@ -1,4 +1,4 @@
-"""Draw how far a job is: one bar in a terminal or a notebook, plain lines where nobody watches."""
+"""Show the progress of a job: a bar in a terminal or a notebook, plain lines elsewhere."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -7,12 +7,12 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
-Tell = Callable[[str, float], None]
+Report = Callable[[str, float], None]
 
 
 @contextmanager
-def bar(console: Console | None = None) -> Iterator[Tell]:
-    """Give what is told the stage and the fraction that is done.
+def bar(console: Console | None = None) -> Iterator[Report]:
+    """Give the function that is called with the stage and the fraction that is done.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def bar(console: Console | None = None) -> Iterator[Tell]:
         yield lambda stage, done: progress.update(task, description=escape(stage), completed=done)
 
 
-def _lines(console: Console) -> Tell:
+def _lines(console: Console) -> Report:
     last: list[str] = []
 
     def tell(stage: str, done: float) -> None:

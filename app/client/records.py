@@ -74,7 +74,7 @@ class Log:
             **{name: document[name] for name in ("id", "name", "samples", "duration_s", "rate_hz", "joints")},
             channels=tuple(document["channels"]),
             ignored_columns=tuple(document["ignored_columns"]),
-            defects=tuple(_defect(one) for one in document["defects"]),
+            defects=tuple(_defect(defect) for defect in document["defects"]),
         )
 
 
@@ -119,7 +119,7 @@ class Job:
 
     @property
     def finished(self) -> bool:
-        """Tell whether it has ended in one way or another."""
+        """Return whether its state is final."""
         return self.state not in {"accepted", "running"}
 
     @classmethod

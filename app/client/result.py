@@ -1,4 +1,4 @@
-"""Read a result document as typed tables: arrays to compute with, data frames to look at.
+"""Read a result document as typed tables: arrays to compute with, data frames to show.
 
 The document itself stays at hand and is what is stored and passed on; see docs/http.md for its fields.
 """
@@ -44,7 +44,7 @@ class Rows:
                 evidence={"missing": "pandas"},
                 remedy="pip install 'veritorque[notebook]', or use the arrays",
             ) from error
-        return pd.DataFrame({one.name: getattr(self, one.name) for one in fields(self)})
+        return pd.DataFrame({column.name: getattr(self, column.name) for column in fields(self)})
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,7 +168,7 @@ class Finding:
             statement=document["statement"],
             confidence=document["confidence"],
             parameters={
-                one["name"]: (one["value"], one["standard_deviation"]) for one in document["parameters"]
+                row["name"]: (row["value"], row["standard_deviation"]) for row in document["parameters"]
             },
             ambiguous_with=tuple(rival["cause"] for rival in document["ambiguous_with"]),
             improvement_percent=None if gain is None else gain["improvement_total_percent"],
@@ -208,12 +208,12 @@ class Result:
             fit=JointErrors.from_rows(document["fit"]),
             validation=JointErrors.from_rows(document["validation"]),
             verdict=diagnosis["verdict"],
-            findings=tuple(Finding.from_document(one) for one in diagnosis["findings"]),
+            findings=tuple(Finding.from_document(finding) for finding in diagnosis["findings"]),
         )
 
     @property
     def can_exist(self) -> bool:
-        """Tell whether every identified body is one that can exist."""
+        """Return whether every identified body is physically consistent."""
         return bool(min(self.document["feasibility"]["pseudo_inertia_min_eigenvalue"]) > 0.0)
 
     def save(self, path: Path | str) -> None:

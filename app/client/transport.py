@@ -62,7 +62,7 @@ class Transport:
         self._http = httpx2.Client(base_url=self.url, headers=headers, timeout=timeout_s)
 
     def close(self) -> None:
-        """Let go of the connections."""
+        """Close the connections."""
         self._http.close()
 
     def document(
@@ -79,7 +79,7 @@ class Transport:
         Raises
         ------
         NoAnswerError
-            If nobody answers, or not with JSON.
+            If there is no answer, or not with JSON.
         RefusedError
             If the service says no.
         """

@@ -120,7 +120,9 @@ class TimedConnection(HttpToolsProtocol):
         if self.parser.should_upgrade():
             return
         super().on_message_complete()
-        self._enter("head" if self._idle else "waiting")  # whoever was answered before is waited for now
+        self._enter(
+            "head" if self._idle else "waiting"
+        )  # a client that has its answer may begin the next head
 
     def eof_received(self) -> bool:  # type: ignore[override]  # as asyncio has it, though not uvicorn
         """Still answer a client that has closed its sending side; a stream that has begun ends instead."""

@@ -1,4 +1,4 @@
-"""Turn all that can go wrong into a problem document, whether science, framework or a bug raised it."""
+"""Turn all that can go wrong into a problem document, whether core, the framework or a bug raised it."""
 
 import errno
 import logging
@@ -48,7 +48,7 @@ def install(app: FastAPI) -> None:
     """Let the app answer every failure with a problem document."""
     app.add_exception_handler(HTTPException, _on_http)
     app.add_exception_handler(RequestValidationError, _on_validation)
-    app.add_exception_handler(VeritorqueError, _on_science)
+    app.add_exception_handler(VeritorqueError, _on_core_error)
     app.add_exception_handler(Unavailable, _on_unavailable)
     app.add_exception_handler(OverQuota, _on_quota)
     app.add_exception_handler(KeyReused, _on_key)
@@ -76,13 +76,13 @@ async def _on_http(request: Request, error: Exception) -> Response:
 
 
 async def _on_loss(request: Request, error: Exception) -> Response:
-    """Answer nobody: whoever asked is gone, or was refused meanwhile."""
+    """Send nothing: the client is gone, or was refused meanwhile."""
     del request, error
     return problem_response(Problem("bad-request", "the request ended early", remedy="send it again"))
 
 
 def _reads(request: Request) -> bool:
-    """Tell whether a person reads the answer: browsers like a page best, programs a problem document."""
+    """Return whether a person reads the answer: browsers like a page best, programs a problem document."""
     offers = (MEDIA_TYPE, "application/json", HTML)
     return request.method in ("GET", "HEAD") and preferred(request.headers.get("accept"), offers) == HTML
 
@@ -92,7 +92,7 @@ async def _on_validation(_request: Request, error: Exception) -> Response:
     return problem_response(invalid(complaints))
 
 
-async def _on_science(_request: Request, error: Exception) -> Response:
+async def _on_core_error(_request: Request, error: Exception) -> Response:
     return problem_response(problem_of(error) if isinstance(error, VeritorqueError) else _mistake(""))
 
 

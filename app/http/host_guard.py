@@ -1,7 +1,7 @@
-"""Let in who calls the service by its name, and no page of another site.
+"""Accept requests to the service's own names, and none from pages of other sites.
 
 On loopback no key is needed, so that any page that is open in a browser on the same machine could have that
-browser send requests for it. Two things stop that: a name that somebody else made point here is none of the
+browser send requests for it. Two things stop that: a foreign name that points here is none of the
 service's names, and browsers say which site a request comes from. Sources: RFC 9110, 7.2, on Host;
 https://www.w3.org/TR/fetch-metadata/ on Sec-Fetch-Site.
 """
@@ -21,7 +21,7 @@ MOST_REMEMBERED = 1000
 
 
 class HostGuard:
-    """Refuse requests that are meant for somebody else, or come from a page of somebody else.
+    """Refuse requests that are meant for another host, or come from a page of another site.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ def preferred(accept: str | None, offers: tuple[str, ...]) -> str | None:
 
 
 def matches(if_none_match: str | None, etag: str) -> bool:
-    """Tell whether the client has this version already.
+    """Return whether the client has this version already.
 
     Examples
     --------

@@ -45,5 +45,5 @@ def following(page: Sequence[Listed], limit: int) -> str | None:
     >>> following([], 10) is None
     True
     """
-    placed = [one.sequence for one in page if one.sequence is not None]
+    placed = [record.sequence for record in page if record.sequence is not None]
     return str(placed[-1]) if len(placed) == limit else None

@@ -1,6 +1,6 @@
 """See every request come and go: give it an id, time it, count it, and write down what is worth reading.
 
-Reads that succeed are counted only; whoever polls would fill the disk with them.
+Reads that succeed are counted only: clients that poll would fill the disk with them.
 """
 
 import logging
@@ -58,5 +58,5 @@ class RequestLog:
         method, route = scope["method"], getattr(scope.get("route"), "path", "none")
         self._metrics.answered(method=method, route=route, status=status, seconds=seconds)
         level = logging.DEBUG if method in SAFE_METHODS and status < 400 else logging.INFO
-        told = {"method": method, "path": scope["path"], "status": status, "seconds": round(seconds, 6)}
-        LOGGER.log(level, "answered", extra=told)
+        fields = {"method": method, "path": scope["path"], "status": status, "seconds": round(seconds, 6)}
+        LOGGER.log(level, "answered", extra=fields)

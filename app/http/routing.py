@@ -92,10 +92,10 @@ def _straight(dependant: Dependant) -> Handler | None:
     """Give what calls an endpoint straight away; None where it takes more than strings and the context."""
     endpoint = dependant.call
     more = dependant.query_params or dependant.cookie_params or dependant.body_params
-    others = [one for one in dependant.dependencies if one.call is not context_of]
+    others = [inner for inner in dependant.dependencies if inner.call is not context_of]
     if more or others or not iscoroutinefunction(endpoint):
         return None
-    contexts = [str(one.name) for one in dependant.dependencies]
+    contexts = [str(inner.name) for inner in dependant.dependencies]
     request_name = dependant.request_param_name
 
     async def answer(request: Request) -> Response:

@@ -1,7 +1,7 @@
 """Read one uploaded file in a process of its own, and tell the service over a pipe what is in it.
 
 A message is one letter and its content: ``r`` the document that was made of it, ``f`` the problem document,
-``t`` the trace of a mistake of ours.
+``t`` the traceback of an internal error.
 """
 
 import signal

@@ -37,7 +37,7 @@ def confine(path: Path, budget: Budget) -> None:
 
 
 def can_hide_files() -> bool:
-    """Tell whether the kernel can keep a process from opening files."""
+    """Return whether the kernel can keep a process from opening files."""
     return sys.platform == "linux" and _call(CREATE_RULESET, None, 0, VERSION_FLAG) > 0
 
 
@@ -80,5 +80,5 @@ def _permit(rules: int, path: str, access: int) -> None:
 
 
 def _call(number: int, *arguments: int | bytes | None) -> int:
-    given = (ctypes.c_long(one) if isinstance(one, int) else one for one in arguments)
+    given = (ctypes.c_long(value) if isinstance(value, int) else value for value in arguments)
     return int(ctypes.CDLL(None, use_errno=True).syscall(ctypes.c_long(number), *given))

@@ -32,7 +32,7 @@ class Inspector:
     Attributes
     ----------
     limiter
-        Whoever calls from a coroutine passes this to the thread that waits, so that uploads which wait for
+        Coroutines pass this to the thread that waits, so that uploads which wait for
         their turn hold no thread.
     """
 
@@ -89,8 +89,8 @@ def _answer(process: Child, budget: Budget) -> bytes:
         raise problem_of(_ended(process.exit_code(), budget)) from None
     letter, content = message[:1], message[1:]
     if letter == child.TRACE:
-        LOGGER.error("reading a log met a mistake of ours:\n%s", content.decode(errors="replace"))
-        raise Problem("internal", "reading the log met a mistake of the service", remedy="report it")
+        LOGGER.error("reading a log failed with an internal error:\n%s", content.decode(errors="replace"))
+        raise Problem("internal", "reading the log failed with an internal error", remedy="report it")
     if letter == child.FAILURE:
         raise Problem.from_document(json.loads(content))
     return content

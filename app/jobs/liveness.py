@@ -1,8 +1,8 @@
-"""Show that a worker lives, in a way that the system itself takes back when it dies, however it dies.
+"""Show that a worker is alive by a file lock, which the system releases however the worker dies.
 
-A worker holds a lock on a file of its name; the system lets go of it even after kill -9. Whoever gets the
-lock of another worker knows that it is gone. On other machines, and of a worker that is frozen, nothing can
-be known this way: there its beats in the database have to stop for a while first.
+A worker locks a file of its name. A process that gets the lock of another worker knows that it is gone.
+Workers on other machines and frozen ones cannot be judged this way: their heartbeats in the database have to
+stop for a while first.
 """
 
 import fcntl
@@ -34,7 +34,7 @@ class Presence:
         fcntl.flock(self._file, fcntl.LOCK_EX)
 
     def is_gone(self, other: str) -> bool:
-        """Tell whether another worker is known to be dead."""
+        """Return whether another worker is known to be dead."""
         path = self._directory / other
         try:
             file = os.open(path, os.O_RDWR)
@@ -55,6 +55,6 @@ class Presence:
                 path.unlink(missing_ok=True)
 
     def leave(self) -> None:
-        """Let go of the lock, and remove the file."""
+        """Release the lock, and remove the file."""
         (self._directory / self.name).unlink(missing_ok=True)
         os.close(self._file)

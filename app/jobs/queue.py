@@ -100,7 +100,7 @@ class Queue:
         return document
 
     def dismiss(self, job: JobRecord) -> JobRecord:
-        """Dismiss an unfinished job; whoever computes it notices."""
+        """Dismiss an unfinished job; its worker stops the computation."""
         return self._store.jobs.dismiss(job.id) or job
 
     def refuse_if_needed(self, *, robot: str | None = None, log: str | None = None) -> None:

@@ -23,11 +23,11 @@ SILENCE_S = 10.0
 """A worker that writes nothing for so long is frozen."""
 START_S = 120.0
 """What it may take until its first word: on a busy machine the libraries alone take long to load."""
-LOOK_EVERY_S = 0.5
+POLL_S = 0.5
 PAUSES_S = (0.0, 0.5, 2.0, 5.0)
 """Before a worker is started again, by how often in a row that failed at once."""
-LIVED_S = 10.0
-PARTING_S = 15.0
+STABLE_S = 10.0
+END_S = 15.0
 READY, ALIVE, ENDED = b"ready", b"alive", b"ended"
 """What a worker says; after the last comes how the computation went, as JSON."""
 
@@ -56,15 +56,15 @@ class Supervisor:
         self._settings, self._start, self._on_ended = settings, start or start_worker, on_ended
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="supervisor")
-        self._heard = 0.0
-        self._bell: int | None = None
-        self._bell_in_use = threading.Lock()
+        self._last_word = 0.0
+        self._notice_pipe: int | None = None
+        self._notice_lock = threading.Lock()
         self.ready = threading.Event()
 
     @property
     def alive(self) -> bool:
-        """Tell whether a worker was heard lately."""
-        return time.monotonic() - self._heard < SILENCE_S
+        """Return whether a worker has written recently."""
+        return time.monotonic() - self._last_word < SILENCE_S
 
     def start(self) -> None:
         """Start the first worker."""
@@ -72,10 +72,10 @@ class Supervisor:
 
     def wake(self) -> None:
         """Let the worker look for jobs at once; without that it would look a little later."""
-        with self._bell_in_use:
-            if self._bell is not None:
-                with suppress(OSError):  # the worker is gone, or was told so often that it need not be again
-                    os.write(self._bell, b"\n")
+        with self._notice_lock:
+            if self._notice_pipe is not None:
+                with suppress(OSError):  # the worker is gone, or its pipe is full of notices
+                    os.write(self._notice_pipe, b"\n")
 
     def close(self) -> None:
         """Let the worker hand its jobs back and end."""
@@ -87,37 +87,37 @@ class Supervisor:
         while not self._closing.wait(PAUSES_S[min(failures, len(PAUSES_S) - 1)]):
             begun = time.monotonic()
             with self._start(self._settings) as process:
-                self._heard = begun + START_S - SILENCE_S
+                self._last_word = begun + START_S - SILENCE_S
                 threading.Thread(target=self._listen, args=(process,), daemon=True).start()
-                with self._bell_of(process):
+                with self._notices_to(process):
                     self._watch(process)
                 _end(process)
             lived = time.monotonic() - begun
-            failures = 0 if lived > LIVED_S else failures + 1
+            failures = 0 if lived > STABLE_S else failures + 1
             if not self._closing.is_set():
                 LOGGER.error("the worker ended (%s) after %.1f s", process.returncode, lived)
 
     @contextmanager
-    def _bell_of(self, process: "subprocess.Popen[bytes]") -> Iterator[None]:
+    def _notices_to(self, process: "subprocess.Popen[bytes]") -> Iterator[None]:
         """Let `wake` reach a worker until its pipe is closed, whose number may then be another file's."""
         if process.stdin is not None:
             os.set_blocking(process.stdin.fileno(), False)
-            self._bell = process.stdin.fileno()
+            self._notice_pipe = process.stdin.fileno()
         try:
             yield
         finally:
-            with self._bell_in_use:
-                self._bell = None
+            with self._notice_lock:
+                self._notice_pipe = None
 
     def _watch(self, process: "subprocess.Popen[bytes]") -> None:
-        while not self._closing.wait(LOOK_EVERY_S) and process.poll() is None:
+        while not self._closing.wait(POLL_S) and process.poll() is None:
             if not self.alive:
                 LOGGER.error("the worker %d says nothing for %g s and is killed", process.pid, SILENCE_S)
                 process.kill()
 
     def _listen(self, process: "subprocess.Popen[bytes]") -> None:
         for line in process.stdout or ():
-            self._heard = time.monotonic()
+            self._last_word = time.monotonic()
             word, _, content = line.strip().partition(b" ")
             if word == READY:
                 self.ready.set()
@@ -126,7 +126,7 @@ class Supervisor:
 
 
 def start_worker(settings: Settings) -> "subprocess.Popen[bytes]":
-    """Start a worker process that is told the same as the service."""
+    """Start a worker process with the settings of the service."""
     return subprocess.Popen(
         [sys.executable, "-m", "veritorque", "work", "--beside"],
         env={**os.environ, **settings.environment()},
@@ -139,6 +139,6 @@ def _end(process: "subprocess.Popen[bytes]") -> None:
     if process.poll() is None:
         process.terminate()
         try:
-            process.wait(PARTING_S)
+            process.wait(END_S)
         except subprocess.TimeoutExpired:
             process.kill()

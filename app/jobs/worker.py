@@ -101,7 +101,7 @@ class Worker:
 
     @property
     def alive(self) -> bool:
-        """Tell whether all of its threads run."""
+        """Return whether all of its threads run."""
         return all(thread.is_alive() for thread in self._threads)
 
     def start(self) -> None:
@@ -183,7 +183,7 @@ class Worker:
             running[lost].set()
 
     def _hand_back_unknown_jobs(self) -> None:
-        """Let go of jobs that this worker holds and does not know of, twice in a row.
+        """Hand back jobs that this worker holds and does not know of, twice in a row.
 
         The database had given them when the answer was cut off.
         """

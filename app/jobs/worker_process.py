@@ -1,7 +1,7 @@
-"""Be a worker process: compute until told to end, by a signal or by the service's going.
+"""Run as a worker process: compute until a signal or the end of the service ends it.
 
-Beside a service it says every second that it lives, on its standard output. It takes a line of its standard
-input for the news of a job, and the end for the service's end.
+Beside a service it writes a line to its standard output every second. A line on its standard input announces
+a job, and the end of the input is the end of the service.
 """
 
 import os
@@ -23,35 +23,35 @@ PULSE_S = 1.0
 
 
 def work_until_stopped(store: Store, settings: Settings, *, beside: bool) -> None:
-    """Work through the queue; return when told to end and all jobs are handed back."""
-    told = threading.Event()
+    """Work through the queue; return after a signal, when all jobs are handed back."""
+    stopped = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: told.set())
+        signal.signal(number, lambda *_: stopped.set())
     if beside:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the service, which then ends this
-    tell = _tell if beside else None
-    worker = worker_of(store, settings, executor_of(settings, store), built_in_robots(), tell)
+    report = _report if beside else None
+    worker = worker_of(store, settings, executor_of(settings, store), built_in_robots(), report)
     worker.start()
     if beside:
-        threading.Thread(target=_hear, args=(worker, told), daemon=True).start()
-    while not told.wait(PULSE_S):
+        threading.Thread(target=_listen, args=(worker, stopped), daemon=True).start()
+    while not stopped.wait(PULSE_S):
         if beside:
-            _say(READY if worker.ready.is_set() else ALIVE)
+            _write(READY if worker.ready.is_set() else ALIVE)
     worker.close()
 
 
-def _hear(worker: Worker, told: threading.Event) -> None:
+def _listen(worker: Worker, stopped: threading.Event) -> None:
     while os.read(sys.stdin.fileno(), 4096):
         worker.wake()
-    told.set()  # the service is gone
+    stopped.set()  # the service is gone
 
 
-def _tell(ended: Ended) -> None:
-    _say(ENDED + b" " + json_bytes(asdict(ended)))
+def _report(ended: Ended) -> None:
+    _write(ENDED + b" " + json_bytes(asdict(ended)))
 
 
-def _say(word: bytes) -> None:
+def _write(line: bytes) -> None:
     try:
-        os.write(sys.stdout.fileno(), word + b"\n")
-    except OSError:  # the service is gone; its end is heard as well
+        os.write(sys.stdout.fileno(), line + b"\n")
+    except OSError:  # the service is gone; `_listen` notices as well
         return

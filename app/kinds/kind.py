@@ -111,7 +111,7 @@ class Inputs:
     reference
         Result document of the earlier job that the options name.
     traces
-        File to write the torques and residuals of every sample to; None where nobody wants them.
+        File to write the torques and residuals of every sample to; None where they are not wanted.
     """
 
     robot: "RobotModel"

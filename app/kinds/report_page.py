@@ -38,7 +38,9 @@ def _drawable(view: View, traces: Traces) -> JointTraces:
         log=view.log,
         joint=view.joint,
         time=traces.time.tolist(),
-        signals={name: [one if math.isfinite(one) else None for one in column] for name, column in columns},
+        signals={
+            name: [value if math.isfinite(value) else None for value in column] for name, column in columns
+        },
         units=dict(zip(view.signals, traces.units, strict=True)),
         held_out=traces.held_out,
     )

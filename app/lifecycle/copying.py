@@ -51,7 +51,7 @@ def copy_rows(source: Connection, target: Connection) -> dict[str, int]:
 
 
 def is_empty(store: Store) -> bool:
-    """Tell whether a store holds nothing."""
+    """Return whether a store holds nothing."""
     return store.database.read(
         lambda connection: all(
             connection.execute(select(table).limit(1)).first() is None for table in METADATA.sorted_tables

@@ -100,10 +100,10 @@ def _unreachable(settings: Settings, error: Exception) -> Finding:
 
 def _database(store: Store) -> Iterator[Finding]:
     if store.database.embedded:
-        told = store.database.read(lambda c: c.execute(text("PRAGMA integrity_check")).scalars().all())
-        if list(told) != ["ok"]:
+        found = store.database.read(lambda c: c.execute(text("PRAGMA integrity_check")).scalars().all())
+        if list(found) != ["ok"]:
             remedy = "stop the service, move the data directory aside, and restore a backup into a new one"
-            yield _wrong("database", f"SQLite finds: {'; '.join(told[:SHOWN])}", remedy)
+            yield _wrong("database", f"SQLite finds: {'; '.join(found[:SHOWN])}", remedy)
             return
     store.prove_writable()
     counts = store.database.read(
@@ -117,7 +117,7 @@ def _database(store: Store) -> Iterator[Finding]:
 
 def _blobs(store: Store) -> Iterator[Finding]:
     kept = store.blobs.marks().keys()
-    needed = store.needed()  # after the look at the files: bytes come before what needs them
+    needed = store.needed()  # after the files are listed: a blob is written before its record
     damaged = []
     for sha256 in sorted(kept & needed):
         try:
@@ -128,7 +128,7 @@ def _blobs(store: Store) -> Iterator[Finding]:
     lost = "restore them from a backup, or delete the logs and jobs that need them: "
     for subject, found in (("damaged bytes", damaged), ("missing bytes", missing)):
         if found:
-            users = store.users([one.split()[0] for one in found[:SHOWN]])
+            users = store.users([blob.split()[0] for blob in found[:SHOWN]])
             yield _wrong(subject, f"{len(found)}: {_some(found)}", lost + _some(users))
     if not damaged and not missing:
         yield Finding("bytes", f"{len(needed)} files that logs and jobs need are there and have their hashes")
@@ -154,6 +154,6 @@ def _wrong(subject: str, seen: str, remedy: str) -> Finding:
     return Finding(subject, seen, remedy, harm=True)
 
 
-def _some(of_them: list[str] | list[Path]) -> str:
-    shown = ", ".join(str(one) for one in of_them[:SHOWN])
-    return shown + (" ..." if len(of_them) > SHOWN else "")
+def _some(items: list[str] | list[Path]) -> str:
+    shown = ", ".join(str(item) for item in items[:SHOWN])
+    return shown + (" ..." if len(items) > SHOWN else "")

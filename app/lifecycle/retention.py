@@ -1,4 +1,4 @@
-"""Let go of what has been kept for as long as the operator wants, kind by kind; bytes follow by the sweep.
+"""Remove records that are older than the operator keeps them; the sweep then removes their blobs.
 
 Times of day decide here, in days; a clock that is an hour wrong moves a deadline by an hour and nothing else.
 """

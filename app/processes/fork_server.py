@@ -26,9 +26,9 @@ READERS = (
     "scipy.io.matlab",
 )
 """What reads logs; what is not installed is passed over. Where pandas is installed, Arrow loads it."""
-LOOK_EVERY_S = 0.05
-PATIENCE_S = 3.0
-"""How long a child that is being made may still take when nobody needs it any more."""
+POLL_S = 0.05
+GRACE_S = 3.0
+"""How long a child that is being started may still take when it is not needed any more."""
 _PRELOAD: list[str] = []
 
 
@@ -41,7 +41,7 @@ def fork_server(*preload: str) -> ForkServerContext:
 
 
 class NotNeeded(Exception):  # noqa: N818 - no error: nothing went wrong
-    """Say that nobody waits any more for the child that was asked for."""
+    """Signal that a child is not needed any more, because its task was stopped."""
 
 
 class Child:
@@ -53,9 +53,9 @@ class Child:
         Takes its task, and gives what it sends.
     """
 
-    def __init__(self, context: ForkServerContext, target: Callable[..., None], *given: object) -> None:
+    def __init__(self, context: ForkServerContext, target: Callable[..., None], *arguments: object) -> None:
         self.pipe, theirs = context.Pipe()
-        self._process = context.Process(target=target, args=(theirs, *given), daemon=True)
+        self._process = context.Process(target=target, args=(theirs, *arguments), daemon=True)
         try:
             self._process.start()
         except BaseException:
@@ -66,7 +66,7 @@ class Child:
 
     @property
     def alive(self) -> bool:
-        """Tell whether it has not ended yet."""
+        """Return whether it has not ended yet."""
         return self._process.is_alive()
 
     def exit_code(self) -> int | None:
@@ -79,7 +79,7 @@ class Child:
         self._process.kill()
 
     def end(self) -> None:
-        """End it, and let go of all that belongs to it."""
+        """End it, and release its pipe and process."""
         self._process.kill()
         self._process.join()
         self._process.close()
@@ -87,9 +87,9 @@ class Child:
 
 
 class ProcessPool:
-    """Keep children that wait for their tasks, so that no task waits for a child.
+    """Keep children that wait for tasks, so that no task waits for a child.
 
-    Each is used once: while its successor is made, and it is cleared away, whoever used it goes on.
+    Each is used once; it is removed and replaced in the background.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ class ProcessPool:
         """
         try:
             coming, kept = self._coming.get_nowait(), True
-        except Empty:  # nobody prepared for this
+        except Empty:  # more tasks at a time than were prepared for
             coming, kept = self._made(self._make), False
         while stop is not None and not coming.done():
             if stop.is_set():
@@ -134,7 +134,7 @@ class ProcessPool:
                 elif not coming.cancel():
                     coming.add_done_callback(_end_unwanted)
                 raise NotNeeded
-            wait([coming], LOOK_EVERY_S)
+            wait([coming], POLL_S)
         used: list[Child] = []
         try:
             used.append(coming.result())
@@ -147,7 +147,7 @@ class ProcessPool:
             self._clear_away(used, followed=kept)
 
     def close(self) -> None:
-        """End all that wait; nobody may be in use any more.
+        """End all that wait; none may be in use any more.
 
         A child that stayed would keep this process from ending: it heeds no request to end. So would a server
         that is still loading; at the very first start that takes as long as compiling does.
@@ -165,8 +165,8 @@ class ProcessPool:
                     coming.result().end()
         self._keeper.shutdown()
 
-    def _made(self, make: Callable[..., Child], *given: object) -> "Future[Child]":
-        coming = self._keeper.submit(make, *given)
+    def _made(self, make: Callable[..., Child], *arguments: object) -> "Future[Child]":
+        coming = self._keeper.submit(make, *arguments)
         self._making.add(coming)
         coming.add_done_callback(self._making.discard)
         return coming
@@ -199,7 +199,7 @@ def _soon(coming: "Future[Child]") -> Child:
     """Give the child, or end the server that is still loading what it would have been forked with."""
     while True:
         try:
-            return coming.result(PATIENCE_S)
+            return coming.result(GRACE_S)
         except TimeoutError:
             if coming.done():
                 return coming.result()
@@ -207,7 +207,7 @@ def _soon(coming: "Future[Child]") -> Child:
 
 
 def _end_server() -> None:
-    """Kill the server process; whoever needs one again has it started anew."""
+    """Kill the server process; the next child starts a new one."""
     server = forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]  # noqa: SLF001  # it has no public name
     if server is not None:
         with suppress(ProcessLookupError):

@@ -39,13 +39,13 @@ def guide(contract: Node) -> str:
 
 
 def _chapter(contract: Node, tag: Node) -> str:
-    told = "".join(
+    text = "".join(
         _request(method, path, one)
         for path, methods in contract["paths"].items()
         for method, one in methods.items()
         if tag["name"] in one.get("tags", [])
     )
-    return f"\n## {tag['name'].capitalize()}\n\n{tag['description']}\n{told}"
+    return f"\n## {tag['name'].capitalize()}\n\n{tag['description']}\n{text}"
 
 
 def _request(method: str, path: str, asked: Node) -> str:
@@ -82,8 +82,8 @@ def _answers(answers: Node) -> str:
         f"| {status} | {_cell(one['description'])} | {_content(one)} |\n" for status, one in good.items()
     )
     problems = ", ".join(status for status in answers if status not in good)
-    told = f"\n[Problems](problems.md): {problems}.\n" if problems else ""
-    return f"\n| status | when | answer |\n|---|---|---|\n{rows}{told}"
+    text = f"\n[Problems](problems.md): {problems}.\n" if problems else ""
+    return f"\n| status | when | answer |\n|---|---|---|\n{rows}{text}"
 
 
 def _content(answer: Node) -> str:
@@ -100,8 +100,8 @@ def _document(name: str, schema: Node) -> str:
         f"| `{field}` | {_type(one)} | {'yes' if field in needed else _default(one)} | {_meaning(one)} |\n"
         for field, one in schema["properties"].items()
     )
-    told = _paragraph(schema.get("description", ""))
-    return f"\n### {name}\n\n{told}\n\n| field | type | always there | meaning |\n|---|---|---|---|\n{rows}"
+    text = _paragraph(schema.get("description", ""))
+    return f"\n### {name}\n\n{text}\n\n| field | type | always there | meaning |\n|---|---|---|---|\n{rows}"
 
 
 def _default(schema: Node) -> str:

@@ -1,7 +1,7 @@
 """Serve the progress of a job as it happens, as server-sent events.
 
-An event's id is the version of the job, which the database keeps: whoever comes back, even to a service that
-was started anew, hears of what changed since. Source: https://html.spec.whatwg.org/multipage/server-sent-events.html
+An event's id is the version of the job, which the database keeps: a client that reconnects, even
+to a restarted service, receives what changed since. Source: https://html.spec.whatwg.org/multipage/server-sent-events.html
 """
 
 from collections.abc import AsyncIterator
@@ -59,7 +59,7 @@ async def follow_job(
         raise no_such_job(job_id)
     known = _version(last_event_id)
     if job.finished and job.version == known:
-        return Response(status_code=204)  # tells a browser not to come back
+        return Response(status_code=204)  # a browser does not reconnect after that
     return EventStream(_events(context.feed, job, known), headers=HEADERS)
 
 
@@ -74,7 +74,7 @@ async def _events(feed: JobFeed, job: JobRecord, known: int | None) -> AsyncIter
         try:
             now = await feed.change((job.tenant, job.id), known=known, seconds=HEARTBEAT_S)
         except Unavailable:
-            return  # the client comes back, and is told why if that lasts
+            return  # the client reconnects, and gets a problem document if that lasts
         if now is None or (feed.ending and now.version == known):
             return
         if now.version == known:

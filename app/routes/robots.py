@@ -90,7 +90,7 @@ async def read_base_parameters(services: ServicesOf, context: ContextOf, robot_i
     Right after the very first start the answer waits until the solver is compiled.
     """
     robot = await anyio.to_thread.run_sync(context.catalogue.robot, robot_id)
-    await services.readiness.let_the_solver_load()
+    await services.readiness.wait_for_solver()
     document = await anyio.to_thread.run_sync(context.catalogue.base_parameters, robot)
     return JSONResponse(document)
 

@@ -15,8 +15,8 @@ Begin = Callable[[list[Asked]], Callable[[], list[Given | Exception]]]
 """Begins pieces of work together, and gives what waits for them."""
 
 
-def _nobody() -> None:
-    """Call nobody."""
+def _nothing() -> None:
+    """Do nothing."""
 
 
 class Batcher(Generic[Asked, Given]):
@@ -24,12 +24,12 @@ class Batcher(Generic[Asked, Given]):
 
     Parameters
     ----------
-    taken
-        Is called whenever something was taken in.
+    on_batch
+        Called after every batch.
     """
 
-    def __init__(self, taken: Callable[[], None] = _nobody) -> None:
-        self._taken = taken
+    def __init__(self, on_batch: Callable[[], None] = _nothing) -> None:
+        self._on_batch = on_batch
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="batcher")
         self._waiting: dict[str, _Group[Asked, Given]] = {}
         self._serving: asyncio.Task[None] | None = None
@@ -45,7 +45,7 @@ class Batcher(Generic[Asked, Given]):
         return await outcome
 
     async def close(self) -> None:
-        """Finish what waits, and let go of the thread."""
+        """Finish what waits, and end the thread."""
         if self._serving is not None:
             await self._serving
         self._thread.shutdown()
@@ -55,9 +55,9 @@ class Batcher(Generic[Asked, Given]):
         while self._waiting:
             groups, self._waiting = list(self._waiting.values()), {}
             given = await loop.run_in_executor(self._thread, _together, groups)
-            self._taken()
+            self._on_batch()
             for group, outcomes in zip(groups, given, strict=True):
-                group.tell(outcomes)
+                group.resolve(outcomes)
         self._serving = None
 
 
@@ -69,23 +69,23 @@ class _Group(Generic[Asked, Given]):
         self.asked: list[Asked] = []
         self.outcomes: list[asyncio.Future[Given]] = []
 
-    def tell(self, given: list[Given | Exception]) -> None:
-        """Give everybody what is theirs."""
-        for outcome, one in zip(self.outcomes, given, strict=True):
+    def resolve(self, given: list[Given | Exception]) -> None:
+        """Give every request its outcome."""
+        for outcome, answer in zip(self.outcomes, given, strict=True):
             if outcome.cancelled():  # the client is gone
                 continue
-            if isinstance(one, Exception):
-                outcome.set_exception(one)
+            if isinstance(answer, Exception):
+                outcome.set_exception(answer)
             else:
-                outcome.set_result(one)
+                outcome.set_result(answer)
 
 
 def _together(groups: list[_Group[Asked, Given]]) -> list[list[Given | Exception]]:
-    waits = [_begun(group) for group in groups]
-    return [_ended(group, wait) for group, wait in zip(groups, waits, strict=True)]
+    waits = [_begin(group) for group in groups]
+    return [_finish(group, wait) for group, wait in zip(groups, waits, strict=True)]
 
 
-def _begun(group: _Group[Asked, Given]) -> Callable[[], list[Given | Exception]]:
+def _begin(group: _Group[Asked, Given]) -> Callable[[], list[Given | Exception]]:
     try:
         return group.begin(group.asked)
     except Exception as error:  # noqa: BLE001 - it belongs to those who asked
@@ -93,7 +93,7 @@ def _begun(group: _Group[Asked, Given]) -> Callable[[], list[Given | Exception]]
         return lambda: failed
 
 
-def _ended(
+def _finish(
     group: _Group[Asked, Given], wait: Callable[[], list[Given | Exception]]
 ) -> list[Given | Exception]:
     try:

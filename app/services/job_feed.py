@@ -1,7 +1,7 @@
-"""Tell many clients how far jobs are, and ask the database little.
+"""Report the progress of jobs to many clients with few queries.
 
-Whoever computes a job may be another process, so the database is asked, never a memory of ours. Questions
-that come while one is being answered are asked together, and all who wait for changes share one look at the
+A job may be computed by another process, so the database is asked, and nothing is cached. Questions
+that come while one is being answered are asked together, and all who wait for changes share one query of the
 versions every few milliseconds.
 """
 
@@ -19,9 +19,9 @@ from ..store.many import ManyJobs, Place
 from ..store.records import JobRecord
 
 LOGGER = logging.getLogger(__name__)
-LOOK_EVERY_S = 0.005
-LOOK_SHARE = 0.1
-"""Most of the time that is spent on looking, however much is watched."""
+POLL_S = 0.005
+POLL_SHARE = 0.1
+"""Largest share of the time that is spent on polling."""
 Given = TypeVar("Given")
 
 
@@ -31,13 +31,13 @@ def _future() -> asyncio.Future[None]:
 
 @dataclass
 class _Topic:
-    """Carry what is known of a job that somebody waits for, and what ends the waiting."""
+    """Hold the known version of a job that requests wait for, and the future that wakes them."""
 
     version: int | None = None
     listeners: int = 0
     changed: asyncio.Future[None] = field(default_factory=_future)
 
-    def tell(self, version: int | None) -> None:
+    def publish(self, version: int | None) -> None:
         """Wake all listeners."""
         self.version = version
         self.changed.set_result(None)
@@ -59,7 +59,7 @@ class JobFeed:
         self._asked: dict[Place, asyncio.Future[JobRecord | None]] = {}
         self._topics: dict[Place, _Topic] = {}
         self._reading: asyncio.Task[None] | None = None
-        self._looking: asyncio.Task[None] | None = None
+        self._polling: asyncio.Task[None] | None = None
         self._ending = False
 
     async def job(self, place: Place) -> JobRecord | None:
@@ -97,8 +97,8 @@ class JobFeed:
                 if job is None or job.version != known or left <= 0.0 or self._ending:
                     return job
                 topic.version = job.version
-                if self._looking is None:
-                    self._looking = asyncio.create_task(self._look())
+                if self._polling is None:
+                    self._polling = asyncio.create_task(self._poll())
                 await asyncio.wait((changed,), timeout=left)
         finally:
             topic.listeners -= 1
@@ -107,19 +107,19 @@ class JobFeed:
 
     @property
     def ending(self) -> bool:
-        """Tell whether nobody shall wait any longer."""
+        """Return whether the service ends."""
         return self._ending
 
     def end(self) -> None:
-        """Let nobody wait any longer: the service ends."""
+        """End all waiting, because the service ends."""
         self._ending = True
         for topic in self._topics.values():
-            topic.tell(topic.version)
+            topic.publish(topic.version)
 
     async def close(self) -> None:
-        """Finish what is asked, and let go of the thread."""
+        """Finish the open queries, and end the thread."""
         self.end()
-        for task in (self._reading, self._looking):
+        for task in (self._reading, self._polling):
             if task is not None:
                 await task
         self._thread.shutdown()
@@ -138,27 +138,27 @@ class JobFeed:
                     answer.set_result(found.get(place))
         self._reading = None
 
-    async def _look(self) -> None:
-        """Look for new versions as long as somebody waits for one."""
-        pause, clock = LOOK_EVERY_S, asyncio.get_running_loop()
+    async def _poll(self) -> None:
+        """Poll for new versions as long as requests wait for one."""
+        pause, clock = POLL_S, asyncio.get_running_loop()
         try:
             while await asyncio.sleep(pause, self._topics) and not self._ending:
                 begun = clock.time()
-                await self._look_once(tuple(self._topics))
-                pause = max(LOOK_EVERY_S, (clock.time() - begun) / LOOK_SHARE)
+                await self._poll_once(tuple(self._topics))
+                pause = max(POLL_S, (clock.time() - begun) / POLL_SHARE)
         finally:
-            self._looking = None
+            self._polling = None
 
-    async def _look_once(self, watched: tuple[Place, ...]) -> None:
+    async def _poll_once(self, watched: tuple[Place, ...]) -> None:
         try:
             versions = await self._off_the_loop(self._jobs.versions, watched)
         except Unavailable as error:
             LOGGER.warning("changes of jobs cannot be seen: %s", error.reason)
-            versions = {}  # those who wait ask themselves, and are told why they get no answer
+            versions = {}  # requests that wait then ask by themselves, and fail with the reason
         for place in watched:
             topic = self._topics.get(place)
             if topic is not None and versions.get(place) != topic.version:
-                topic.tell(versions.get(place))
+                topic.publish(versions.get(place))
 
     async def _off_the_loop(self, work: Callable[[Sequence[Place]], Given], places: Sequence[Place]) -> Given:
         return await asyncio.get_running_loop().run_in_executor(self._thread, work, places)

@@ -1,8 +1,8 @@
 """Count and time what the service does, in the form that Prometheus reads.
 
 Labels take few values each: a route's template and not the path, the kind of a problem and not its cause.
-What the database knows is asked when somebody looks; it is right whoever counted and however often the
-service was started again.
+What the database knows is read at every scrape, so that it stays right over restarts and with any number of
+workers.
 """
 
 import shutil
@@ -63,7 +63,7 @@ class Metrics:
             self._problems.labels(job.problem).inc()
 
     def watch(self, store: Store, settings: Settings, worker_alive: Callable[[], bool]) -> None:
-        """Tell what the store, the disk and the worker are like, whenever somebody looks."""
+        """Measure the store, the disk and the worker at every scrape."""
         self._registry.register(_Now(store, settings, worker_alive))
 
     def written(self, accept: str) -> tuple[bytes, str]:

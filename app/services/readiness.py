@@ -16,22 +16,22 @@ from ..store.errors import Unavailable
 from ..store.store import Store
 
 FRESH_S = 1.0
-PATIENCE_S = 1.0
+PROBE_WAIT_S = 1.0
 """How long a probe waits for the one before it."""
 LOADING_S = 60.0
 """How long a request waits that cannot be answered without the solver."""
-GLANCE_S = 0.1
+POLL_S = 0.1
 
 
 class Readiness:
-    """Look at what the service needs.
+    """Check what the service needs.
 
     Parameters
     ----------
     worker_alive
-        Whether somebody computes, as far as this service knows.
+        Whether a worker is alive, as far as this service knows.
     worker_ready
-        Whether whoever computes has loaded the solver.
+        Whether the worker has loaded the solver.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Readiness:
     ) -> None:
         self._store, self._settings = store, settings
         self._worker_alive, self._worker_ready = worker_alive, worker_ready
-        self._looking = threading.Lock()
+        self._probing = threading.Lock()
         self._refused: str | None = None
         self._until = 0.0
 
@@ -60,8 +60,8 @@ class Readiness:
             if problem is not None:
                 raise problem
 
-    async def let_the_solver_load(self) -> None:
-        """Return once whoever computes has loaded the solver.
+    async def wait_for_solver(self) -> None:
+        """Return once the worker has loaded the solver.
 
         To compile it here as well would hold up every other request.
 
@@ -72,7 +72,7 @@ class Readiness:
         """
         with anyio.move_on_after(LOADING_S):
             while not self._worker_ready():  # noqa: ASYNC110  # it gets ready in a thread or process of its own
-                await anyio.sleep(GLANCE_S)
+                await anyio.sleep(POLL_S)
             return
         raise _loading()
 
@@ -88,15 +88,15 @@ class Readiness:
 
     def _refusal(self) -> str | None:
         """Say why the database takes no writes; None where it does."""
-        if not self._looking.acquire(timeout=PATIENCE_S):
-            return f"it has not answered for {PATIENCE_S:g} s"
+        if not self._probing.acquire(timeout=PROBE_WAIT_S):
+            return f"it has not answered for {PROBE_WAIT_S:g} s"
         try:
             if time.monotonic() >= self._until:
                 self._refused = self._write()
                 self._until = time.monotonic() + FRESH_S
             return self._refused
         finally:
-            self._looking.release()
+            self._probing.release()
 
     def _write(self) -> str | None:
         try:

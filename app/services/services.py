@@ -128,7 +128,7 @@ class Services:
 
 
 def executor_of(settings: Settings, store: Store) -> Executor:
-    """Make what computes as the settings limit it, and rehearses beside what the store takes in."""
+    """Make the executor by the settings; it rehearses with scratch files of the store."""
     limits = Limits(settings.job_memory_bytes, settings.job_cpus)
     return ProcessExecutor(limits=limits, rehearse=partial(rehearse, store.blobs), at_once=settings.workers)
 
@@ -175,14 +175,14 @@ async def known_caller(request: Request) -> Caller:
     try:
         caller = caller_of(request, services.keys, open_to_all=not services.settings.needs_keys)
     except Problem:
-        services.rate_limit.count(address)  # whoever guesses keys is held up, too
+        services.rate_limit.count(address)  # limits guesses of keys, too
         raise
     services.rate_limit.count(caller.key.id if caller.key else address)
     return caller
 
 
 async def context_of(request: Request) -> RequestContext:
-    """Open what belongs to whoever asks.
+    """Open what belongs to the caller.
 
     Raises
     ------

@@ -116,7 +116,7 @@ class Database:
         return outcome
 
     def close(self) -> None:
-        """Finish what waits, and let go of the database."""
+        """Finish what waits, and close the database."""
         if self._writer.is_alive():
             self._waiting.put(None)
             self._writer.join()
@@ -173,7 +173,7 @@ def insert_if_new(connection: Connection, table: Table, values: Mapping[str, obj
 
 
 def lock_in_turn(connection: Connection, about: str) -> None:
-    """Wait until nobody else who writes is about the same; SQLite's writers take turns anyway."""
+    """Wait until no other transaction writes about the same; SQLite allows one writer anyway."""
     if connection.dialect.name == "postgresql":
         connection.execute(
             text("SELECT pg_advisory_xact_lock(hashtextextended(:about, 0))"), {"about": about}

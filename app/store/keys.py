@@ -1,4 +1,4 @@
-"""Keep API keys: who holds one is known by its hash, and nobody can read the key itself back.
+"""Keep the hashes of API keys, from which no key can be read back.
 
 A key is 32 random bytes, so that a plain hash of it is as safe as a slow one: there is nothing to guess.
 """

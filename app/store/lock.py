@@ -1,6 +1,6 @@
 """Let one service at a time use a data directory: two would each remove what the other is receiving.
 
-The system lets go of the lock when the service dies, however it dies.
+The system releases the lock however the service dies.
 """
 
 import fcntl
@@ -31,5 +31,5 @@ class DirectoryLock:
             raise DirectoryInUse(str(directory)) from None
 
     def release(self) -> None:
-        """Let go of it."""
+        """Release it."""
         os.close(self._file)

@@ -71,12 +71,12 @@ class NewJob:
 
     @cached_property
     def digest(self) -> str:
-        """Tell requests apart."""
+        """Give the hash that distinguishes requests."""
         return hashlib.sha256(self.document).hexdigest()
 
     @cached_property
     def fingerprint(self) -> str:
-        """Tell results apart."""
+        """Give the hash that distinguishes results."""
         return hashlib.sha256(b"[%b,%b]" % (canonical_json(VERSION), self.document)).hexdigest()
 
 

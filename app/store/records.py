@@ -98,5 +98,5 @@ class JobRecord:
 
     @property
     def finished(self) -> bool:
-        """Tell whether the state is final."""
+        """Return whether the state is final."""
         return self.state not in UNFINISHED

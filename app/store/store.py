@@ -56,16 +56,16 @@ class Store:
         )
 
     def close(self) -> None:
-        """Let go of the database."""
+        """Close the database."""
         self.database.close()
 
     def keep_result(self, held: Held, result: bytes, traces: Path | None = None) -> bool:
-        """Keep a job's result document, and say whether whoever computed it still held the job.
+        """Keep a job's result document, and say whether its worker still held the job.
 
         Parameters
         ----------
         traces
-            File of what was computed instant by instant; where it is not there, the result stands alone.
+            File of the torques and residuals of every sample; the result is kept alone where there is none.
         """
         sha256, size = self.blobs.put(result), len(result)
         if traces is None or not traces.exists():
@@ -101,7 +101,7 @@ class Store:
         return self.database.read(lambda connection: list(connection.execute(query).scalars()))
 
     def needs(self, sha256: str) -> bool:
-        """Tell whether a record needs the bytes of a hash."""
+        """Return whether a record needs the bytes of a hash."""
 
         def work(connection: Connection) -> bool:
             users = (exists().where(column == sha256) for column in (LOGS.c.sha256, *BYTES_OF_JOBS))

@@ -1,7 +1,7 @@
 """Let workers take jobs of all tenants and report on them, each under the token it was given.
 
-A job that is taken again gets a new token, so that whoever held it before, frozen or cut off meanwhile, can
-change nothing any more. Source: Kleppmann, Designing Data-Intensive Applications (2017), ch. 8, on fencing.
+A job that is taken again gets a new token, so that the worker that held it before can change nothing any
+more. Source: Kleppmann, Designing Data-Intensive Applications (2017), ch. 8, on fencing.
 """
 
 import json
@@ -103,14 +103,14 @@ class WorkStore:
         return self._change(held, WAITING | {"attempts": JOBS.c.attempts - 1})
 
     def retry_or_fail(self, held: Held, problem: Document, *, beat: int | None = None) -> bool:
-        """Let a job whose computation died wait again; where that happened too often, it fails.
+        """Let a job whose computation died wait again; it fails if that has happened too often.
 
         Parameters
         ----------
         problem
             Why it fails, where it does.
         beat
-            What its owner has shown of life; None to bury it whatever that is.
+            The heartbeats that its owner has sent; None to ignore them.
         """
         there = _held(held) if beat is None else and_(_held(held), JOBS.c.beat == beat)
         failed = {"state": "failed", "problem": json.dumps(problem), "finished_at": now()}

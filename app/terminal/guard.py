@@ -1,6 +1,6 @@
 """Load commands when they are asked for, and turn whatever stops one into words and an exit code.
 
-A command that needs no solver does not wait for it, and nobody but us reads a traceback.
+A command that needs no solver does not wait for it, and no user sees a traceback.
 """
 
 import errno
@@ -16,7 +16,7 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from ...core.errors import VeritorqueError
-from .interruption import let_commands_hear
+from .interruption import raise_interrupts
 from .output.exit_codes import Exit, exit_of, exit_of_error
 from .output.streams import complain, note
 
@@ -38,7 +38,7 @@ class Commands(TyperGroup):
         loaded = get_command(commands)
         found = getattr(loaded, "commands", {}).get(cmd_name, loaded)
         found.name = cmd_name
-        let_commands_hear()
+        raise_interrupts()
         return found
 
     def make_context(self, *arguments: Any, **more: Any) -> Any:  # noqa: ANN401  # typer's own, private
@@ -64,7 +64,7 @@ def guarded() -> Iterator[None]:
         note("interrupted")
         raise typer.Exit(Exit.INTERRUPTED) from None
     except BrokenPipeError:
-        raise typer.Exit(Exit.DONE) from None  # whoever read has read enough
+        raise typer.Exit(Exit.DONE) from None  # the reader has closed the pipe
     except Exception as error:
         if _is_typers(error):
             raise
@@ -107,5 +107,5 @@ def _other(error: Exception) -> Exit:
 
 
 def _is_typers(error: Exception) -> bool:
-    """Tell whether typer itself wants to end or to complain about the command line."""
+    """Return whether an error is one that typer handles itself."""
     return type(error).__module__.split(".")[0] in {"typer", "click"}

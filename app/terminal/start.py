@@ -1,6 +1,6 @@
-"""Start the command line so early that it answers whoever interrupts it while it is being loaded.
+"""Start the command line so early that Ctrl-C is handled while modules are being loaded.
 
-Until it hears Ctrl-C it loads next to nothing. It gives every stream a place of its own: where one was
+Until the handler is set it loads next to nothing. It gives every stream a place of its own: where one was
 closed, its number would otherwise go to the next file that is opened.
 """
 
@@ -14,7 +14,7 @@ class Closed(io.RawIOBase):
     """Stand for a standard output that was closed: whatever is written to it is refused, as by the system."""
 
     def writable(self) -> bool:
-        """Tell that this is where results go."""
+        """Return that it can be written to, as for any standard output."""
         return True
 
     def write(self, _content: object) -> int:
@@ -31,9 +31,9 @@ class Closed(io.RawIOBase):
 def main() -> None:
     """Run the command line."""
     try:
-        from .interruption import hear_from_the_start
+        from .interruption import handle_interrupts_early
 
-        hear_from_the_start()
+        handle_interrupts_early()
     except KeyboardInterrupt:
         os._exit(130)
     _hold_streams()

@@ -1,4 +1,4 @@
-"""Tell linear algebra how many threads it may use, before it is loaded."""
+"""Limit the threads of linear algebra, before it is loaded."""
 
 import os
 

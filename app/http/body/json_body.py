@@ -110,7 +110,7 @@ def check(model: type[Model], document: object) -> Model:
         return model.model_validate(document, strict=True)
     except ValidationError as error:
         complaints = error.errors(include_url=False, include_context=False)
-        raise invalid({**one, "loc": ("body", *one["loc"])} for one in complaints) from None
+        raise invalid({**error, "loc": ("body", *error["loc"])} for error in complaints) from None
 
 
 def invalid(errors: Iterable[object]) -> Problem:

@@ -96,7 +96,7 @@ def internal_error() -> Problem:
     """Report an error of the service itself."""
     return Problem(
         "internal",
-        "the computation met a mistake of the service",
+        "the computation failed with an internal error",
         remedy="report it; the service's own log holds the details",
     )
 

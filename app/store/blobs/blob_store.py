@@ -1,7 +1,7 @@
 """Define what a blob store does, whatever it keeps its bytes in.
 
 A blob is whole or not there, and is named by its SHA-256, which is computed here and never taken from a
-client. Equal bytes are kept once. Whoever needs a file, as readers of logs do, asks for a local copy.
+client. Equal bytes are kept once. Readers of logs need a file, and ask for a local copy.
 """
 
 import hashlib

@@ -97,7 +97,7 @@ class FileBlobStore(BlobStore):
 
 
 def _is_in_use(path: Path) -> bool:
-    """Tell whether a living process holds a file or folder that is being received."""
+    """Return whether a living process holds a file or folder that is being received."""
     try:
         opened = os.open(path, os.O_RDONLY)
     except FileNotFoundError:  # it was kept or removed meanwhile

@@ -30,7 +30,7 @@ def create(
     scopes: ScopesOption = "read,write",
 ) -> None:
     """Create a key and print its secret, which is not stored and cannot be shown again."""
-    wanted = tuple(one.strip() for one in scopes.split(",") if one.strip())
+    wanted = tuple(scope.strip() for scope in scopes.split(",") if scope.strip())
     unknown = sorted(set(wanted) - set(SCOPES))
     if unknown or not wanted:
         stop(f"there is no scope {', '.join(unknown) or '(none)'}; the scopes are {', '.join(SCOPES)}")
@@ -43,9 +43,9 @@ def create(
 def list_keys() -> None:
     """List all keys: id, tenant, name, scopes, and since when they are valid or were revoked."""
     with _keys() as keys:
-        for one in keys.all():
-            since = f"revoked {one.revoked_at}" if one.revoked_at else f"since {one.created_at}"
-            say(f"{one.id}  {one.tenant}  {one.name}  {','.join(one.scopes)}  {since}")
+        for record in keys.all():
+            since = f"revoked {record.revoked_at}" if record.revoked_at else f"since {record.created_at}"
+            say(f"{record.id}  {record.tenant}  {record.name}  {','.join(record.scopes)}  {since}")
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque keys revoke 3f2a91")

@@ -3,9 +3,9 @@
 import pytest
 
 from tests.app.conftest import assert_problem, service
+from tests.app.http.test_contract import PROMISED
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import StubExecutor
-from tests.app.http.test_contract import PROMISED
 from veritorque.app.store.keys import KeyStore
 
 CSV = {"Content-Type": "text/csv"}

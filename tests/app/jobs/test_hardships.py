@@ -121,7 +121,7 @@ def test_a_locked_database_is_a_problem_that_says_so_and_a_retry_succeeds(tmp_pa
 
 
 def test_a_worker_hands_back_what_the_database_gave_it_without_its_knowing(tmp_path, log_bytes, monkeypatch):
-    monkeypatch.setattr(worker_module, "BEAT_EVERY_S", 0.1)
+    monkeypatch.setattr(worker_module, "HEARTBEAT_S", 0.1)
     with service(tmp_path) as client:
         free(client)
         claim, cut = client.app.state.services.store.work.claim, threading.Event()

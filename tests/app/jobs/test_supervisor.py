@@ -51,9 +51,9 @@ def until(reached, seconds=20.0):
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    monkeypatch.setattr(module, "LOOK_EVERY_S", 0.02)
+    monkeypatch.setattr(module, "POLL_S", 0.02)
     monkeypatch.setattr(module, "PAUSES_S", (0.0, 0.02))
-    monkeypatch.setattr(module, "PARTING_S", 1.0)
+    monkeypatch.setattr(module, "END_S", 1.0)
 
 
 def test_a_worker_that_is_ready_says_so():

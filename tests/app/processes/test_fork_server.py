@@ -22,14 +22,14 @@ ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture
-def standby():
+def pool():
     kept = ProcessPool(lambda: Child(CONTEXT, work.answer))
     yield kept
     kept.close()
 
 
-def asked(standby):
-    with standby.child() as child:
+def asked(pool):
+    with pool.child() as child:
         child.pipe.send("who are you")
         return child.pipe.recv()
 
@@ -43,28 +43,28 @@ def alive(process):
     return True
 
 
-def test_every_task_has_a_process_of_its_own(standby):
-    standby.prepare(1)
-    assert len({asked(standby) for _ in range(3)}) == 3
+def test_every_task_has_a_process_of_its_own(pool):
+    pool.prepare(1)
+    assert len({asked(pool) for _ in range(3)}) == 3
 
 
-def test_a_process_is_there_before_its_task(standby):
-    coming = standby.prepare(1)[0].result()
+def test_a_process_is_there_before_its_task(pool):
+    coming = pool.prepare(1)[0].result()
     assert coming.alive
-    assert asked(standby) == coming._process.pid
+    assert asked(pool) == coming._process.pid
 
 
-def test_a_waiting_process_that_died_costs_no_task(standby):
-    coming = standby.prepare(1)[0].result()
+def test_a_waiting_process_that_died_costs_no_task(pool):
+    coming = pool.prepare(1)[0].result()
     os.kill(coming._process.pid, signal.SIGKILL)
     coming.exit_code()
-    assert asked(standby) > 0
-    assert asked(standby) > 0
+    assert asked(pool) > 0
+    assert asked(pool) > 0
 
 
-def test_as_many_tasks_at_once_as_were_prepared_for_find_processes_and_more_get_them(standby):
-    standby.prepare(2)
-    with standby.child() as one, standby.child() as other, standby.child() as third:
+def test_as_many_tasks_at_once_as_were_prepared_for_find_processes_and_more_get_them(pool):
+    pool.prepare(2)
+    with pool.child() as one, pool.child() as other, pool.child() as third:
         pids = set()
         for child in (one, other, third):
             child.pipe.send("")
