@@ -1,4 +1,4 @@
-"""Compose the result document of a diagnosis: the identification's, what it gets wrong, why, and the cure.
+"""Compose the result document of a diagnosis: identification, findings, and corrections.
 
 Names are those that clients are written against; fields may be added, never renamed. What a figure needs is
 in the document, so that a report can be drawn from it alone, at any time.
@@ -23,7 +23,7 @@ from .repairs import repaired_description
 
 
 def diagnosis_document(found: Extension, *, version: str, options: object) -> dict[str, object]:
-    """Compose the document; what is said of the robot in it is of the model as it was before the cure."""
+    """Compose the document; its identification is that of the model before the correction."""
     document = identification_document(found.before, version=version, options=options)
     doubted = {"doubts": [*cast("list[str]", document["doubts"]), *_doubts(found.compared)]}
     return document | doubted | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}

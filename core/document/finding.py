@@ -18,8 +18,8 @@ def finding_row(finding: Finding) -> dict[str, object]:
         "parameters": [_quantity(one) for one in finding.quantities],
         "explained_residual_fraction": finding.explained_fraction,
         "evidence": finding.evidence,
-        "ambiguous_with": [_rival(one) for one in finding.ambiguous_with],
-        "refuted": [_rival(one) for one in finding.refuted if _meets(one, finding)],
+        "ambiguous_with": [_alternative(one) for one in finding.ambiguous_with],
+        "refuted": [_alternative(one) for one in finding.refuted if _concerns(one, finding)],
         "gain": None if finding.gain is None else _gain(finding.gain),
         "curve": None if finding.curve is None else _curve(finding.curve),
     }
@@ -58,9 +58,9 @@ def percent_of(deviation: float, value: float) -> float | None:
     return 100.0 * deviation / abs(value) if value else None
 
 
-def _meets(rival: Alternative, finding: Finding) -> bool:
-    """Tell whether a rival could explain the same trace: what acts on other joints only is no rival."""
-    return not rival.joints or bool(set(rival.joints) & set(finding.joints))
+def _concerns(alternative: Alternative, finding: Finding) -> bool:
+    """Decide whether an alternative acts on a joint of the finding, or on the whole robot."""
+    return not alternative.joints or bool(set(alternative.joints) & set(finding.joints))
 
 
 def _quantity(one: Quantity) -> dict[str, object]:
@@ -74,7 +74,7 @@ def _quantity(one: Quantity) -> dict[str, object]:
     }
 
 
-def _rival(one: Alternative) -> dict[str, object]:
+def _alternative(one: Alternative) -> dict[str, object]:
     joints: Site = one.joints
     return {
         "cause": one.cause,

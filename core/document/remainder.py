@@ -1,4 +1,4 @@
-"""Write what a diagnosis leaves over: what it follows, how much is predictable at all, how low noise goes."""
+"""Write the unexplained residual of a diagnosis: dependences, explainable variance, noise floor."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from ..diagnosis.residual.atlas import Atlas
 from ..diagnosis.result import Diagnosis, UnnamedPattern
 
 SHOWN_DIGITS = 5
-"""Bins of an atlas are for looking at; more digits would only make the document long."""
+"""Digits of the bins of an atlas, which are for figures."""
 
 
 def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
-    """Say per joint what a generic learner still predicts of the residual, beside the noise floor.
+    """Give the explainable variance of the residual per joint, and the noise floor.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def _pattern(stranger: UnnamedPattern) -> dict[str, object]:
 
 
 def dependence_rows(atlas: Atlas) -> list[dict[str, object]]:
-    """Tabulate the residual that is left over every coordinate of every joint."""
+    """Tabulate the residual over every coordinate of every joint."""
     return [
         {
             "coordinate": one.coordinate,
@@ -63,7 +63,7 @@ def dependence_rows(atlas: Atlas) -> list[dict[str, object]]:
 
 
 def spectrum_rows(atlas: Atlas) -> list[dict[str, object]]:
-    """Tabulate the power density of what is left, and the noise floor's, (N m)^2/Hz, over frequency."""
+    """Tabulate power densities of residual and noise floor, (N m)^2/Hz, over frequency."""
     return [
         {
             "joint": one.joint,

@@ -48,8 +48,8 @@ def parameter_columns(rows: Sequence[Document]) -> list[Column]:
 def score_columns(result: Document) -> list[Column]:
     """Give the error of the predicted torque per joint, fitted and held out."""
     fitted = result["fit"]
-    unseen = {row["joint"]: row for row in result.get("validation") or []}
-    held_out = [unseen.get(row["joint"], {}) for row in fitted]
+    by_joint = {row["joint"]: row for row in result.get("validation") or []}
+    held_out = [by_joint.get(row["joint"], {}) for row in fitted]
     errors = [
         Column(f"{name}: {label}", [percent(row.get(f"nrmse_of_{key}_percent")) for row in rows], spare=spare)
         for name, rows, spare in (("fitted", fitted, 2), ("held out", held_out, 0))

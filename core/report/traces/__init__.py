@@ -1,1 +1,1 @@
-"""Keep what a study computed sample by sample: a model and its motions come in, traces to look at go out."""
+"""Store and read the signals of a study at every sample."""

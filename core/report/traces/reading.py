@@ -1,4 +1,4 @@
-"""Read a few signals of one joint back from a file of traces, a stretch of time of it, thinned for the eye.
+"""Read signals of one joint in a range of time from a file of traces, min/max decimated.
 
 Rows are read by groups and only the columns that are asked for, so that a picture of an hour costs little
 more than one of a minute.
@@ -20,16 +20,16 @@ from ...log.preview import rows_between, thin
 from .layout import HELD_OUT, LOG, SIGNALS, TIME, USED, column
 
 GAP_STEPS = 1.5
-"""Kept instants further apart than this many steps have a gap between them."""
+"""Rows further apart than this many steps have a gap between them."""
 MOST_SPANS = 400
-"""Spans of time beyond which neighbours are told as one."""
+"""Number of spans beyond which neighbours are merged."""
 
 Spans = list[tuple[float, float]]
 
 
 @dataclass(frozen=True)
 class View:
-    """Say what is looked at.
+    """Select signals and a range of time.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class View:
 
 @dataclass(frozen=True, eq=False)
 class Traces:
-    """Carry thinned traces on one time axis.
+    """Hold decimated traces on one time axis.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Traces:
 
 
 def read_traces(path: Path, view: View) -> Traces:
-    """Read what is looked at.
+    """Read the selected signals.
 
     Raises
     ------
@@ -180,7 +180,7 @@ def stretches(time: Samples) -> list[tuple[int, int]]:
 
 
 def _spans(time: Samples, marks: Mask) -> Spans:
-    """Give first and last instant of every run of marks; where they are many, the nearest are joined."""
+    """Give first and last time of every run of marks; if there are many, the nearest are merged."""
     edges = np.flatnonzero(np.diff(marks.astype(np.int8), prepend=0, append=0)).reshape(-1, 2)
     begin, end = time[edges[:, 0]], time[edges[:, 1] - 1]
     if len(edges) > MOST_SPANS:

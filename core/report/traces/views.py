@@ -1,8 +1,8 @@
-"""Show what a model leaves of a joint's torque over position, velocity and frequency, from a file of traces.
+"""Compute a joint's residual over position, velocity and frequency, from a file of traces.
 
 Over a coordinate, rows that count are sorted into bins of nearly equally many: a mean that leaves zero by
 more than its neighbours says that the model lacks something which depends on that coordinate, and the band
-between quantiles says how far single rows stray. Over frequency the density of unbroken runs is averaged.
+between quantiles shows the spread of single rows. Over frequency the density of unbroken runs is averaged.
 Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
 """
 
@@ -31,7 +31,7 @@ LONGEST_RUN, SHORTEST_RUN = 256, 32
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Carry one residual over a coordinate: mean, and the quantiles of `BAND`, per bin."""
+    """Hold one residual over a coordinate: mean, and the quantiles of `BAND`, per bin."""
 
     signal: str
     mean: Vector
@@ -41,7 +41,7 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class OverCoordinate:
-    """Carry residuals over one coordinate, with the bins' medians of it."""
+    """Hold residuals over one coordinate, with the medians of the bins."""
 
     coordinate: str
     unit: str
@@ -51,7 +51,7 @@ class OverCoordinate:
 
 @dataclass(frozen=True, eq=False)
 class Density:
-    """Carry the power density of one residual, its unit squared per Hz; empty where no run is long enough."""
+    """Hold the power density of one residual, its unit squared per Hz; empty if no run is long enough."""
 
     signal: str
     frequency_hz: Vector
@@ -60,7 +60,7 @@ class Density:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """Hold what is left of one joint's torque, over what it may depend on.
+    """Hold the residual of one joint over coordinates and frequency.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ def read_views(path: Path, *, log: int, joint: int) -> Views:
             raise ExcitationError(
                 f"too few instants count for joint {joint}",
                 evidence={"instants": int(used.sum()), "at_least": 2 * FEWEST_IN_BIN},
-                remedy="look at another joint, or record a motion of this one",
+                remedy="choose another joint, or record a motion of this one",
             )
         over = tuple(
             _over(
@@ -119,7 +119,7 @@ def _over(name: str, unit: str, values: Samples, residual: dict[str, Samples], u
 
 
 def _runs(time: Samples, used: Mask) -> Iterator[slice]:
-    """Give the unbroken runs of rows that count."""
+    """Give the unbroken runs of rows used."""
     for start, stop in stretches(time):
         borders = np.flatnonzero(np.diff(used[start:stop].astype(np.int8), prepend=0, append=0)) + start
         for begin, end in list(pairwise(borders.tolist()))[::2]:

@@ -1,4 +1,4 @@
-"""Write motion, torque and residual of every joint at the kept instants as Parquet, tile after tile.
+"""Write motion, torque and residual of every joint at the samples used as Parquet, tile after tile.
 
 A last pass over the logs with the parameters that were found; of it no more is held than one group of rows,
 so that an hour of motion takes no more memory than a minute. Torque and residual are those that the fit saw:
