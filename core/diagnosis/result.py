@@ -94,7 +94,8 @@ class Gain:
 class Finding:
     """Name one cause with everything that supports it.
 
-    `proven` says that an identification with it has surely predicted unseen motion better.
+    `predictors` is what its confidence was computed from, None of a sample check. `proven` says that an
+    identification with it has surely predicted held-out motion better.
     """
 
     cause: str
@@ -112,6 +113,7 @@ class Finding:
     gain: Gain | None
     curve: Curve | None
     member: Candidate | None
+    predictors: tuple[float, float, float] | None = None
     proven: bool = False
 
 

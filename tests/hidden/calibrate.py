@@ -1,9 +1,10 @@
 """Fit the confidence of findings on one set of seeds, check it on another, and write it for the code to read.
 
-Run ``python -m tests.hidden calibrate --fit 41 42 --check 43 --cases 100 --write``. Every drawn log is diagnosed
-once; each finding gives its predictors and whether it was right, by its own name or as one it cannot tell
-apart. Sources: Platt, Advances in Large Margin Classifiers (1999), for the logistic form; Brier, Monthly
-Weather Review 78 (1950); DeGroot & Fienberg, The Statistician 32 (1983), for reliability.
+Run ``python -m tests.hidden calibrate --fit 41 42 --check 43 --cases 100 --write``. Every drawn log is
+diagnosed once. Each finding gives its predictors and whether it was right: by its own name, or as one of the
+causes that it is undecided with.
+Sources: Platt, Advances in Large Margin Classifiers (1999), for the logistic form; Brier, Monthly Weather
+Review 78 (1950); DeGroot & Fienberg, The Statistician 32 (1983), for reliability.
 """
 
 import argparse
@@ -12,6 +13,7 @@ import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from itertools import pairwise
 from multiprocessing import get_context
 
 import numpy as np
@@ -72,7 +74,7 @@ def reliability(model: Calibration, samples: Sequence[Sample]) -> list[dict[str,
     sure = np.array([probability(model, one.predictors) for one in samples])
     right = np.array([one.right for one in samples])
     rows = []
-    for low, high in zip(BINS[:-1], BINS[1:], strict=True):
+    for low, high in pairwise(BINS):
         inside = (sure >= low) & (sure < high)
         if inside.any():
             mean, share = float(sure[inside].mean()), float(right[inside].mean())

@@ -16,7 +16,7 @@ from ..search.residuals import residual
 from ..search.state import SearchState
 from ..thresholds.checks import CONFIDENCE
 from .alternatives import Comparison
-from .confidence import confidence
+from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
 
@@ -44,6 +44,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     measured = gain(left[0], left[1], mask, dataset.block_of_all, joints)
     log_p = log_p_of(fitter, chosen, place, own.statistic)
     margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
+    evidence = predictors(own.statistic, margin, measured)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -51,7 +52,8 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         cure=cause.cure,
         statement=cause.statement(solved),
         quantities=cause.quantities(solved),
-        confidence=confidence(own.statistic, margin, measured),
+        confidence=confidence(evidence),
+        predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_explained(left, dataset.usable & ~dataset.held_out[:, None], joints),
         evidence=(*_evidence(own, log_p, member.trials), *_on_holdout(fitter, chosen, place, own)),
@@ -137,6 +139,7 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
         gain=None,
         curve=None,
         member=None,
+        predictors=None,
     )
 
 

@@ -83,8 +83,8 @@ class Unnamed:
 class Confidence:
     """Turn a finding's evidence into a probability that its cause is the right one.
 
-    Form: Platt, Advances in Large Margin Classifiers (1999). The coefficients were set on simulated logs with
-    known causes, and checked on others.
+    Form: Platt, Advances in Large Margin Classifiers (1999). The coefficients stand in
+    `checks/confidence.json`, which `tests.hidden calibrate` writes.
     """
 
     certain: float = 0.99
@@ -99,14 +99,6 @@ class Confidence:
     """Smallest lead over the alternatives, in units of an undecided difference."""
     most_lead: float = 4.0
     """Largest lead, in the same units."""
-    offset: float = 0.6
-    """Log odds at no strength and no lead."""
-    per_strength: float = 0.7
-    """Log odds per unit of strength."""
-    per_lead: float = 0.8
-    """Log odds per unit of lead."""
-    per_gain: float = 0.5
-    """Log odds for a gain on held-out rows, and against one for a loss."""
 
 
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()
