@@ -20,7 +20,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery hostile fuzz contract chaos life image-test bench lock openapi reference docs
+.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery ablate hostile fuzz contract chaos life image-test bench lock openapi reference docs
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -76,6 +76,9 @@ hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis (S
 
 battery: $(READY) ## the whole examination of the diagnosis: every cause 20 times, 300 clean logs (SEED=n; hours)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --battery
+
+ablate: $(READY) ## halve and double every threshold of the diagnosis and count changed answers (SEED=n CASES=m ONLY=GROUP.FIELD; hours)
+	$(RUN) -m tests.hidden ablate --seed $(or $(SEED),1) --cases $(or $(CASES),20) $(if $(ONLY),--only $(ONLY))
 
 hostile: $(READY) ## send every hostile file to the service and print how each was treated
 	$(RUN) -m tests.hostile

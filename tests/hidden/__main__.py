@@ -1,7 +1,8 @@
 """Draw hidden effects afresh, ask for their diagnosis on two processes, and print how it went.
 
 Run ``make hidden SEED=3 CASES=60``, with STRENGTH, CAUSE or KIND (single, combination, clean, foreign) to
-look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours.
+look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours. ``make ablate
+SEED=3 CASES=20`` halves and doubles every threshold of the diagnosis instead, and counts changed answers.
 """
 
 import argparse
@@ -10,6 +11,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
+from tests.hidden import ablate
 from tests.hidden.plan import KINDS, Order, battery, orders, run
 from tests.hidden.score import Score
 from tests.hidden.tables import tables
@@ -18,6 +20,8 @@ from tests.plant.effects.registry import EFFECTS
 
 def main() -> int:
     """Run, and print every miss as it comes and the tables at the end."""
+    if sys.argv[1:2] == ["ablate"]:
+        return ablate.main(sys.argv[2:])
     asked = _arguments()
     begun = time.monotonic()
     listed = _listed(asked)

@@ -57,7 +57,7 @@ class Unnamed:
     most_seconds: float = 60.0
     """Seconds that it counts for at most: what is slower is drift. Set by hand."""
     least_rows: int = 200
-    """Usable rows of a joint from which on its residual is judged. Set by hand."""
+    """Usable rows of a joint (for a burst: outside it) from which on it is judged. Set by hand."""
     least_changes: int = 2
     """Changes of level from which on a torque is called switching. Set by hand."""
     most_log_trials: float = 600.0
@@ -90,7 +90,7 @@ class Confidence:
     certain: float = 0.99
     """Probability, the highest that is reported. Set by hand."""
     clear_statistic: float = 25.0
-    """Likelihood ratio at which the strength is 0; from twice that on it grows by 1 each."""
+    """Likelihood ratio at which the strength is 0; each further one of that size adds 1."""
     least_strength: float = -1.0
     """Smallest strength."""
     most_strength: float = 2.0
