@@ -112,6 +112,7 @@ COMMANDS = Quantity(
     "1",
     (
         Unit("1", (0.0, inf), "a command is a number on the scale of its drive"),
+        Unit("V", (0.01, 500.0), "a drive takes a command of some volts"),
         Unit("%", (1.0, 300.0), "a command is some per cent of the drive's rated value", 0.01),
     ),
 )
