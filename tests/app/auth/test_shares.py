@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_jobs import another, asked
 from tests.app.planar_arm import csv_log, description
-from veritorque.app.auth.rate_limit import BURST_S
+from veritorque.app.auth.rate_limit import BURST_S, RateLimit
 from veritorque.app.http import disk_reserve as disk
 from veritorque.app.problems import Problem
 

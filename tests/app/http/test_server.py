@@ -335,7 +335,7 @@ def test_no_refusal_stands_in_the_midst_of_a_stream(tmp_path, log_bytes):
 def test_an_upload_that_does_not_end_before_the_service_stops_is_told(
     tmp_path, log_bytes, caplog, monkeypatch
 ):
-    monkeypatch.setattr(listening, "LAST_WORD_S", 2.0)
+    monkeypatch.setattr(listening, "REFUSE_AFTER_S", 2.0)
     upload = upload_head(len(log_bytes)) + log_bytes
     with listening_service(tmp_path) as (server, port), connected(port) as slow, connected(port) as quick:
         slow.sendall(upload[:-10])

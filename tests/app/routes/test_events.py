@@ -11,7 +11,7 @@ import pytest
 from tests.app.conftest import assert_problem, service
 from tests.app.http.test_server import listening_service
 from veritorque.app.routes import events
-from veritorque.app.services.job_feed import LOOK_EVERY_S
+from veritorque.app.services.job_feed import POLL_S
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
 
@@ -145,7 +145,7 @@ def test_many_who_follow_share_one_look_at_the_database(tmp_path, computing, mon
             thread.join()
     assert heard == 20 * [["progress", "end"]]
     assert set(asked) == {(("local", job.id),)}
-    assert looks <= 1.5 / LOOK_EVERY_S  # one look for all at a time, not one for each of twenty
+    assert looks <= 1.5 / POLL_S  # one look for all at a time, not one for each of twenty
 
 
 def test_a_key_of_another_tenant_follows_nothing(tmp_path, computing):
