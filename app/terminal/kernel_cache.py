@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-COMPILING = "about 40 s"
+COMPILING = "about 20 s"
 """Of processor time, measured with nothing compiled yet; more by the clock where a machine is busy."""
 BESIDE_THE_CODE = Path(__file__).parents[2] / "core" / "regressor" / "__pycache__"
 

@@ -10,8 +10,9 @@ Sources: Burg 1975 (reflections); Golub & Van Loan, Matrix Computations, ch. 4.3
 import numpy as np
 from numba import njit
 
-_EXACT = {"nogil": True, "cache": True, "error_model": "numpy"}
+_EXACT = {"nogil": True, "cache": True, "no_cfunc_wrapper": True, "error_model": "numpy"}
 _SUMS = {**_EXACT, "fastmath": {"contract", "nsz", "arcp", "reassoc"}}
+_PART = {**_SUMS, "cache": False, "no_cpython_wrapper": True}
 
 
 @njit("int64(float64[::1], int64[::1], float64, int64, float64[:,::1], float64[::1])", **_SUMS)
@@ -105,7 +106,7 @@ def banded(sizes, columns, begins, many):  # pragma: no cover  (compiled)
     return products
 
 
-@njit(**_SUMS)
+@njit(**_PART)
 def _new_of(row, known, columns, weights):
     """Give what is new in one row of columns, of which so many rows before it are not zero."""
     new = np.zeros(columns.shape[1])
@@ -115,7 +116,7 @@ def _new_of(row, known, columns, weights):
     return new
 
 
-@njit(**_SUMS)
+@njit(**_PART)
 def _add_row(row, known, rows, sums, products):
     """Add the products of one row of columns, of which so many rows before it are not zero."""
     columns, place, weights, left, fitted, sizes, loose, begins = rows
@@ -135,7 +136,7 @@ def _add_row(row, known, rows, sums, products):
             products[loose[at], one] += sizes[at] * white[one]
 
 
-@njit(**_SUMS)
+@njit(**_PART)
 def _solve(products, factor, low, high):
     """Turn products with some loose columns into products with orthonormal ones that span the same."""
     width = products.shape[1]
@@ -147,7 +148,7 @@ def _solve(products, factor, low, high):
                 products[column + beyond, one] -= factor[column, beyond] * products[column, one]
 
 
-@njit(**_SUMS)
+@njit(**_PART)
 def _take_spanned(sums, products, inside, low, high):
     """Take out what some orthonormal columns span, of which the products with them are given."""
     _, _, grams, cross = sums
@@ -161,7 +162,18 @@ def _take_spanned(sums, products, inside, low, high):
                 cross[fitted, one] -= inside[column, fitted] * products[column, one]
 
 
-@njit(**_SUMS)
+@njit(**_PART)
+def _copy_sums(sums, own):
+    """Write sums over rows into a table's places for them; numba compiles loops sooner than slices."""
+    for one in range(len(sums[0])):
+        own[0][one], own[1][one] = sums[0][one], sums[1][one]
+        for other in range(len(sums[0])):
+            own[2][one, other] = sums[2][one, other]
+        for fitted in range(len(sums[3])):
+            own[3][fitted, one] = sums[3][fitted, one]
+
+
+@njit(**_PART)
 def _ranges(rows, factor):
     """Give the lowest loose column that acts from each row on, one above the highest before it; and groups.
 
@@ -235,8 +247,10 @@ def sum_begun(rows, factor, inside, first, products):  # pragma: no cover  (comp
         _take_spanned(sums, seen, inside, high, known)
         known = min(known, high)
         own = (products[0][number], products[1][number], products[2][number], products[3][number])
-        own[0][:], own[1][:], own[2][:], own[3][:] = sums
-        parts[low:high] = seen[low:high]
+        _copy_sums(sums, own)
+        for column in range(low, high):
+            for one in range(width):
+                parts[column, one] = seen[column, one]
         for row in range(begin, summed):
             _add_row(row, min(rows[1][row], most, row - begin), rows, own, parts)
         _solve(parts, factor, low, high)

@@ -167,7 +167,14 @@ def _add(out, slots, torque, scale, begin, count):
                 out[target, begin + s] += scale * torque[k, s]
 
 
-@njit(_SIGNATURE, nogil=True, cache=True, fastmath={"contract", "nsz", "arcp"}, error_model="numpy")
+@njit(
+    _SIGNATURE,
+    nogil=True,
+    cache=True,
+    no_cfunc_wrapper=True,
+    fastmath={"contract", "nsz", "arcp"},
+    error_model="numpy",
+)
 def rigid_body_series(  # pragma: no cover  (compiled)
     position,
     velocity,

@@ -15,7 +15,8 @@ from ..dynamics.term import Term
 from ..dynamics.terms.link_parameters import LinkChange
 from ..dynamics.terms.payload_change import Payload
 from ..dynamics.terms.rigid_body import RigidBody
-from .inverse import Bodies, bodies_of
+from .forward import Bodies
+from .inverse import bodies_of
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,22 +11,32 @@ place. A matrix that is not positive definite leaves nan behind. Source: Golub &
 import numpy as np
 from numba import njit
 
+PART = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+"""Only compiled functions call these, so that they need no way in from Python."""
+INLINE = {
+    **PART,
+    "forceinline": True,
+    "fastmath": {"contract", "nsz", "arcp"},
+    "error_model": "numpy",
+}
+"""LLVM puts such functions into their callers. numba's own `inline` would translate them once per call."""
 
-@njit(inline="always")
+
+@njit(**INLINE)
 def less(out, row, table, other, factor, count):
     """Subtract a multiple of a row of another table."""
     for s in range(count):
         out[row, s] -= factor * table[other, s]
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def less_product(out, row, one, left, other, right, count):
     """Subtract the product of two rows."""
     for s in range(count):
         out[row, s] -= one[left, s] * other[right, s]
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def less_mass_times(out, mass, vector, joints, count):
     """Subtract the mass matrix times a vector."""
     for i in range(joints):
@@ -35,7 +45,7 @@ def less_mass_times(out, mass, vector, joints, count):
             less_product(out, np.uintp(i), mass, np.uintp(row), vector, np.uintp(j), count)
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def factorise(mass, scale, joints, count):
     """Turn the lower triangle into its Cholesky factor; `scale` gets one over its diagonal."""
     for j in range(joints):
@@ -52,7 +62,7 @@ def factorise(mass, scale, joints, count):
                 mass[own, s] *= scale[np.uintp(j), s]
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def substitute(vector, factor, scale, joints, count):
     """Solve with the Cholesky factor in place."""
     for i in range(joints):
@@ -67,7 +77,7 @@ def substitute(vector, factor, scale, joints, count):
             vector[np.uintp(i), s] *= scale[np.uintp(i), s]
 
 
-@njit
+@njit(**PART)
 def solve_one(vector, factor, scale, s, joints):
     """Solve one state's equations in place."""
     for i in range(joints):

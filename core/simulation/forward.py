@@ -11,42 +11,46 @@ factorisation, and friction where something is at rest. Source: Featherstone 200
 import numpy as np
 from numba import njit
 
-from .factor import factorise, less, less_mass_times, substitute
+from .factor import INLINE, factorise, less, less_mass_times, substitute
 from .hold import hold_block
 from .kernel import BLOCK, OPTIONS, ROBOT, mass_of_block, move_block, scratch, torque_of_block
 
 _TABLE = "float64[:,::1]"
+_NONE = np.empty((0, 0))
+
+Bodies = tuple[np.ndarray, ...]
+"""What the kernels need of a robot, in the order of `kernel.ROBOT`."""
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _take(block, table, begin, count):
     for row in range(len(table)):
         for s in range(count):
             block[row, s] = table[row, begin + s]
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _raise(out, row, value, count):
     """Add a number to a row."""
     for s in range(count):
         out[row, s] += value
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _raise_by(out, row, times, factor, begin, count):
     """Add a multiple of a time per state."""
     for s in range(count):
         out[row, s] += times[begin + s] * factor
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _slide(out, row, direction, level, weight, begin, count):
     """Subtract the friction of what slides."""
     for s in range(count):
         out[row, s] -= weight * (direction[begin + s] * level[begin + s])
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _give(table, block, begin, count):
     """Copy a block's rows to where they belong."""
     for row in range(len(table)):
@@ -54,7 +58,7 @@ def _give(table, block, begin, count):
             table[row, begin + s] = block[row, s]
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _add_drives(out, mass, velocity, inertia, damping, count):
     """Add rotors to the mass matrix, and take viscous friction from the torque."""
     joints = len(inertia)
@@ -66,7 +70,7 @@ def _add_drives(out, mass, velocity, inertia, damping, count):
                 _raise(mass, np.uintp(i * joints + j), inertia[i, j], count)
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _add_implicit(mass, implicit, damping, begin, count):
     """Add to the mass matrix what the damping becomes within the implicit time."""
     joints = len(damping)
@@ -76,17 +80,43 @@ def _add_implicit(mass, implicit, damping, begin, count):
                 _raise_by(mass, np.uintp(i * joints + j), implicit, damping[i, j], begin, count)
 
 
+@njit(f"void({ROBOT}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})", **OPTIONS)
+def _move_masses(  # pragma: no cover  (compiled)
+    robot, position, velocity, acceleration, torque, mass
+):
+    """Write torque and the mass matrix's lower triangle (row i * joints + j) of every state.
+
+    All tables are (rows, states); an empty one is not written.
+    """
+    joints, states = position.shape
+    tables = scratch(len(robot[1]))
+    q, v, a = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
+    out, matrix = np.zeros((joints, BLOCK)), np.empty((joints * joints, BLOCK))
+    for begin in range(0, states, BLOCK):
+        start, many = np.uintp(begin), min(BLOCK, states - begin)
+        _take(q, position, start, np.uintp(many))
+        _take(v, velocity, start, np.uintp(many))
+        _take(a, acceleration, start, np.uintp(many))
+        move_block(robot, tables, q, v, a, many)
+        if len(torque):
+            torque_of_block(robot, tables, out, many)
+            _give(torque, out, start, np.uintp(many))
+        if len(mass):
+            mass_of_block(robot, tables, matrix, joints, many)
+            _give(mass, matrix, start, np.uintp(many))
+
+
 @njit(
-    f"void({ROBOT}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, float64[::1],"
+    f"void({_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, float64[::1],"
     f" {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})",
     **OPTIONS,
 )
-def accelerations(  # pragma: no cover  (compiled)
-    robot,
+def _accelerate(  # pragma: no cover  (compiled)
+    matrices,
+    biases,
     inertia,
     damping,
     weights,
-    position,
     velocity,
     torque,
     known,
@@ -96,28 +126,18 @@ def accelerations(  # pragma: no cover  (compiled)
     rate,
     held,
 ):
-    """Solve (M + implicit D) rate = torque - D v - friction - bias - M known for every state.
-
-    All tables are (rows, states). `weights` has one row per friction element: the speed on which it acts is
-    `weights @ velocity`. `direction` says which way it slides; 0 is at rest, held up to its `level`, and what
-    holds it goes to `held`. An empty `known` is zero. A mass matrix that is not positive
-    definite leaves nan behind.
-    """
-    joints, states = position.shape
-    tables = scratch(len(robot[1]))
-    q, v, still = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
-    other = np.zeros((joints, BLOCK))
-    bias, out, scale = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.empty((joints, BLOCK))
+    """Solve for the accelerations of every state, whose masses and bias `_move_masses` wrote."""
+    joints, states = velocity.shape
+    v, bias, other = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
+    out, scale = np.zeros((joints, BLOCK)), np.empty((joints, BLOCK))
     mass = np.empty((joints * joints, BLOCK))
     for begin in range(0, states, BLOCK):
         start, many = np.uintp(begin), min(BLOCK, states - begin)
         count = np.uintp(many)
-        _take(q, position, start, count)
         _take(v, velocity, start, count)
         _take(out, torque, start, count)
-        move_block(robot, tables, q, v, still, many)
-        torque_of_block(robot, tables, bias, many)
-        mass_of_block(robot, tables, mass, joints, many)
+        _take(bias, biases, start, count)
+        _take(mass, matrices, start, count)
         _add_drives(out, mass, v, inertia, damping, count)
         for i in range(joints):
             less(out, np.uintp(i), bias, np.uintp(i), 1.0, count)
@@ -131,6 +151,39 @@ def accelerations(  # pragma: no cover  (compiled)
         substitute(out, mass, scale, joints, count)
         hold_block(out, mass, scale, weights, direction, level, held, begin, many)
         _give(rate, out, start, count)
+
+
+def accelerations(robot: Bodies, *tables: np.ndarray) -> None:
+    """Solve (M + implicit D) rate = torque - D v - friction - bias - M known for every state.
+
+    Tables are inertia, damping, weights, position, velocity, torque, known, implicit, direction, level, and
+    two to write to: rate, held. All are (rows, states), but the first three and the times `implicit`.
+    `weights` has one row per friction element: the speed on which it acts is `weights @ velocity`.
+    `direction` says which way it slides; 0 is at rest, held up to its `level`, and what holds it goes to
+    `held`. An empty `known` is zero. A mass matrix that is not positive definite leaves nan behind.
+    """
+    position, velocity = tables[3:5]
+    joints, states = position.shape
+    mass, bias = np.empty((joints * joints, states)), np.empty((joints, states))
+    _move_masses(robot, position, velocity, np.zeros((joints, states)), bias, mass)
+    _accelerate(mass, bias, *tables[:3], *tables[4:])
+
+
+def torques(robot: Bodies, *tables: np.ndarray) -> None:
+    """Write the torque that moves the masses, for every state.
+
+    Tables are position, velocity, acceleration, and the torque to write; all are (joints, states).
+    """
+    _move_masses(robot, *tables, _NONE)
+
+
+def mass_matrices(robot: Bodies, position: np.ndarray, matrices: np.ndarray) -> None:
+    """Write the whole mass matrix of every state (states, joints, joints); positions are (joints, states)."""
+    joints, states = position.shape
+    still, mass = np.zeros((joints, states)), np.empty((joints * joints, states))
+    _move_masses(robot, position, still, still, _NONE, mass)
+    lower, upper = np.tril_indices(joints)
+    matrices[:, lower, upper] = matrices[:, upper, lower] = mass[lower * joints + upper].T
 
 
 @njit(f"void({_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS)
@@ -152,37 +205,3 @@ def correct(  # pragma: no cover  (compiled)
             ahead[row, s] = position[row, s] + 0.5 * time[s] * (velocity[row, s] + predicted[row, s])
             speed[row, s] = velocity[row, s] + time[s] * (1.5 * first[row, s] + 0.5 * second[row, s])
             second[row, s] += 2.0 * first[row, s]
-
-
-@njit(f"void({ROBOT}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})", **OPTIONS)
-def torques(robot, position, velocity, acceleration, torque):  # pragma: no cover  (compiled)
-    """Write the torque that moves the masses, for every state; all tables are (joints, states)."""
-    joints, states = position.shape
-    tables = scratch(len(robot[1]))
-    q, v, a = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
-    out = np.zeros((joints, BLOCK))
-    for begin in range(0, states, BLOCK):
-        start, many = np.uintp(begin), min(BLOCK, states - begin)
-        _take(q, position, start, np.uintp(many))
-        _take(v, velocity, start, np.uintp(many))
-        _take(a, acceleration, start, np.uintp(many))
-        move_block(robot, tables, q, v, a, many)
-        torque_of_block(robot, tables, out, many)
-        _give(torque, out, start, np.uintp(many))
-
-
-@njit(f"void({ROBOT}, {_TABLE}, float64[:,:,::1])", **OPTIONS)
-def mass_matrices(robot, position, matrices):  # pragma: no cover  (compiled)
-    """Write the whole mass matrix of every state (states, joints, joints); positions are (joints, states)."""
-    joints, states = position.shape
-    tables = scratch(len(robot[1]))
-    q, still, mass = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.empty((joints * joints, BLOCK))
-    for begin in range(0, states, BLOCK):
-        many = min(BLOCK, states - begin)
-        _take(q, position, np.uintp(begin), np.uintp(many))
-        move_block(robot, tables, q, still, still, many)
-        mass_of_block(robot, tables, mass, joints, many)
-        for i in range(joints):
-            for j in range(joints):
-                for s in range(many):
-                    matrices[begin + s, i, j] = mass[max(i, j) * joints + min(i, j), s]

@@ -12,14 +12,14 @@ projected Gauss-Seidel. Sources: Acary & Brogliato 2008, ch. 12 and 13.
 import numpy as np
 from numba import njit
 
-from .factor import solve_one
+from .factor import INLINE, PART, solve_one
 
 SWEEPS = 2_000
 CLOSE = 1e-13
 """Gauss-Seidel stops when a sweep changes no friction torque by more than this share of its level."""
 
 
-@njit
+@njit(**PART)
 def _settle(coupled, push, level, held):
     """Find friction torques within their levels that leave as little of the push as they can."""
     for _ in range(SWEEPS):
@@ -35,26 +35,43 @@ def _settle(coupled, push, level, held):
             break
 
 
-@njit
+@njit(**PART)
 def _stop(rate, s, weights, resting, held, level):
     """Take from joints that are held what rounding left of their acceleration."""
     for e in resting:
-        if abs(held[e]) < level[e] and np.count_nonzero(weights[e]) == 1:
-            rate[np.flatnonzero(weights[e])[0], s] = 0.0
+        count, only = 0, 0
+        for j in range(weights.shape[1]):
+            if weights[e, j] != 0.0:
+                count, only = count + 1, j
+        if abs(held[e]) < level[e] and count == 1:
+            rate[only, s] = 0.0
 
 
-@njit
+@njit(**PART)
+def _resting(direction, level):
+    """List the frictions that are at rest and can hold."""
+    count = 0
+    resting = np.empty(len(level), np.int64)
+    for e in range(len(level)):
+        if direction[e] == 0.0 and level[e] > 0.0:
+            resting[count] = e
+            count += 1
+    return resting[:count]
+
+
+@njit(**PART)
 def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
     """Keep at rest what friction can keep at rest in one state: changes its accelerations, fills `held`."""
-    resting = np.flatnonzero((direction == 0.0) & (level > 0.0))
+    resting = _resting(direction, level)
     answer = np.empty((len(resting), joints))
     coupled = np.empty((len(resting), len(resting)))
-    push = np.empty(len(resting))
+    push, limit = np.empty(len(resting)), np.empty(len(resting))
     found = np.zeros(len(resting))
     for e in range(len(resting)):
-        answer[e] = weights[resting[e]]
+        for j in range(joints):
+            answer[e, j] = weights[resting[e], j]
         solve_one(answer[e], factor, scale, s, joints)
-        push[e] = 0.0
+        push[e], limit[e] = 0.0, level[resting[e]]
         for j in range(joints):
             push[e] += weights[resting[e], j] * rate[j, s]
         for f in range(e + 1):
@@ -62,7 +79,7 @@ def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
             for j in range(joints):
                 coupled[e, f] += answer[e, j] * weights[resting[f], j]
             coupled[f, e] = coupled[e, f]
-    _settle(coupled, push, level[resting], found)
+    _settle(coupled, push, limit, found)
     for e in range(len(resting)):
         held[resting[e]] = found[e]
         for j in range(joints):
@@ -70,7 +87,7 @@ def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
     _stop(rate, s, weights, resting, held, level)
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def _rests(direction, level, s):
     found = False
     for e in range(len(level)):
@@ -78,7 +95,7 @@ def _rests(direction, level, s):
     return found
 
 
-@njit(inline="always")
+@njit(**INLINE)
 def hold_block(rate, factor, scale, weights, direction, level, held, begin, many):
     """Hold in every state of a block what is at rest and can be held."""
     for s in range(many):

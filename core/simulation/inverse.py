@@ -10,9 +10,7 @@ from ..arrays import JointSeries, LinkTable
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
 from . import forward
-
-Bodies = tuple[np.ndarray, ...]
-"""What the kernels need of a robot, in the order of `kernel.ROBOT`."""
+from .forward import Bodies
 
 
 def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) -> JointSeries:

@@ -209,6 +209,7 @@ ROBOT = (
 OPTIONS = {
     "nogil": True,
     "cache": True,
+    "no_cfunc_wrapper": True,
     "fastmath": {"contract", "nsz", "arcp"},
     "error_model": "numpy",
 }

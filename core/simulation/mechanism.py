@@ -26,7 +26,8 @@ from ..robot.model import Coupling, RobotModel
 from ..signals.state import MotionState
 from . import forward
 from .bodies import Phases, is_body, phases_of
-from .inverse import Bodies, bodies_of, columns
+from .forward import Bodies
+from .inverse import bodies_of, columns
 from .share import Share, share_of
 
 

@@ -66,7 +66,7 @@ def compute(client: Client, kind: str, log: Path, robot: str, console: Console) 
 def demonstrate(arguments: argparse.Namespace, console: Console) -> None:
     """Run the whole story once and print it."""
     if arguments.url is None:
-        console.print("starting the service on loopback; the very first start compiles for about 40 s")
+        console.print("starting the service on loopback; the very first start compiles for about 20 s")
     service = Client(arguments.url) if arguments.url else running_service(arguments.data_dir)
     with service as client:
         console.print(f"service: {client.url}")
