@@ -73,6 +73,7 @@ effort only costs time or memory; a figure is looked at and decides nothing.
 UNNAMED = {
     "causes/external_contact": {"3": "a force has three components"},
     "causes/torque_gain_nonlinear": {"3.0": "root of a cubic", "1.5": "root of a cubic"},
+    "checks/confidence": {"4": "digits in a file"},
     "checks/kurtosis": {
         "3.0": "fourth central moment",
         "4.0": "fourth central moment",
