@@ -1,6 +1,7 @@
 """Hold the code to the sizes, docstrings and plain packages that the house rules promise."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ def label(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
+@cache
 def tree(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
@@ -36,44 +38,43 @@ def is_sentence(docstring: str | None) -> bool:
     return len(summary.split()) >= 3 and summary.endswith(".") and not summary[0].islower()
 
 
-@pytest.mark.parametrize("path", MODULES, ids=label)
-def test_a_file_holds_one_idea_in_at_most_300_lines(path):
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST_FILE
+def test_a_file_holds_one_idea_in_at_most_300_lines():
+    lengths = {label(path): len(path.read_text(encoding="utf-8").splitlines()) for path in MODULES}
+    assert {name: lines for name, lines in lengths.items() if lines > LONGEST_FILE} == {}
 
 
-@pytest.mark.parametrize("path", PACKAGES, ids=label)
-def test_a_package_says_what_comes_in_and_goes_out_and_does_nothing_else(path):
-    body = tree(path).body
-    assert len(body) == 1
-    assert ast.get_docstring(tree(path))
+def test_a_package_says_what_comes_in_and_goes_out_and_does_nothing_else():
+    lacking = [path for path in PACKAGES if len(tree(path).body) != 1 or not ast.get_docstring(tree(path))]
+    assert [label(path) for path in lacking] == []
 
 
-@pytest.mark.parametrize("path", MODULES, ids=label)
-def test_every_folder_with_code_is_a_package(path):
-    assert (path.parent / "__init__.py").exists()
+def test_every_folder_with_code_is_a_package():
+    assert [label(path) for path in MODULES if not (path.parent / "__init__.py").exists()] == []
 
 
-@pytest.mark.parametrize("path", MODULES, ids=label)
-def test_a_module_opens_with_what_it_is_and_why(path):
-    assert is_sentence(ast.get_docstring(tree(path)))
+def test_a_module_opens_with_what_it_is_and_why():
+    assert [label(path) for path in MODULES if not is_sentence(ast.get_docstring(tree(path)))] == []
 
 
-@pytest.mark.parametrize("path", CORE, ids=label)
-def test_every_public_name_of_core_is_explained_by_a_full_sentence(path):
-    silent = [
-        node.name for node in public_definitions(tree(path)) if not is_sentence(ast.get_docstring(node))
-    ]
+def test_every_public_name_of_core_is_explained_by_a_full_sentence():
+    named = [(path, node) for path in CORE for node in public_definitions(tree(path))]
+    silent = [(label(path), node.name) for path, node in named if not is_sentence(ast.get_docstring(node))]
     assert silent == []
 
 
-@pytest.mark.parametrize("path", CORE, ids=label)
-def test_annotations_of_core_are_values_so_that_shapes_can_be_checked(path):
-    futures = [
-        node
+def test_annotations_of_core_are_values_so_that_shapes_can_be_checked():
+    imports = [
+        (label(path), node.module)
+        for path in CORE
         for node in ast.walk(tree(path))
-        if isinstance(node, ast.ImportFrom) and node.module == "__future__"
+        if isinstance(node, ast.ImportFrom)
     ]
-    assert futures == []
+    assert imports
+    assert [path for path, module in imports if module == "__future__"] == []
+
+
+def test_there_are_files_to_hold_to_the_rules():
+    assert min(len(MODULES), len(CORE), len(PACKAGES)) > 50
 
 
 @pytest.mark.parametrize("docstring", [None, "", "Too short.", "no capital letter first.", "It never ends"])
