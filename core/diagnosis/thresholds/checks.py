@@ -83,7 +83,7 @@ class Unnamed:
 class Confidence:
     """Turn a finding's evidence into a probability that its cause is the right one.
 
-    Form: Platt, Advances in Large Margin Classifiers (1999). The coefficients stand in
+    Source: Platt, Advances in Large Margin Classifiers (1999), for the form. The coefficients stand in
     `checks/confidence.json`, which `tests.hidden calibrate` writes.
     """
 

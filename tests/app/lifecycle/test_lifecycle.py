@@ -187,7 +187,7 @@ def test_the_command_ends_with_one_where_harm_is_done(tmp_path, filled, monkeypa
     shutil.rmtree(tmp_path / "data" / "blobs")
     run = CliRunner().invoke(COMMANDS, ["doctor"])
     assert run.exit_code == 1
-    assert "WRONG missing bytes" in run.stdout
+    assert "ERROR missing bytes" in run.stdout
 
 
 def age(store, table, days):
