@@ -191,8 +191,8 @@ def lower(sentence: str) -> str:
 
     Examples
     --------
-    >>> lower("The gear is compliant"), lower("Coulomb friction varies")
-    ('the gear is compliant', 'Coulomb friction varies')
+    >>> lower("Joint elasticity"), lower("Stribeck friction")
+    ('joint elasticity', 'Stribeck friction')
     """
     return sentence if sentence.startswith(_NAMES) else sentence[:1].lower() + sentence[1:]
 
