@@ -29,6 +29,11 @@ class CentreBox:
     low: tuple[float, float, float]
     high: tuple[float, float, float]
 
+    @property
+    def is_empty(self) -> bool:
+        """Tell whether no mass centre fits in."""
+        return any(low > high for low, high in zip(self.low, self.high, strict=True))
+
 
 @dataclass(frozen=True)
 class CentreEllipsoid:
@@ -37,6 +42,11 @@ class CentreEllipsoid:
     link: int
     centre: tuple[float, float, float]
     semi_axes: tuple[float, float, float]
+
+    @property
+    def is_empty(self) -> bool:
+        """Tell whether no mass centre fits in."""
+        return any(axis <= 0 for axis in self.semi_axes)
 
 
 @dataclass(frozen=True)
@@ -62,31 +72,26 @@ class Bounds:
 
     def __post_init__(self) -> None:
         """Refuse empty ranges."""
-        masses = [*_masses_by_link(self.mass).values(), *([self.total_mass] if self.total_mass else [])]
-        corners = [
-            pair
-            for box in self.centres
-            if isinstance(box, CentreBox)
-            for pair in zip(box.low, box.high, strict=True)
-        ]
-        axes = [axis for ball in self.centres if isinstance(ball, CentreEllipsoid) for axis in ball.semi_axes]
-        if (
-            any(low > high for low, high in [*masses, *corners])
-            or any(low < 0.0 or high <= 0.0 for low, high in masses)
-            or any(a <= 0 for a in axes)
-            or not 0.0 <= self.margin <= LARGEST_MARGIN
-            or (self.total_mass and self.total_mass[1] < sum(low for low, _ in masses[:-1]))
-        ):
+        masses_fit = self._allows_masses() and 0.0 <= self.margin <= LARGEST_MARGIN
+        if not masses_fit or any(region.is_empty for region in self.centres):
             raise OptionError(
                 "the bounds leave no robot",
                 evidence={
-                    "mass_kg": [list(row) for row in self.mass],
+                    "mass_kg": list(map(list, self.mass)),
                     "total_mass_kg": list(self.total_mass or ()),
                     "margin": self.margin,
                 },
                 remedy="give lower bounds from 0 to the upper ones, a total mass with room for the least "
                 "masses of the links, positive semi-axes, a margin from 0 to 0.1",
             )
+
+    def _allows_masses(self) -> bool:
+        """Tell whether no range of masses is empty and the total has room for the links' least masses."""
+        masses = list(_masses_by_link(self.mass).values())
+        least = sum(low for low, _ in masses)
+        total = self.total_mass or (least, np.inf)
+        impossible = any(low > high or low < 0.0 or high <= 0.0 for low, high in [*masses, total])
+        return not (impossible or total[1] < least)
 
 
 def _masses_by_link(rows: tuple[tuple[int, float, float], ...]) -> dict[int, tuple[float, float]]:

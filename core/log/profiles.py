@@ -116,24 +116,32 @@ def fill_in(document: object, names: Sequence[str]) -> object:
     """
     if not isinstance(document, Mapping) or PROFILE not in document:
         return document
-    name, joints = document[PROFILE], document.get(JOINTS)
+    filled = dict(document)
+    profile, joints = _named_profile(filled.pop(PROFILE)), filled.pop(JOINTS, None)
+    if TIME not in filled and "rate_hz" not in filled:
+        filled |= _clock(profile, names)
+    for channel in JOINT_CHANNELS:
+        found = _columns(profile.channels.get(channel.name, ()), names, joints)
+        given = filled.get(channel.name, {})
+        if found is not None and isinstance(given, Mapping) and "columns" not in given:
+            filled[channel.name] = found | dict(given)
+    return filled
+
+
+def _named_profile(name: object) -> Profile:
     if not isinstance(name, str) or name not in PROFILES:
         raise LogError(
             "there is no such profile",
             evidence={"given": repr(name)[:100], "known": list(PROFILES)},
             remedy="name one of the known profiles, or map the columns",
         )
-    profile = PROFILES[name]
-    filled = {key: value for key, value in document.items() if key not in (PROFILE, JOINTS)}
-    stamps = [pattern for pattern in profile.time if pattern.column in names]
-    if stamps and TIME not in filled and "rate_hz" not in filled:
-        filled[TIME] = {"column": stamps[0].column} | _unit(stamps[0])
-    for channel in (channel.name for channel in JOINT_CHANNELS):
-        found = _columns(profile.channels.get(channel, ()), names, joints)
-        given = filled.get(channel, {})
-        if found is not None and isinstance(given, Mapping) and "columns" not in given:
-            filled[channel] = found | dict(given)
-    return filled
+    return PROFILES[name]
+
+
+def _clock(profile: Profile, names: Sequence[str]) -> dict[str, object]:
+    """Give the mapping of the profile's stamps; empty where the file has none."""
+    stamps = (pattern for pattern in profile.time if pattern.column in names)
+    return next(({TIME: {"column": stamp.column} | _unit(stamp)} for stamp in stamps), {})
 
 
 def _unit(pattern: Pattern) -> dict[str, object]:
@@ -152,23 +160,24 @@ def _columns(patterns: Sequence[Pattern], names: Sequence[str], joints: object) 
 def _order(found: Mapping[str, str], joints: object) -> list[str]:
     """Give the joints in the robot's order: as declared, or by number where they differ in nothing else."""
     if joints is None:
-        if len({_NUMBER_AT_END.sub("", joint) for joint in found}) == 1 < len(found):
-            return sorted(found, key=lambda joint: int(_NUMBER_AT_END.findall(joint)[0]))
-        if len(found) == 1:
-            return list(found)
-        raise LogError(
-            "the order of the joints is not known from their names",
-            evidence={"joints": list(found)[:SHOWN_COLUMNS]},
-            remedy='list them in the order of the robot: "joints": [...] in the mapping',
-        )
-    if (
-        not isinstance(joints, list | tuple)
-        or not joints
-        or not all(isinstance(joint, str) and joint in found for joint in joints)
-    ):
+        return _order_by_number(found)
+    listed = joints if isinstance(joints, list | tuple) else ()
+    if not listed or not all(isinstance(joint, str) and joint in found for joint in listed):
         raise LogError(
             "the mapping names joints that the file does not have",
             evidence={"given": repr(joints)[:200], "joints": list(found)[:SHOWN_COLUMNS]},
             remedy="name joints of the file, in the order of the robot",
         )
-    return list(joints)
+    return list(listed)
+
+
+def _order_by_number(found: Mapping[str, str]) -> list[str]:
+    if len(found) == 1:
+        return list(found)
+    if len({_NUMBER_AT_END.sub("", joint) for joint in found}) == 1:
+        return sorted(found, key=lambda joint: int(_NUMBER_AT_END.findall(joint)[0]))
+    raise LogError(
+        "the order of the joints is not known from their names",
+        evidence={"joints": list(found)[:SHOWN_COLUMNS]},
+        remedy='list them in the order of the robot: "joints": [...] in the mapping',
+    )

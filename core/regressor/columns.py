@@ -98,13 +98,6 @@ class _RigidBodyFill:
     """Hold what the kernel needs of a robot, as contiguous arrays."""
 
     robot: RobotModel
-    prismatic: np.ndarray
-    antecedent: Indices
-    joint: Indices
-    ratio: np.ndarray
-    offset: np.ndarray
-    rotation: np.ndarray
-    translation: np.ndarray
     chain_start: Indices
     chain: Indices
     slot: np.ndarray
@@ -122,13 +115,6 @@ class _RigidBodyFill:
         )
         return cls(
             robot=robot,
-            prismatic=np.array([link.kind == "prismatic" for link in links]),
-            antecedent=np.array([link.antecedent for link in links]),
-            joint=np.array([link.joint - 1 for link in links]),
-            ratio=np.array([link.ratio for link in links]),
-            offset=np.array([link.offset for link in links]),
-            rotation=np.array([link.rotation for link in links]),
-            translation=np.array([link.translation for link in links]),
             chain_start=np.concatenate([[0], np.cumsum([len(supports) for supports in robot.supports])]),
             chain=chain,
             slot=slot,
@@ -139,13 +125,7 @@ class _RigidBodyFill:
             np.ascontiguousarray(state.position.T),
             np.ascontiguousarray(state.velocity.T),
             np.ascontiguousarray(state.acceleration.T),
-            self.prismatic,
-            self.antecedent,
-            self.joint,
-            self.ratio,
-            self.offset,
-            self.rotation,
-            self.translation,
+            *self.robot.link_arrays,
             np.asarray(self.robot.gravity, dtype=float),
             self.chain_start,
             self.chain,

@@ -169,6 +169,19 @@ class RobotModel:
         """Give the upper position limits, pi (revolute) or 1 m (prismatic) where unknown."""
         return self._position_limits(1)
 
+    @cached_property
+    def link_arrays(self) -> tuple[np.ndarray, ...]:
+        """Give all links as contiguous arrays: prismatic, antecedent, joint from 0, ratio, offset, frame."""
+        return (
+            np.array([link.kind == "prismatic" for link in self.links]),
+            np.array([link.antecedent for link in self.links]),
+            np.array([link.joint - 1 for link in self.links]),
+            np.array([link.ratio for link in self.links], dtype=float),
+            np.array([link.offset for link in self.links], dtype=float),
+            np.array([link.rotation for link in self.links], dtype=float),
+            np.array([link.translation for link in self.links], dtype=float),
+        )
+
     def _position_limits(self, side: int) -> JointVector:
         fallback = {"revolute": (-np.pi, np.pi), "prismatic": (-1.0, 1.0)}
         kinds = {link.joint: link.kind for link in reversed(self.links)}

@@ -1,8 +1,11 @@
 """Carry the motion of all joints at the same instants: what every torque effect is computed from."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..arrays import JointSeries, Samples
+import numpy as np
+
+from ..arrays import Indices, JointSeries, Samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,3 +25,15 @@ class MotionState:
     acceleration: JointSeries
     time: Samples | None = None
     temperature: JointSeries | None = None
+
+    def at(self, rows: slice | Indices) -> "MotionState":
+        """Take some rows of the motion."""
+        return MotionState(**{name: part[rows] for name, part in vars(self).items() if part is not None})
+
+
+def concatenate_states(states: Sequence[MotionState]) -> MotionState:
+    """Put rows of motions one after the other; what one of them lacks is left out of all."""
+    parts = {name: [getattr(state, name) for state in states] for name in vars(states[0])}
+    return MotionState(
+        **{name: np.concatenate(rows) for name, rows in parts.items() if all(row is not None for row in rows)}
+    )

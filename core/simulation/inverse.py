@@ -35,13 +35,7 @@ def bodies_of(robot: RobotModel, links: LinkTable) -> Bodies:
         if robot.links[number - 1].antecedent:
             masses[robot.links[number - 1].antecedent - 1] += masses[number - 1]
     return (
-        np.array([link.kind == "prismatic" for link in robot.links]),
-        np.array([link.antecedent for link in robot.links]),
-        np.array([link.joint - 1 for link in robot.links]),
-        np.array([link.ratio for link in robot.links], dtype=float),
-        np.array([link.offset for link in robot.links], dtype=float),
-        np.array([link.rotation for link in robot.links], dtype=float),
-        np.array([link.translation for link in robot.links], dtype=float),
+        *robot.link_arrays,
         np.array(robot.gravity, dtype=float),
         table,
         masses,

@@ -17,7 +17,7 @@ import numpy as np
 from ..arrays import BlockKey, JointSeries, JointVector, Samples
 from ..errors import OptionError
 from ..signals.condition import Motion
-from ..signals.state import MotionState
+from ..signals.state import MotionState, concatenate_states
 from .along import logged_only, remembered
 from .drive import Drive, Feedback
 from .integrate import LONGEST_STEP
@@ -169,35 +169,35 @@ def _clocked(first: Stretch, other: Stretch) -> bool:
 
 def _played(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions) -> list[Replayed]:
     """Play stretches of one clock side by side; shorter ones wait at their end until the longest is done."""
-    longest = max(len(one.time) for one in group)
-    position = _padded([one.state.position for one in group], longest)
-    velocity = _padded([one.state.velocity for one in group], longest)
-    past = [remembered(mechanism, one) for one in group]
-    shown = [logged_only(mechanism, one) for one in group]
-    played = [_feed_forward(mechanism, one, asked.feed_forward) for one in group]
-    torque = _padded([one - each for one, each in zip(played, past, strict=True)], longest)
-    drive = Drive(group[0].step, torque, Feedback(gains.stiffness, gains.damping, position, velocity))
-    warm = [one.state.temperature for one in group]
-    start = MotionState(
-        position[0].T,
-        velocity[0].T,
-        np.array([one.state.acceleration[0] for one in group]),
-        np.array([one.time[0] for one in group]),
-        None if any(one is None for one in warm) else np.array([one[0] for one in warm if one is not None]),
-    )
+    past = [remembered(mechanism, stretch) for stretch in group]
+    shown = [logged_only(mechanism, stretch) for stretch in group]
+    drive = _drive(mechanism, group, gains, asked.feed_forward, past)
+    start = concatenate_states([stretch.state.at(slice(1)) for stretch in group])
     moved = rollout(mechanism, States.starting(mechanism, start), drive, longest_step=asked.longest_step)
     return [
         Replayed(
-            key=one.key,
-            time=one.time,
-            measured=one.state,
-            measured_torque=one.torque,
-            position=moved.position[: len(one.time), :, lane],
-            velocity=moved.velocity[: len(one.time), :, lane],
-            torque=moved.torque[: len(one.time), :, lane] + past[lane] + shown[lane],
+            key=stretch.key,
+            time=stretch.time,
+            measured=stretch.state,
+            measured_torque=stretch.torque,
+            position=moved.position[: len(stretch.time), :, lane],
+            velocity=moved.velocity[: len(stretch.time), :, lane],
+            torque=moved.torque[: len(stretch.time), :, lane] + past[lane] + shown[lane],
         )
-        for lane, one in enumerate(group)
+        for lane, stretch in enumerate(group)
     ]
+
+
+def _drive(
+    mechanism: Mechanism, group: list[Stretch], gains: Gains, kind: FeedForward, past: list[JointSeries]
+) -> Drive:
+    """Give the torques that drive stretches side by side: feed-forward less what remains of the past."""
+    longest = max(len(stretch.time) for stretch in group)
+    position = _padded([stretch.state.position for stretch in group], longest)
+    velocity = _padded([stretch.state.velocity for stretch in group], longest)
+    forward = (_feed_forward(mechanism, stretch, kind) for stretch in group)
+    torque = _padded([full - old for full, old in zip(forward, past, strict=True)], longest)
+    return Drive(group[0].step, torque, Feedback(gains.stiffness, gains.damping, position, velocity))
 
 
 def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> JointSeries:

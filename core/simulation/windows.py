@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import BlockKey, JointSeries, Samples
 from ..errors import LogError
 from ..signals.condition import Motion, without_standstill_mask
-from ..signals.state import MotionState
+from ..signals.state import MotionState, concatenate_states
 from ..signals.tile import Tile
 
 
@@ -147,9 +147,9 @@ def _joined(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> It
     torque = torque[first : last + 1]
     # what the filters spoil at a log's ends is no motion
     begin = 0 if usable[0] else first
-    around = _part(around, slice(begin, None if usable[-1] else last + 1))
+    around = around.at(slice(begin, None if usable[-1] else last + 1))
     inside = slice(first - begin, last + 1 - begin)
-    state = _part(around, inside)
+    state = around.at(inside)
     time = state.time
     if time is not None and len(time) > 1:
         step = float(time[-1] - time[0]) / (len(time) - 1)
@@ -162,34 +162,9 @@ def _together(run: list[Tile]) -> tuple[MotionState, JointSeries]:
     for number, tile in enumerate(run):
         end = tile.first + tile.parallel.decimation * len(tile.time)
         parts.append(slice(tile.first if number else 0, end if number < len(run) - 1 else None))
-    states = [_part(tile.state, part) for tile, part in zip(run, parts, strict=True)]
+    states = [tile.state.at(part) for tile, part in zip(run, parts, strict=True)]
     torque = np.concatenate([tile.torque[part] for tile, part in zip(run, parts, strict=True)])
-    return _after(states), torque
-
-
-def _part(state: MotionState, rows: slice | np.ndarray) -> MotionState:
-    """Take some rows of a motion."""
-    warm = state.temperature
-    return MotionState(
-        state.position[rows],
-        state.velocity[rows],
-        state.acceleration[rows],
-        None if state.time is None else state.time[rows],
-        None if warm is None else warm[rows],
-    )
-
-
-def _after(states: list[MotionState]) -> MotionState:
-    """Put rows of motions one after the other."""
-    times = [state.time for state in states if state.time is not None]
-    warm = [state.temperature for state in states if state.temperature is not None]
-    return MotionState(
-        np.vstack([state.position for state in states]),
-        np.vstack([state.velocity for state in states]),
-        np.vstack([state.acceleration for state in states]),
-        np.concatenate(times),
-        np.vstack(warm) if len(warm) == len(states) else None,
-    )
+    return concatenate_states(states), torque
 
 
 def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Windows | None:
@@ -204,14 +179,14 @@ def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Win
         for one in (stretch.state.position, stretch.state.velocity, drive(stretch))
     )
     keys = (stretch.key,) * len(begins)
-    start = _part(stretch.state, begins)
+    start = stretch.state.at(begins)
     return Windows(stretch.step, stretch.time[begins], keys, start, position, velocity, torque)
 
 
 def _beside(pile: list[Windows]) -> Windows:
     """Put windows of one clock side by side."""
     begins = np.concatenate([one.begins for one in pile])
-    start = _after([one.start for one in pile])
+    start = concatenate_states([one.start for one in pile])
     position, velocity, torque = (
         np.concatenate([getattr(one, name) for one in pile], axis=2)
         for name in ("position", "velocity", "torque")

@@ -5,7 +5,9 @@ estimated again. Two hypotheses whose criteria differ by less than six are undec
 Source: Burnham & Anderson, Model Selection (2002), ch. 2.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import starmap
 
 import numpy as np
 
@@ -85,32 +87,37 @@ def _falls(state: SearchState, own: Comparison, *, alone: bool) -> bool:
     """Tell whether a member is inadmissible or a surrogate."""
     return (
         not state.chosen.allows(own.place)
-        or _is_surrogate(state.fitter, state.chosen, own, alone=alone)
+        or (own.margin < -SELECTION.undecided and not alone)
+        or _reduces_no_error(state.fitter, state.chosen, own, alone=alone)
         or _beaten_by_unnamed(own)
     )
 
 
-def _is_surrogate(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, alone: bool) -> bool:
-    """Tell whether an alternative would beat a member, or whether it reduces no error on held-out rows.
+def _reduces_no_error(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison, *, alone: bool) -> bool:
+    """Tell whether a member reduces no error on held-out rows.
 
     The most significant member, and one that hardly acts on those rows, only fail where that error grows.
     """
-    if own.margin < -SELECTION.undecided and not alone:
-        return True
     if own.member.cause.traits.transient or fitter.prior is not None:
         return False
     expected = holdout_share(fitter, chosen, chosen.by_key[own.member.key]) * own.statistic
-    dataset, left = fitter.dataset, (residual(fitter, own.without), residual(fitter, chosen))
-    holdout, fitted = (dataset.usable & (dataset.held_out == held)[:, None] for held in (True, False))
-    # What shared parameters absorb where a cause acts, they add to the error of the other joints.
-    places = (tuple(sorted(fitter.columns([own.member])[0])), tuple(range(dataset.joints)))
-    both = [
-        [gain(*left, mask, dataset.block_of_all, joints) for mask in (holdout, fitted)] for joints in places
-    ]
-    seen = [(there, here) for there, here in both if there is not None and here is not None]
+    gains = list(_gains(fitter, chosen, own))
     if alone or expected < ALTERNATIVES.least_expected:
-        return any(there.interval_95[1] < 0.0 for there, _ in seen)
-    return bool(seen) and all(_refuted_unseen(there, here) for there, here in seen)
+        return any(there.interval_95[1] < 0.0 for there, _ in gains)
+    return bool(gains) and all(starmap(_refuted_unseen, gains))
+
+
+def _gains(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison) -> Iterator[tuple[Gain, Gain]]:
+    """Give a member's gains on held-out and on fitted rows: on the joints it acts on, then on all.
+
+    What shared parameters absorb where a cause acts, they add to the error of the other joints.
+    """
+    dataset, left = fitter.dataset, (residual(fitter, own.without), residual(fitter, chosen))
+    masks = [dataset.usable & (dataset.held_out == held)[:, None] for held in (True, False)]
+    for joints in (tuple(sorted(fitter.columns([own.member])[0])), tuple(range(dataset.joints))):
+        there, here = (gain(*left, mask, dataset.block_of_all, joints) for mask in masks)
+        if there is not None and here is not None:
+            yield there, here
 
 
 def _refuted_unseen(there: Gain, here: Gain) -> bool:

@@ -33,10 +33,10 @@ from ...regressor.columns import ColumnPlan
 from ...robot.model import RobotModel
 from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
-from ...signals.state import MotionState
+from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
 from .onset_filter import onset_rows
-from .segments import segments_of, thinning
+from .segments import DatasetSegment, segments_of, thinning
 from .stretch import Stretch
 
 BATCH = 64
@@ -169,42 +169,55 @@ def build_dataset(
     """
     motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
     share = min(1.0, ROWS.seconds / sum(log.duration for log in logs))
-    pieces = [segments_of(number, motion, model.robot, share) for number, motion in enumerate(motions)]
-    parts = [piece for one in pieces for piece in one]
+    parts = [
+        part
+        for number, motion in enumerate(motions)
+        for part in segments_of(number, motion, model.robot, share)
+    ]
     if not parts:
         raise ExcitationError(
             "no stretch of the logs is long enough to be looked at",
             evidence={"seconds": [log.duration for log in logs]},
             remedy="record at least ten seconds of motion",
         )
-    rows = np.cumsum([0] + [len(part.time) for part in parts])
-    stretches = tuple(
-        replace(part.stretch, rows=slice(int(start), int(stop)))
-        for part, start, stop in zip(parts, rows[:-1], rows[1:], strict=True)
-    )
-    log = np.concatenate([np.full(len(part.time), part.log) for part in parts])
-    block = np.concatenate([part.block for part in parts])
-    keys = {number * blocks + one for number, one in held_out}
+    series = _concatenate_series(parts)
+    keys = {log * blocks + block for log, block in held_out}
     return Dataset(
         robot=model.robot,
         motions=motions,
-        stretches=stretches,
-        time=np.concatenate([part.time for part in parts]),
-        log=log,
-        block=block,
-        torque=np.vstack([part.torque for part in parts]),
-        usable=np.vstack([part.usable for part in parts]),
-        clear=np.vstack([part.usable & part.clear for part in parts]),
-        held_out=np.isin(log * blocks + block, sorted(keys)),
-        state=_joined([part.state for part in parts]),
+        stretches=_place_stretches(parts),
+        **series,
+        held_out=np.isin(series["log"] * blocks + series["block"], sorted(keys)),
+        state=concatenate_states([part.state for part in parts]),
         sticking=tuple(
-            block_diag([part.sticking[joint] for part in parts], format="csr")
-            for joint in range(len(model.robot.joints))
+            block_diag(blocks_of_joint, format="csr")
+            for blocks_of_joint in zip(*(part.sticking for part in parts), strict=True)
         ),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
         position_share=np.zeros(len(model.robot.joints)),
-        position_torque=np.zeros((len(log), len(model.robot.joints))),
+        position_torque=np.zeros_like(series["torque"]),
+    )
+
+
+def _concatenate_series(parts: Sequence[DatasetSegment]) -> dict[str, np.ndarray]:
+    """Give every row's time, log, block, torque and masks, segments one after the other."""
+    return {
+        "time": np.concatenate([part.time for part in parts]),
+        "log": np.concatenate([np.full(len(part.time), part.log) for part in parts]),
+        "block": np.concatenate([part.block for part in parts]),
+        "torque": np.vstack([part.torque for part in parts]),
+        "usable": np.vstack([part.usable for part in parts]),
+        "clear": np.vstack([part.usable & part.clear for part in parts]),
+    }
+
+
+def _place_stretches(parts: Sequence[DatasetSegment]) -> tuple[Stretch, ...]:
+    """Give the segments' stretches with the rows of the data set that they fill."""
+    rows = np.cumsum([0] + [len(part.time) for part in parts])
+    return tuple(
+        replace(part.stretch, rows=slice(int(start), int(stop)))
+        for part, start, stop in zip(parts, rows[:-1], rows[1:], strict=True)
     )
 
 
@@ -224,17 +237,6 @@ def _options(log: JointLog, width: float) -> FilterOptions:
         position_cutoff_hz=min(BAND.position * cutoff, BAND.position_over_rate * log.rate_hz),
         order=BAND.order,
         decimation=thin * int(log.rate_hz / (BAND.rows * cutoff) / thin),
-    )
-
-
-def _joined(states: list[MotionState]) -> MotionState:
-    temperature = [state.temperature for state in states if state.temperature is not None]
-    return MotionState(
-        np.vstack([state.position for state in states]),
-        np.vstack([state.velocity for state in states]),
-        np.vstack([state.acceleration for state in states]),
-        np.concatenate([state.time for state in states if state.time is not None]),
-        np.vstack(temperature) if len(temperature) == len(states) else None,
     )
 
 

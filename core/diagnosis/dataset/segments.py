@@ -60,7 +60,7 @@ def _piece(
     tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
     thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
     begin = tile.first % thin
-    state = _thinned(tile.state, slice(begin, None, thin))
+    state = tile.state.at(slice(begin, None, thin))
     response = tile.parallel.response
     middle = len(response) // 2
     small = response[middle % thin :: thin]
@@ -77,7 +77,7 @@ def _piece(
         torque=tile.filtered(np.ascontiguousarray(_spikeless(motion.log, tile.torque).T)).T,
         usable=tile.usable,
         clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),
-        state=_thinned(tile.state, at),
+        state=tile.state.at(at),
     )
 
 
@@ -113,13 +113,3 @@ def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
     counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
     low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
     return np.asarray(counts[high] == counts[low])
-
-
-def _thinned(state: MotionState, rows: slice | Indices) -> MotionState:
-    return MotionState(
-        state.position[rows],
-        state.velocity[rows],
-        state.acceleration[rows],
-        None if state.time is None else state.time[rows],
-        None if state.temperature is None else state.temperature[rows],
-    )

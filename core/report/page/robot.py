@@ -1,6 +1,6 @@
 """Describe an identification: parameters with their precision, errors, and physical consistency."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from .render import Table, element
 from .units import effort, unit_of_mass_matrix
@@ -59,25 +59,28 @@ def consistency(document: Document) -> list[str]:
     found, solver = document.get("feasibility") or {}, document.get("solver") or {}
     if not found:
         return []
-    eigenvalues = [value for value in found.get("pseudo_inertia_min_eigenvalue") or [] if value is not None]
-    mass = found.get("mass_matrix_min_eigenvalue") or {}
     objective, least = (number(solver.get(name), 4) for name in ("objective", "objective_ols"))
     own, ols = ("" if found.get(name) else "in" for name in ("feasible", "ols_feasible"))
-    bounds = found.get("active_constraints") or []
-    workspace = f"{mass.get('configurations')} configurations of the workspace"
     sentences = [
         f"Identified parameters: {own}consistent; ordinary least squares: {ols}consistent.",
-        eigenvalues
-        and f"Smallest eigenvalue of a link's pseudo-inertia: {number(min(eigenvalues))} "
-        f"{_PSEUDO_INERTIA_UNIT}.",
-        mass
-        and f"Smallest eigenvalue of the mass matrix in {workspace}: {number(mass['workspace'])} "
-        f"{unit_of_mass_matrix(document)}.",
+        *_smallest_eigenvalues(document, found),
         f"Cost of the consistency constraint: objective {objective}, ordinary least squares {least}.",
         f"Solver: {solver.get('status')}.",
-        bounds and f"Active constraints: {', '.join(bounds)}.",
     ]
-    return [sentence for sentence in sentences if sentence]
+    if bounds := found.get("active_constraints"):
+        sentences.append(f"Active constraints: {', '.join(bounds)}.")
+    return sentences
+
+
+def _smallest_eigenvalues(document: Document, found: Document) -> Iterator[str]:
+    eigenvalues = [value for value in found.get("pseudo_inertia_min_eigenvalue") or [] if value is not None]
+    if eigenvalues:
+        smallest = number(min(eigenvalues))
+        yield f"Smallest eigenvalue of a link's pseudo-inertia: {smallest} {_PSEUDO_INERTIA_UNIT}."
+    if mass := found.get("mass_matrix_min_eigenvalue"):
+        workspace = f"{mass.get('configurations')} configurations of the workspace"
+        smallest = f"{number(mass['workspace'])} {unit_of_mass_matrix(document)}"
+        yield f"Smallest eigenvalue of the mass matrix in {workspace}: {smallest}."
 
 
 def base_parameters(rows: Sequence[Document]) -> Table:
