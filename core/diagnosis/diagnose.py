@@ -254,20 +254,31 @@ def _verdict(
 
     What faulty samples leave follows patterns, too: not on joints where a sample check explains a part.
     """
-    faulty = {joint for finding in findings if finding.member is None for joint in _spoilt(finding)}
-    if unnamed is not None and unnamed.statistic > most and unnamed.joint not in faulty:
+    if unnamed is not None and unnamed.statistic > most and unnamed.joint not in _spoilt(findings):
         return "unexplained"
     left = [joint for joint in predictable if joint.interval[0] > VERDICT.unexplained_share]
-    if not findings:
-        return "unexplained" if left else "nothing_found"
-    explained = {joint: finding.explained_fraction for finding in findings for joint in finding.joints}
-    if any(joint.share > explained.get(joint.joint, 0.0) for joint in left):
+    if _exceeds(left, findings):
         return "unexplained"
-    return "causes_found"
+    return "causes_found" if findings else "nothing_found"
 
 
-def _spoilt(finding: Finding) -> tuple[int, ...]:
-    return finding.joints if finding.explained_fraction > VERDICT.unexplained_share else ()
+def _exceeds(left: Sequence[Predictable], findings: Sequence[Finding]) -> bool:
+    """Tell whether what is predictable on some joint is more than the findings explain there."""
+    if not findings:
+        return bool(left)
+    explained = {joint: finding.explained_fraction for finding in findings for joint in finding.joints}
+    return any(joint.share > explained.get(joint.joint, 0.0) for joint in left)
+
+
+def _spoilt(findings: Sequence[Finding]) -> set[int]:
+    """Give the joints on which a sample check explains a part."""
+    checks = (finding for finding in findings if finding.member is None)
+    return {
+        joint
+        for finding in checks
+        if finding.explained_fraction > VERDICT.unexplained_share
+        for joint in finding.joints
+    }
 
 
 def _say_nothing(_stage: str, _fraction: float) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from ..dynamics.terms.coulomb import Coulomb
-from ..dynamics.terms.coupling import GearCoupling
+from ..dynamics.terms.coupling import GearCoupling, coupling_widths
 from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.rotor_inertia_missing import MissingRotor
 from ..errors import RobotError
@@ -182,8 +182,5 @@ def _smoothed(model: DynamicModel, widths: tuple[float, ...] | list[float]) -> D
     if widths and "coulomb" in names:
         model = model.with_term(Coulomb(widths))
     if widths and model.robot.couplings and "coupling" in names:
-        coupled = tuple(
-            max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
-        )
-        model = model.with_term(GearCoupling(coupled))
+        model = model.with_term(GearCoupling(coupling_widths(model.robot, widths)))
     return model

@@ -60,11 +60,10 @@ class EstimateOptions:
                 },
                 remedy="choose one of the known names",
             )
-        without_effect = [
-            name
-            for name, asked in (("bounds", self.bounds != Bounds()), ("entropy", self.entropy > 0.0))
-            if asked and not self.method.feasible
-        ] + (["robust"] if self.robust and not self.method.row_weights else [])
+        method, given = self.method, {"bounds": self.bounds != Bounds(), "entropy": self.entropy > 0.0}
+        useless = {} if method.feasible else given
+        useless |= {"robust": self.robust and not method.row_weights}
+        without_effect = [name for name, is_given in useless.items() if is_given]
         if without_effect:
             raise OptionError(
                 f"{' and '.join(without_effect)} would have no effect on this estimator",

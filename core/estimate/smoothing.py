@@ -15,7 +15,7 @@ from ..arrays import BlockKey, Indices, JointVector, Series
 from ..dynamics.model import DynamicModel
 from ..dynamics.term import Entry, Term
 from ..dynamics.terms.coulomb import Coulomb
-from ..dynamics.terms.coupling import GearCoupling
+from ..dynamics.terms.coupling import GearCoupling, coupling_widths
 from ..reduction.base import base_model
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor
@@ -87,12 +87,10 @@ def with_candidates(model: DynamicModel, speed: JointVector) -> DynamicModel:
     joints, extra = len(model.robot.joints), list[Term]()
     for number, share in enumerate(SHARES):
         widths = tuple(float(share * rms) for rms in speed)
-        coupled = tuple(
-            max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
-        )
+
         offered: dict[str, Coulomb | GearCoupling] = {
             "coulomb": Coulomb(widths[:joints]),
-            "coupling": GearCoupling(coupled),
+            "coupling": GearCoupling(coupling_widths(model.robot, widths)),
         }
         extra += [_Candidate(offered[term.name], number) for term in model.terms if term.name in offered]
     return replace(model, terms=(*model.terms, *extra))
@@ -112,18 +110,12 @@ def chosen_widths(
         ]
         shares[joint] = min(options, key=lambda option: option[1])[0]
     widths = tuple(float(width) for width in shares * speed)
-    smooth = (
-        model.with_term(Coulomb(widths)) if any(term.name == "coulomb" for term in model.terms) else model
-    )
-    if model.robot.couplings and any(term.name == "coupling" for term in model.terms):
-        smooth = smooth.with_term(
-            GearCoupling(
-                tuple(
-                    max(widths[joint - 1] for joint in coupling.joints) for coupling in model.robot.couplings
-                )
-            )
-        )
-    return smooth
+    present = {term.name for term in model.terms}
+    if "coulomb" in present:
+        model = model.with_term(Coulomb(widths))
+    if model.robot.couplings and "coupling" in present:
+        model = model.with_term(GearCoupling(coupling_widths(model.robot, widths)))
+    return model
 
 
 def scan_plan(model: DynamicModel, kept: tuple[int, ...]) -> ColumnPlan:

@@ -3,7 +3,7 @@
 Sources: Burg 1975 (reflections); Golub & Van Loan, Matrix Computations, ch. 4.3 (banded factors).
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202  # numba reads types from its own signatures, or infers them
+# ruff: noqa: ANN001  # numba reads types from its own signatures, or infers them
 # Nor does mypy read those signatures:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -16,7 +16,7 @@ _PART = {**_SUMS, "cache": False, "no_cpython_wrapper": True}
 
 
 @njit("int64(float64[::1], int64[::1], float64, int64, float64[:,::1], float64[::1])", **_SUMS)
-def reflect(residual, place, forgotten, fewest, predictors, variances):  # pragma: no cover  (compiled)
+def reflect(residual, place, forgotten, fewest, predictors, variances) -> int:  # pragma: no cover  (compiled)
     """Write the best predictors of a series from 0, 1, ... past values, and their innovations' variances.
 
     Parameters
@@ -64,7 +64,7 @@ def reflect(residual, place, forgotten, fewest, predictors, variances):  # pragm
 
 
 @njit("void(float64[::1], int64[::1], float64[:,::1], float64[::1])", **_SUMS)
-def innovate(residual, place, weights, innovations):  # pragma: no cover  (compiled)
+def innovate(residual, place, weights, innovations) -> None:  # pragma: no cover  (compiled)
     """Write what is new in a series: its values and those before them by the weights for as many as known.
 
     Parameters
@@ -84,7 +84,7 @@ def innovate(residual, place, weights, innovations):  # pragma: no cover  (compi
 
 
 @njit("float64[:,::1](float64[::1], int32[::1], int32[::1], int64)", **_SUMS)
-def banded(sizes, columns, begins, many):  # pragma: no cover  (compiled)
+def banded(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover  (compiled)
     """Give the products of so many sparse columns with each other and with those behind them: band x columns.
 
     Parameters
@@ -107,7 +107,7 @@ def banded(sizes, columns, begins, many):  # pragma: no cover  (compiled)
 
 
 @njit(**_PART)
-def _new_of(row, known, columns, weights):
+def _new_of(row, known, columns, weights) -> np.ndarray:
     """Give what is new in one row of columns, of which so many rows before it are not zero."""
     new = np.zeros(columns.shape[1])
     for lag in range(known + 1):
@@ -117,7 +117,7 @@ def _new_of(row, known, columns, weights):
 
 
 @njit(**_PART)
-def _add_row(row, known, rows, sums, products):
+def _add_row(row, known, rows, sums, products) -> None:
     """Add the products of one row of columns, of which so many rows before it are not zero."""
     columns, place, weights, left, fitted, sizes, loose, begins = rows
     right, squares, grams, cross = sums
@@ -137,7 +137,7 @@ def _add_row(row, known, rows, sums, products):
 
 
 @njit(**_PART)
-def _solve(products, factor, low, high):
+def _solve(products, factor, low, high) -> None:
     """Turn products with some loose columns into products with orthonormal ones that span the same."""
     width = products.shape[1]
     for column in range(low, high):
@@ -149,7 +149,7 @@ def _solve(products, factor, low, high):
 
 
 @njit(**_PART)
-def _take_spanned(sums, products, inside, low, high):
+def _take_spanned(sums, products, inside, low, high) -> None:
     """Take out what some orthonormal columns span, of which the products with them are given."""
     _, _, grams, cross = sums
     width = products.shape[1]
@@ -163,7 +163,7 @@ def _take_spanned(sums, products, inside, low, high):
 
 
 @njit(**_PART)
-def _copy_sums(sums, own):
+def _copy_sums(sums, own) -> None:
     """Write sums over rows into a table's places for them; numba compiles loops sooner than slices."""
     for one in range(len(sums[0])):
         own[0][one], own[1][one] = sums[0][one], sums[1][one]
@@ -174,7 +174,7 @@ def _copy_sums(sums, own):
 
 
 @njit(**_PART)
-def _ranges(rows, factor):
+def _ranges(rows, factor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Give the lowest loose column that acts from each row on, one above the highest before it; and groups.
 
     A group begins at a column before which none is tied to it, or to one behind it.
@@ -206,7 +206,7 @@ _PRODUCTS = "Tuple((float64[:,::1], float64[:,::1], float64[:,:,::1], float64[:,
 
 
 @njit(f"void({_ROWS}, float64[:,::1], float64[:,::1], int64[::1], {_PRODUCTS})", **_SUMS)
-def sum_begun(rows, factor, inside, first, products):  # pragma: no cover  (compiled)
+def sum_begun(rows, factor, inside, first, products) -> None:  # pragma: no cover  (compiled)
     """Write the products of columns that are zero before some row, made white, for many such rows.
 
     From as many rows on as the noise remembers, what is white is what is white all along: those rows are
@@ -258,7 +258,7 @@ def sum_begun(rows, factor, inside, first, products):  # pragma: no cover  (comp
 
 
 @njit("void(float64[::1], float64, float64, float64[::1])", **_EXACT)
-def fly(pulls, step, half_width, twist):  # pragma: no cover  (compiled)
+def fly(pulls, step, half_width, twist) -> None:  # pragma: no cover  (compiled)
     """Write where something is between two stops that neither bounce nor pull: it rests there or flies.
 
     Parameters

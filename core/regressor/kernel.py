@@ -9,7 +9,7 @@ each loop below is written to that rule, and sine and cosine are series for the 
 Atkeson, An & Hollerbach 1986 (linearity); Khalil & Dombre (2002), ch. 9.
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# ruff: noqa: ANN001, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
 # Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -35,7 +35,7 @@ _SIGNATURE = (
 
 
 @njit(inline="always")
-def sine_cosine(angle):
+def sine_cosine(angle) -> tuple[float, float]:
     """Give sine and cosine to rounding, for angles up to a million radians, by series that vectorise."""
     quarters = np.floor(angle * TWO_OVER_PI + 0.5)
     x = (angle - quarters * HALF_PI_HIGH) - quarters * HALF_PI_LOW
@@ -48,7 +48,7 @@ def sine_cosine(angle):
 
 
 @njit(inline="always")
-def _place_link(place, position, joint, begin, count, scale, offset, slides, rotation, translation):
+def _place_link(place, position, joint, begin, count, scale, offset, slides, rotation, translation) -> None:
     """Write the link's frame in its antecedent's: nine rows of rotation, three of position."""
     r00, r01, r02 = rotation[0, 0], rotation[0, 1], rotation[0, 2]
     r10, r11, r12 = rotation[1, 0], rotation[1, 1], rotation[1, 2]
@@ -65,7 +65,7 @@ def _place_link(place, position, joint, begin, count, scale, offset, slides, rot
 
 
 @njit(inline="always")
-def _copy(table, place, rows, many, count):
+def _copy(table, place, rows, many, count) -> None:
     """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
     for row in range(many):
         for s in range(count):
@@ -73,7 +73,9 @@ def _copy(table, place, rows, many, count):
 
 
 @njit(inline="always")
-def _move_link(motion, parent, own, place, velocity, acceleration, joint, begin, moved, count, turns, slides):
+def _move_link(
+    motion, parent, own, place, velocity, acceleration, joint, begin, moved, count, turns, slides
+) -> None:
     """Carry spin, its rate and the origin's acceleration less gravity (three rows each) one link outwards."""
     for s in range(count):
         p0, p1, p2 = place[9, s], place[10, s], place[11, s]
@@ -101,7 +103,7 @@ def _move_link(motion, parent, own, place, velocity, acceleration, joint, begin,
 
 
 @njit(inline="always")
-def _map_forces(effect, motion, own, count):
+def _map_forces(effect, motion, own, count) -> None:
     """Write what one unit of each parameter asks for: 18 rows of moment (XX..ZZ), 9 of force (MX..MZ)."""
     for s in range(count):
         w0, w1, w2 = motion[own, 0, s], motion[own, 1, s], motion[own, 2, s]
@@ -120,7 +122,7 @@ def _map_forces(effect, motion, own, count):
 
 
 @njit(inline="always")
-def _move_axis(axis, inner, outer, place, moved, count):
+def _move_axis(axis, inner, outer, place, moved, count) -> None:
     """Write a carrying joint's axis (three rows of direction, three of moment) in the next link's frame."""
     for s in range(count):
         p0, p1, p2 = place[9, s], place[10, s], place[11, s]
@@ -138,7 +140,7 @@ def _move_axis(axis, inner, outer, place, moved, count):
 
 
 @njit(inline="always")
-def _project(torque, axis, pair, effect, motion, own, count):
+def _project(torque, axis, pair, effect, motion, own, count) -> None:
     """Write the torque on one carrying joint per unit of each of the link's ten parameters."""
     for s in range(count):
         x0, x1, x2 = axis[pair, 0, s], axis[pair, 1, s], axis[pair, 2, s]
@@ -158,7 +160,7 @@ def _project(torque, axis, pair, effect, motion, own, count):
 
 
 @njit(inline="always")
-def _add(out, slots, torque, scale, begin, count):
+def _add(out, slots, torque, scale, begin, count) -> None:
     """Add the wanted rows to the output."""
     for k in range(10):
         if slots[k] >= 0:
@@ -191,7 +193,7 @@ def rigid_body_series(  # pragma: no cover  (compiled)
     chain,
     slot,
     out,
-):
+) -> None:
     """Add to `out[slot[pair, k]]` the torque on a carrying joint per unit parameter k of a link.
 
     `position`, `velocity`, `acceleration` are (joints, samples); pairs run over links and, within a link,

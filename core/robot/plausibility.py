@@ -77,14 +77,15 @@ def _about_letters(robot: RobotModel) -> list[str]:
     first, last = rows[0], rows[-1]
     if first is None or last is None or len(rows) < 2:
         return []
-    plain = (first.gamma, first.b) == (0.0, 0.0)
+    if (first.gamma, first.b) != (0.0, 0.0):
+        return []
     found = []
-    if plain and first.d != 0.0 and (first.alpha, first.r) == (0.0, 0.0):
+    if first.d != 0.0 and (first.alpha, first.r) == (0.0, 0.0):
         found.append(
             f"joint 1: d is {first.d:.4g} m and r is 0; Khalil's d is Craig's a and Khalil's r is Craig's d: "
             "were the letters of another convention meant?"
         )
-    if plain and first.alpha != 0.0 and last.alpha == 0.0 and last.d == 0.0:
+    if first.alpha != 0.0 and (last.alpha, last.d) == (0.0, 0.0):
         found.append(
             f"joint 1: alpha is {first.alpha:.4g} rad and the last row has alpha = d = 0: a "
             "standard Denavit-Hartenberg table has this form, whose rows place the next joint, not their own"

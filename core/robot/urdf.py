@@ -171,14 +171,19 @@ def _chain(joints: list[UrdfJoint], base: str, tip: str) -> set[str]:
     return chain
 
 
-def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravity: Vector3) -> RobotModel:
+def _moving(order: list[tuple[UrdfJoint, bool]]) -> list[UrdfJoint]:
     moving = [joint for joint, moves in order if moves]
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise RobotError(
-            "no joint moves" if not moving else "too many joints move",
+            "too many joints move" if moving else "no joint moves",
             evidence={"moving": len(moving), "fixed": len(order) - len(moving), "limit": MOST_JOINTS},
             remedy="choose a chain of 1 to 64 moving joints with base_link and tip_link",
         )
+    return moving
+
+
+def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravity: Vector3) -> RobotModel:
+    moving = _moving(order)
     by_name = {joint.name: joint for joint in moving}
     joints = tuple(Joint(joint.name, joint.limits) for joint in moving if joint.mimic is None)
     numbers = {joint.name: number for number, joint in enumerate(joints, start=1)}

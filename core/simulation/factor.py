@@ -4,7 +4,7 @@ The lower triangle of a state's matrix lies in rows i * joints + j of a table; i
 place. A matrix that is not positive definite leaves nan behind. Source: Golub & Van Loan, ch. 4.2.
 """
 
-# ruff: noqa: ANN001, ANN201, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# ruff: noqa: ANN001, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
 # Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -23,21 +23,21 @@ INLINE = {
 
 
 @njit(**INLINE)
-def less(out, row, table, other, factor, count):
+def less(out, row, table, other, factor, count) -> None:
     """Subtract a multiple of a row of another table."""
     for s in range(count):
         out[row, s] -= factor * table[other, s]
 
 
 @njit(**INLINE)
-def less_product(out, row, one, left, other, right, count):
+def less_product(out, row, one, left, other, right, count) -> None:
     """Subtract the product of two rows."""
     for s in range(count):
         out[row, s] -= one[left, s] * other[right, s]
 
 
 @njit(**INLINE)
-def less_mass_times(out, mass, vector, joints, count):
+def less_mass_times(out, mass, vector, joints, count) -> None:
     """Subtract the mass matrix times a vector."""
     for i in range(joints):
         for j in range(joints):
@@ -46,7 +46,7 @@ def less_mass_times(out, mass, vector, joints, count):
 
 
 @njit(**INLINE)
-def factorise(mass, scale, joints, count):
+def factorise(mass, scale, joints, count) -> None:
     """Turn the lower triangle into its Cholesky factor; `scale` gets one over its diagonal."""
     for j in range(joints):
         for i in range(j, joints):
@@ -63,7 +63,7 @@ def factorise(mass, scale, joints, count):
 
 
 @njit(**INLINE)
-def substitute(vector, factor, scale, joints, count):
+def substitute(vector, factor, scale, joints, count) -> None:
     """Solve with the Cholesky factor in place."""
     for i in range(joints):
         for k in range(i):
@@ -78,7 +78,7 @@ def substitute(vector, factor, scale, joints, count):
 
 
 @njit(**PART)
-def solve_one(vector, factor, scale, s, joints):
+def solve_one(vector, factor, scale, s, joints) -> None:
     """Solve one state's equations in place."""
     for i in range(joints):
         for k in range(i):

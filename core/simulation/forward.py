@@ -4,7 +4,7 @@ States are taken in blocks: mass matrix and bias from the moving masses, drives 
 factorisation, and friction where something is at rest. Source: Featherstone 2008, ch. 6.
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# ruff: noqa: ANN001, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
 # Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -23,35 +23,35 @@ Bodies = tuple[np.ndarray, ...]
 
 
 @njit(**INLINE)
-def _take(block, table, begin, count):
+def _take(block, table, begin, count) -> None:
     for row in range(len(table)):
         for s in range(count):
             block[row, s] = table[row, begin + s]
 
 
 @njit(**INLINE)
-def _raise(out, row, value, count):
+def _raise(out, row, value, count) -> None:
     """Add a number to a row."""
     for s in range(count):
         out[row, s] += value
 
 
 @njit(**INLINE)
-def _raise_by(out, row, times, factor, begin, count):
+def _raise_by(out, row, times, factor, begin, count) -> None:
     """Add a multiple of a time per state."""
     for s in range(count):
         out[row, s] += times[begin + s] * factor
 
 
 @njit(**INLINE)
-def _slide(out, row, direction, level, weight, begin, count):
+def _slide(out, row, direction, level, weight, begin, count) -> None:
     """Subtract the friction of what slides."""
     for s in range(count):
         out[row, s] -= weight * (direction[begin + s] * level[begin + s])
 
 
 @njit(**INLINE)
-def _give(table, block, begin, count):
+def _give(table, block, begin, count) -> None:
     """Copy a block's rows to where they belong."""
     for row in range(len(table)):
         for s in range(count):
@@ -59,7 +59,7 @@ def _give(table, block, begin, count):
 
 
 @njit(**INLINE)
-def _add_drives(out, mass, velocity, inertia, damping, count):
+def _add_drives(out, mass, velocity, inertia, damping, count) -> None:
     """Add rotors to the mass matrix, and take viscous friction from the torque."""
     joints = len(inertia)
     for i in range(joints):
@@ -71,7 +71,7 @@ def _add_drives(out, mass, velocity, inertia, damping, count):
 
 
 @njit(**INLINE)
-def _add_implicit(mass, implicit, damping, begin, count):
+def _add_implicit(mass, implicit, damping, begin, count) -> None:
     """Add to the mass matrix what the damping becomes within the implicit time."""
     joints = len(damping)
     for i in range(joints):
@@ -83,7 +83,7 @@ def _add_implicit(mass, implicit, damping, begin, count):
 @njit(f"void({ROBOT}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})", **OPTIONS)
 def _move_masses(  # pragma: no cover  (compiled)
     robot, position, velocity, acceleration, torque, mass
-):
+) -> None:
     """Write torque and the mass matrix's lower triangle (row i * joints + j) of every state.
 
     All tables are (rows, states); an empty one is not written.
@@ -125,7 +125,7 @@ def _accelerate(  # pragma: no cover  (compiled)
     level,
     rate,
     held,
-):
+) -> None:
     """Solve for the accelerations of every state, whose masses and bias `_move_masses` wrote."""
     joints, states = velocity.shape
     v, bias, other = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
@@ -187,7 +187,7 @@ def mass_matrices(robot: Bodies, position: np.ndarray, matrices: np.ndarray) -> 
 
 
 @njit(f"void({_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS)
-def predict(position, velocity, rate, time, ahead, speed):  # pragma: no cover  (compiled)
+def predict(position, velocity, rate, time, ahead, speed) -> None:  # pragma: no cover  (compiled)
     """Write position and velocity a time later at a constant rate of the velocity."""
     for row in range(len(position)):
         for s in range(len(time)):
@@ -198,7 +198,7 @@ def predict(position, velocity, rate, time, ahead, speed):  # pragma: no cover  
 @njit(f"void({_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS)
 def correct(  # pragma: no cover  (compiled)
     position, velocity, first, predicted, second, time, ahead, speed
-):
+) -> None:
     """Write position and velocity a time later from the scheme's two rates; `second` becomes the last one."""
     for row in range(len(position)):
         for s in range(len(time)):

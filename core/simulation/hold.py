@@ -5,7 +5,7 @@ min 1/2 x' G x - x' b over |x| <= level, with G = J inv(M) J' and b the accelera
 projected Gauss-Seidel. Sources: Acary & Brogliato 2008, ch. 12 and 13.
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# ruff: noqa: ANN001, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
 # Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -20,7 +20,7 @@ CLOSE = 1e-13
 
 
 @njit(**PART)
-def _settle(coupled, push, level, held):
+def _settle(coupled, push, level, held) -> None:
     """Find friction torques within their levels that leave as little of the push as they can."""
     for _ in range(SWEEPS):
         change = 0.0
@@ -36,7 +36,7 @@ def _settle(coupled, push, level, held):
 
 
 @njit(**PART)
-def _stop(rate, s, weights, resting, held, level):
+def _stop(rate, s, weights, resting, held, level) -> None:
     """Take from joints that are held what rounding left of their acceleration."""
     for e in resting:
         count, only = 0, 0
@@ -48,7 +48,7 @@ def _stop(rate, s, weights, resting, held, level):
 
 
 @njit(**PART)
-def _resting(direction, level):
+def _resting(direction, level) -> np.ndarray:
     """List the frictions that are at rest and can hold."""
     count = 0
     resting = np.empty(len(level), np.int64)
@@ -60,7 +60,7 @@ def _resting(direction, level):
 
 
 @njit(**PART)
-def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
+def _hold(rate, factor, scale, s, weights, direction, level, held, joints) -> None:
     """Keep at rest what friction can keep at rest in one state: changes its accelerations, fills `held`."""
     resting = _resting(direction, level)
     answer = np.empty((len(resting), joints))
@@ -88,7 +88,7 @@ def _hold(rate, factor, scale, s, weights, direction, level, held, joints):
 
 
 @njit(**INLINE)
-def _rests(direction, level, s):
+def _rests(direction, level, s) -> bool:
     found = False
     for e in range(len(level)):
         found |= direction[e, s] == 0.0 and level[e, s] > 0.0
@@ -96,7 +96,7 @@ def _rests(direction, level, s):
 
 
 @njit(**INLINE)
-def hold_block(rate, factor, scale, weights, direction, level, held, begin, many):
+def hold_block(rate, factor, scale, weights, direction, level, held, begin, many) -> None:
     """Hold in every state of a block what is at rest and can be held."""
     for s in range(many):
         if _rests(direction, level, begin + s):

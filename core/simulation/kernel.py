@@ -7,7 +7,7 @@ needs to use vector instructions. Sources: Featherstone 2008, ch. 5 and 6 (recur
 composite rigid bodies).
 """
 
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
+# ruff: noqa: ANN001, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly
 # Types stand in numba's signatures, which mypy does not read:
 # mypy: disable-error-code="no-untyped-def"
 
@@ -20,7 +20,7 @@ BLOCK = 64
 
 
 @njit(inline="always")
-def _copy(table, place, rows, many, count):
+def _copy(table, place, rows, many, count) -> None:
     """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
     for row in range(many):
         for s in range(count):
@@ -28,7 +28,9 @@ def _copy(table, place, rows, many, count):
 
 
 @njit(inline="always")
-def _place_link(frame, parent, own, moved, position, joint, count, scale, offset, slides, fixed, shift):
+def _place_link(
+    frame, parent, own, moved, position, joint, count, scale, offset, slides, fixed, shift
+) -> None:
     """Write the link's frame in the base's: nine rows of rotation, three of position."""
     f00, f01, f02 = fixed[0, 0], fixed[0, 1], fixed[0, 2]
     f10, f11, f12 = fixed[1, 0], fixed[1, 1], fixed[1, 2]
@@ -60,7 +62,7 @@ def _place_link(frame, parent, own, moved, position, joint, count, scale, offset
 
 
 @njit(inline="always")
-def _place_axis(axis, frame, own, turns, slides, count):
+def _place_axis(axis, frame, own, turns, slides, count) -> None:
     """Write what a unit of joint speed gives: spin, and speed of the point at the base's origin."""
     for s in range(count):
         z0, z1, z2 = frame[own, 2, s], frame[own, 5, s], frame[own, 8, s]
@@ -72,7 +74,7 @@ def _place_axis(axis, frame, own, turns, slides, count):
 
 
 @njit(inline="always")
-def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, count):
+def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, count) -> None:
     """Carry spin, origin's speed, and the rates of both less gravity (three rows each) one link outwards."""
     for s in range(count):
         v, a = velocity[joint, s], acceleration[joint, s]
@@ -92,7 +94,7 @@ def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, 
 
 
 @njit(inline="always")
-def _place_body(body, frame, own, bodies, count):
+def _place_body(body, frame, own, bodies, count) -> None:
     """Write a body's inertia about the base's origin (XX XY XZ YY YZ ZZ) and its first moments."""
     xx, xy, xz, yy, yz, zz = bodies[0], bodies[1], bodies[2], bodies[3], bodies[4], bodies[5]
     mx, my, mz, m = bodies[6], bodies[7], bodies[8], bodies[9]
@@ -134,7 +136,7 @@ def _place_body(body, frame, own, bodies, count):
 
 
 @njit(inline="always")
-def _load_link(wrench, motion, body, own, mass, count):
+def _load_link(wrench, motion, body, own, mass, count) -> None:
     """Write the moment and the force that a body's motion asks for: I A + V x* (I V)."""
     for s in range(count):
         xx, xy, xz = body[own, 0, s], body[own, 1, s], body[own, 2, s]
@@ -165,7 +167,7 @@ def _load_link(wrench, motion, body, own, mass, count):
 
 
 @njit(inline="always")
-def _gather(table, parent, own, rows, count):
+def _gather(table, parent, own, rows, count) -> None:
     """Add a link's rows to its antecedent's."""
     for row in range(rows):
         for s in range(count):
@@ -173,7 +175,7 @@ def _gather(table, parent, own, rows, count):
 
 
 @njit(inline="always")
-def _momentum(pushed, body, axis, own, mass, count):
+def _momentum(pushed, body, axis, own, mass, count) -> None:
     """Write the momentum that a unit of joint speed gives the subtree: three rows angular, three linear."""
     for s in range(count):
         h0, h1, h2 = body[own, 6, s], body[own, 7, s], body[own, 8, s]
@@ -188,7 +190,7 @@ def _momentum(pushed, body, axis, own, mass, count):
 
 
 @njit(inline="always")
-def _project(out, row, axis, link, rows, count):
+def _project(out, row, axis, link, rows, count) -> None:
     """Add a wrench or momentum, seen along a joint's axis, to a row of the output."""
     for s in range(count):
         out[row, s] += (
@@ -216,7 +218,7 @@ OPTIONS = {
 
 
 @njit(inline="always")
-def scratch(links):
+def scratch(links) -> tuple[np.ndarray, ...]:
     """Give the tables that a block of states needs: frames, axes, motions, bodies, wrenches, moved rows."""
     return (
         np.zeros((links + 1, 12, BLOCK)),
@@ -229,7 +231,7 @@ def scratch(links):
 
 
 @njit(inline="always")
-def move_block(robot, tables, position, velocity, acceleration, many):
+def move_block(robot, tables, position, velocity, acceleration, many) -> None:
     """Fill the tables of a block of states, from the base outwards and back; subtrees are summed.
 
     The tables have to come from `scratch` in the same function: the compiler then knows that they are apart.
@@ -259,7 +261,7 @@ def move_block(robot, tables, position, velocity, acceleration, many):
 
 
 @njit(inline="always")
-def torque_of_block(robot, tables, torque, many):
+def torque_of_block(robot, tables, torque, many) -> None:
     """Write the joints' torques of a block that has been moved."""
     joint = robot[2]
     axis, wrench = tables[1], tables[4]
@@ -271,7 +273,7 @@ def torque_of_block(robot, tables, torque, many):
 
 
 @njit(inline="always")
-def mass_of_block(robot, tables, mass, joints, many):
+def mass_of_block(robot, tables, mass, joints, many) -> None:
     """Write the lower triangle of the mass matrix of a block that has been moved, row i * joints + j."""
     antecedent, joint, masses = robot[1], robot[2], robot[9]
     axis, body, pushed = tables[1], tables[3], tables[5]

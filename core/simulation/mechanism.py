@@ -5,6 +5,7 @@ a set with a level, and every other term is evaluated as it stands at the state 
 no function of that state: what depends on the motion before, and what only the torque channel shows.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -29,6 +30,8 @@ from .bodies import Phases, is_body, phases_of
 from .forward import Bodies
 from .inverse import bodies_of, columns
 from .share import Share, share_of
+
+Parts = list[tuple[Term, Weights]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +134,8 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
     weights = np.vstack([np.eye(joints), *(weights[None] for weights, _ in coupled)])
     levels = np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]])
     _check_levels(levels)
-    of_state = [part for part in others if not (part[0].remembers or part[0].channel)]
+    channel, rest = _partition(others, lambda term: term.channel)
+    remembered, of_state = _partition(rest, lambda term: term.remembers)
     # Any term may jump where its joint stands: only a model without such terms can leave joints out.
     kept = (levels > 0.0) | (np.arange(len(levels)) < joints) & bool(of_state)
     return Mechanism(
@@ -143,23 +147,26 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         weights=weights[kept],
         levels=levels[kept],
         others=share_of(model.robot, of_state),
-        remembered=share_of(
-            model.robot, [part for part in others if part[0].remembers and not part[0].channel]
-        ),
-        channel=share_of(model.robot, [part for part in others if part[0].channel]),
+        remembered=share_of(model.robot, remembered),
+        channel=share_of(model.robot, channel),
     )
+
+
+def _partition(parts: Parts, chosen: Callable[[Term], bool]) -> tuple[Parts, Parts]:
+    """Divide weighted terms into those that are chosen and those that are not."""
+    return [part for part in parts if chosen(part[0])], [part for part in parts if not chosen(part[0])]
 
 
 def _sorted(
     model: DynamicModel, parameters: Parameters
-) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], list[tuple[Term, Weights]]]:
+) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], Parts]:
     """Sort all terms but bodies: numbers per joint, couplings as weights and three numbers, others."""
     robot = model.robot
     drives: dict[type, np.ndarray] = {
         kind: np.zeros(len(robot.joints)) for kind in (RotorInertia, Viscous, Coulomb, Offset)
     }
     coupled: list[tuple[np.ndarray, np.ndarray]] = []
-    others: list[tuple[Term, Weights]] = []
+    others: Parts = []
     for term, values in model.split(parameters):
         if type(term) in drives:
             drives[type(term)][[joint for joint, _ in term.entries(robot)]] += values

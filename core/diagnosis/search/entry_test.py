@@ -38,13 +38,7 @@ def best_entry(
     least
         BIC gain that it has to exceed.
     """
-    excluded = {name for one in now.members for name in excludes(one.cause.id)}
-    taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
-    scans = [
-        one
-        for one in fitter.scan(now)
-        if one.candidate.key not in taken and one.candidate.cause.id not in excluded
-    ]
+    scans = _admissible_scans(fitter, now, excluded_kinds)
     tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.traits.transient]
     reach = zip(tried, predicted_likelihood_ratios(fitter, now, tried), strict=True)
     ranked = sorted(
@@ -56,6 +50,19 @@ def best_entry(
         likely, left = _significant(fitter, now, left, least, len(scans))
         found = _best_on_holdout(fitter, now, likely, excluded_kinds, least)
     return found
+
+
+def _admissible_scans(
+    fitter: HypothesisFitter, now: Hypothesis, excluded_kinds: Excluded
+) -> list[ScoredCandidate]:
+    """Give the scored candidates that neither a member nor the search before excludes."""
+    excluded = {name for member in now.members for name in excludes(member.cause.id)}
+    taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
+    return [
+        scored
+        for scored in fitter.scan(now)
+        if scored.candidate.key not in taken and scored.candidate.cause.id not in excluded
+    ]
 
 
 def _significant(
@@ -129,11 +136,11 @@ def _is_independent(
 ) -> bool:
     """Tell whether a member is as significant as a first one has to be, and independent of the others."""
     member, others = trial.members[index], [set(one.site) for one in now.members]
-    if not others or _acts_rarely(trial, index):
+    if not others or not member.site or _acts_rarely(trial, index):
         return False
-    if not all(one and one.isdisjoint(member.site) for one in others):
+    if not all(site and site.isdisjoint(member.site) for site in others):
         return False
-    if not member.site or not is_significant(fitter, now, trial, kinds, ENTRY.level, index):
+    if not is_significant(fitter, now, trial, kinds, ENTRY.level, index):
         return False
     none = fitter.fit(())
     alone, beside = likelihood_ratio(none, fitter.fit_with(none, member)), likelihood_ratio(now, trial)

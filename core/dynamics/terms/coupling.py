@@ -4,6 +4,7 @@ By virtual work the motor's torque acts on joint i with the weight that joint i 
 Staubli wrists 5-6, as in Janot, Vandanjon & Gautier, IEEE TCST 22(1), 2014.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -54,6 +55,11 @@ class GearCoupling:
             columns = (_weighted_sum(coupling, state.acceleration), motor, direction(motor, width))
             rows += [weight * column for weight in coupling.weights for column in columns]
         return np.array(rows).reshape(len(rows), len(state.position))
+
+
+def coupling_widths(robot: RobotModel, widths: Sequence[float]) -> tuple[float, ...]:
+    """Give every declared coupling the largest width of its joints."""
+    return tuple(max(widths[joint - 1] for joint in coupling.joints) for coupling in robot.couplings)
 
 
 def motor_speed(coupling: Coupling, state: MotionState) -> Samples:

@@ -28,6 +28,7 @@ MAX_MEMBERS = 4 * MAX_COLUMNS
 MAX_DEPTH = 16
 LONGEST_CLASS = 64
 TEXT = (b"char", b"cell")
+
 FILTERS = frozenset({1, 2, 3})
 """Deflate, shuffle and checksum, by HDF5's numbers: what MATLAB writes, and no plug-in."""
 
@@ -57,8 +58,7 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
     """Walk the datasets by hard links only; None stands for what is no array of numbers."""
     import h5py
 
-    if len(group) > MAX_MEMBERS or len(seen) > MAX_MEMBERS or prefix.count(".") > MAX_DEPTH:
-        raise _size_error(prefix)
+    _check_size(max(len(group), len(seen)), prefix)
     for key in group:
         name = f"{prefix}{key}"
         if key.startswith("#"):  # MATLAB's own bookkeeping of cells
@@ -68,11 +68,15 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
         item = group[key]
         if isinstance(item, h5py.Dataset):
             _check_storage(name, item)
-            numeric = item.dtype.kind in "iuf" and item.ndim in (1, 2) and "MATLAB_empty" not in item.attrs
-            yield name, item if numeric and not _is_text(item) else None
+            yield name, _numeric(item)
         elif isinstance(item, h5py.Group) and (place := h5py.h5o.get_info(item.id).addr) not in seen:
             seen.add(place)  # groups may hold each other: each is entered once
             yield from _datasets(item, f"{name}.", seen)
+
+
+def _numeric(dataset: Any) -> Any:  # noqa: ANN401  # h5py gives any type
+    numeric = dataset.dtype.kind in "iuf" and dataset.ndim in (1, 2) and "MATLAB_empty" not in dataset.attrs
+    return dataset if numeric and not _is_text(dataset) else None
 
 
 def _is_text(dataset: Any) -> bool:  # noqa: ANN401  # h5py gives any type
@@ -98,12 +102,13 @@ def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # h5py giv
         )
 
 
-def _size_error(place: str) -> LogError:
-    return LogError(
-        "the file holds more groups than a log has",
-        evidence={"in": place[:100], "at_most": MAX_MEMBERS, "deepest": MAX_DEPTH},
-        remedy="save the datasets of the log only",
-    )
+def _check_size(members: int, place: str) -> None:
+    if members > MAX_MEMBERS or place.count(".") > MAX_DEPTH:
+        raise LogError(
+            "the file holds more groups than a log has",
+            evidence={"in": place[:100], "at_most": MAX_MEMBERS, "deepest": MAX_DEPTH},
+            remedy="save the datasets of the log only",
+        )
 
 
 def _refers_outside(name: str, what: str) -> LogError:

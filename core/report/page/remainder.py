@@ -53,21 +53,11 @@ def sentences(document: Document) -> list[str]:
     left = document["diagnosis"]["unexplained"]
     shares, pattern = left["predictable_residual_fraction"], left["pattern"]
     parked = [joint for joint, fraction in enumerate(shares, start=1) if fraction is None]
-    predicted = [
-        joint for joint in left["joints"] if pattern is None or joint != pattern["joint"] or shares[joint - 1]
-    ]
-    first = (
-        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in predicted])} part of the "
-        "residual depends on the motion: an unknown cause, or one that is not identifiable from this log."
-        if predicted
-        else "A generic learner with positions, velocities, loads and time as inputs cannot predict the "
-        f"residual of {'any other joint' if parked else 'any joint'} on held-out data."
-    )
+    listed = [_on_prediction(left, "any other joint" if parked else "any joint")]
     if pattern:
-        first += f" {pattern['statement']}; no known cause explains it (p = 10^{pattern['log10_p']:.0f})."
+        listed[0] += f" {pattern['statement']}; no known cause explains it (p = 10^{pattern['log10_p']:.0f})."
     elif not left["joints"]:
-        first += " No extension of the model would give a significant improvement."
-    listed = [first]
+        listed[0] += " No extension of the model would give a significant improvement."
     if above := _above_the_floor(left):
         listed.append(
             f"On {joints(above)} the residual is well above the noise floor without depending on the motion: "
@@ -81,6 +71,21 @@ def sentences(document: Document) -> list[str]:
     if parked:
         listed.append(f"No statement is possible on {joints(parked)}: there is hardly any motion.")
     return listed
+
+
+def _on_prediction(left: Document, tried: str) -> str:
+    """Say on which joints a learner predicts the residual, or that it does on none of those tried."""
+    shares, of_pattern = left["predictable_residual_fraction"], (left["pattern"] or {}).get("joint")
+    predicted = [joint for joint in left["joints"] if joint != of_pattern or shares[joint - 1]]
+    if not predicted:
+        return (
+            "A generic learner with positions, velocities, loads and time as inputs cannot predict the "
+            f"residual of {tried} on held-out data."
+        )
+    return (
+        f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in predicted])} part of the "
+        "residual depends on the motion: an unknown cause, or one that is not identifiable from this log."
+    )
 
 
 def _mostly_stiction(left: Document) -> list[str]:
