@@ -155,6 +155,8 @@ def _compared(found: SearchState) -> tuple[SearchState, list[Comparison]]:
         more = continue_search(kept)
         if len(more.chosen.members) > len(kept.chosen.members):
             return compare_alternatives(more)
+        # What follows is linearised where that search ended.
+        kept = replace(kept, fitter=more.fitter)
     return kept, comparisons
 
 
