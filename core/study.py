@@ -120,13 +120,12 @@ def _earlier(request: IdentifyRequest, options: IdentifyOptions) -> Reference | 
         return None
     decided = [option for option in ("terms", "smooth_coulomb") if options.given.get(option)]
     if decided or request.reference is None:
-        raise OptionError(
-            f"the reference {name} decides the model's {' and '.join(decided)}"
+        cause, remedy = (
+            (f"the reference {name} decides the model's {' and '.join(decided)}", "leave these options out")
             if decided
-            else f"the result of the reference {name} is not at hand",
-            evidence={"reference": name, "given": decided},
-            remedy="leave these options out" if decided else "name a finished job",
+            else (f"the result of the reference {name} is not at hand", "name a finished job")
         )
+        raise OptionError(cause, evidence={"reference": name, "given": decided}, remedy=remedy)
     return reference_from_document(request.reference, request.robot, name)
 
 

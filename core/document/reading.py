@@ -8,10 +8,10 @@ import numpy as np
 
 from ..dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from ..dynamics.terms.coulomb import Coulomb
-from ..dynamics.terms.coupling import GearCoupling, coupling_widths
 from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.rotor_inertia_missing import MissingRotor
 from ..errors import RobotError
+from ..estimate.smoothing import with_widths
 from ..extension.fold import folded
 from ..robot.description import robot_from_description
 from ..robot.frames import nearest_rotation
@@ -78,7 +78,7 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
             evidence={"missing": "/terms", "version": document["provenance"].get("version")},
             remedy="identify the robot from its logs again",
         )
-    return _smoothed(standard_model(robot, tuple(names)), document["coulomb_smoothing_widths"])
+    return with_widths(standard_model(robot, tuple(names)), tuple(document["coulomb_smoothing_widths"]))
 
 
 def _standing(document: Document) -> IdentifiedRobot:
@@ -148,7 +148,7 @@ def _standard_part(
     whole = _declaring(robot, values, tuple(couplings))
     every = standard_model(whole)
     named = tuple(name for name in named_terms(every) if name in held_terms)
-    held = _smoothed(standard_model(whole, named), widths)
+    held = with_widths(standard_model(whole, named), widths)
     if beyond:
         remarks = [*remarks, f"The extended model also has {', '.join(beyond)}; model.json holds these too."]
     return IdentifiedRobot(
@@ -173,14 +173,3 @@ def _declaring(robot: RobotModel, values: Mapping[str, float], couplings: tuple[
         for number, joint in enumerate(robot.joints, start=1)
     )
     return replace(robot, joints=joints, couplings=couplings)
-
-
-def _smoothed(model: DynamicModel, widths: tuple[float, ...] | list[float]) -> DynamicModel:
-    """Give a model's signs of velocity their widths, rad/s or m/s."""
-    widths = tuple(widths)
-    names = {term.name for term in model.terms}
-    if widths and "coulomb" in names:
-        model = model.with_term(Coulomb(widths))
-    if widths and model.robot.couplings and "coupling" in names:
-        model = model.with_term(GearCoupling(coupling_widths(model.robot, widths)))
-    return model

@@ -77,13 +77,18 @@ def _own_fields(kind: type) -> Iterator[tuple[str, object]]:
     return ((entry.name, entry.type) for entry in fields(kind) if entry.name != NAME)
 
 
+def _place(prediction: Prediction, predictions: list[Prediction]) -> int:
+    """Give a prediction's place among those of the document, and append it where it is missing."""
+    if not any(known is prediction for known in predictions):
+        for term, _ in prediction.joined:  # what it is built on comes before it
+            term_fields(term, predictions)
+        predictions.append(prediction)
+    return next(place for place, known in enumerate(predictions) if known is prediction)
+
+
 def _plain(value: object, predictions: list[Prediction]) -> object:
     if isinstance(value, Prediction):
-        if not any(known is value for known in predictions):
-            for term, _ in value.joined:  # what it is built on comes before it
-                term_fields(term, predictions)
-            predictions.append(value)
-        return next(place for place, known in enumerate(predictions) if known is value)
+        return _place(value, predictions)
     if isinstance(value, Coupling):
         return asdict(value)
     if isinstance(value, tuple):

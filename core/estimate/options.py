@@ -60,10 +60,7 @@ class EstimateOptions:
                 },
                 remedy="choose one of the known names",
             )
-        method, given = self.method, {"bounds": self.bounds != Bounds(), "entropy": self.entropy > 0.0}
-        useless = {} if method.feasible else given
-        useless |= {"robust": self.robust and not method.row_weights}
-        without_effect = [name for name, is_given in useless.items() if is_given]
+        without_effect = self._without_effect()
         if without_effect:
             raise OptionError(
                 f"{' and '.join(without_effect)} would have no effect on this estimator",
@@ -82,3 +79,13 @@ class EstimateOptions:
                 evidence={"entropy": self.entropy, "solver": self.solver},
                 remedy="ask for solver cvxpy together with entropy",
             )
+
+    def _without_effect(self) -> list[str]:
+        """List the options that have been set and would not act on this estimator."""
+        acts = {
+            "bounds": self.method.feasible,
+            "entropy": self.method.feasible,
+            "robust": self.method.row_weights,
+        }
+        is_set = {"bounds": self.bounds != Bounds(), "entropy": self.entropy > 0.0, "robust": self.robust}
+        return [name for name in acts if is_set[name] and not acts[name]]

@@ -105,11 +105,11 @@ class ObservedProblem:
         plan = self.problem.plan
         parameters = [plan.model.parameters[column] for column in plan.columns]
         norms = np.linalg.norm(ordinary(self.factors, self.columns_of, self.size).triangle, axis=0)
-        idle = [parameter for parameter, norm in zip(parameters, norms, strict=True) if norm == 0.0]
+        idle = [parameter.name for parameter, norm in zip(parameters, norms, strict=True) if norm == 0.0]
         inertias = {parameter.name for parameter in parameters if parameter.unit == "kg m2"}
-        if inertias and inertias <= {parameter.name for parameter in idle}:
+        if inertias and inertias <= set(idle):
             raise ExcitationError(
                 "no joint changes its speed, so that no inertia shows in the torque",
-                evidence={"parameters_not_excited": [parameter.name for parameter in idle]},
+                evidence={"parameters_not_excited": idle},
                 remedy="record a motion in which every joint speeds up, slows down and turns round",
             )

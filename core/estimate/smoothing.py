@@ -110,10 +110,15 @@ def chosen_widths(
         ]
         shares[joint] = min(options, key=lambda option: option[1])[0]
     widths = tuple(float(width) for width in shares * speed)
+    return with_widths(model, widths)
+
+
+def with_widths(model: DynamicModel, widths: tuple[float, ...]) -> DynamicModel:
+    """Give a model's signs of velocity their widths per joint, rad/s or m/s; none keep plain signs."""
     present = {term.name for term in model.terms}
-    if "coulomb" in present:
+    if widths and "coulomb" in present:
         model = model.with_term(Coulomb(widths))
-    if model.robot.couplings and "coupling" in present:
+    if widths and model.robot.couplings and "coupling" in present:
         model = model.with_term(GearCoupling(coupling_widths(model.robot, widths)))
     return model
 

@@ -99,8 +99,7 @@ def free_name(wanted: str, taken: list[str]) -> str:
 def _owner(robot: RobotModel, number: int) -> int:
     """Choose the link, counted from 0, that moves as the joint's coordinate does."""
     moved = [(index, link) for index, link in enumerate(robot.links) if link.joint == number]
-    alike = [index for index, link in moved if (link.ratio, link.offset) == (1.0, 0.0)]
-    turned = [index for index, link in moved if abs(link.ratio) == 1.0]
+    turned = [(index, link) for index, link in moved if abs(link.ratio) == 1.0]
     if not turned:
         joint = robot.joints[number - 1].name
         raise RobotError(
@@ -108,7 +107,8 @@ def _owner(robot: RobotModel, number: int) -> int:
             evidence={"joint": joint, "ratios": [link.ratio for _, link in moved]},
             remedy="describe the joint by its own coordinate, and scale the log instead",
         )
-    return (alike or turned)[0]
+    index, _ = min(turned, key=lambda place: (place[1].ratio, place[1].offset) != (1.0, 0.0))
+    return index
 
 
 def _owning(link: Link, joint: Joint) -> Mover:

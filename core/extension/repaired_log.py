@@ -45,12 +45,7 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
         If the log holds currents, and the robot does not say what torque a current gives; if no stretch of it
         is long enough to be mended.
     """
-    causes: Mapping[str, object] = BY_ID
-    # The catalogue has a channel's scale before its zero and both before their lateness: the last goes first.
-    place = {name: -number for number, name in enumerate(BY_ID)}
-    chosen = sorted((one for one in repairs if one.mends == "log"), key=lambda one: place.get(one.cause, 0))
-    known = [(one, causes.get(one.cause)) for one in chosen]
-    mending = tuple((one, cause) for one, cause in known if isinstance(cause, CorrectsLog))
+    mending = _in_order(repairs)
     if not mending:
         return log
     reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in mending)
@@ -63,6 +58,18 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
             remedy=f"record more than {2 * reach} samples without gaps",
         )
     return replace(log, name=f"{log.name}, repaired", source=source, segments=inner, sha256="")
+
+
+def _in_order(repairs: Iterable[Repair]) -> tuple[tuple[Repair, CorrectsLog], ...]:
+    """Give the repairs of a log with their causes, in the order in which they are carried out.
+
+    The catalogue has a channel's scale before its zero and both before their lateness: the last goes first.
+    """
+    causes: Mapping[str, object] = BY_ID
+    place = {name: -number for number, name in enumerate(BY_ID)}
+    chosen = sorted((one for one in repairs if one.mends == "log"), key=lambda one: place.get(one.cause, 0))
+    known = [(one, causes.get(one.cause)) for one in chosen]
+    return tuple((one, cause) for one, cause in known if isinstance(cause, CorrectsLog))
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,8 @@ import numpy as np
 
 from ..arrays import JointVector, Mask
 from ..estimate.estimate import Estimate
+from ..log.model import Defect
+from ..regressor.observe import Block
 from .result import Identification
 
 HIGH_COST = 1.25
@@ -58,13 +60,14 @@ def _joint_cost(found: Identification) -> JointVector:
 def _signs(found: Identification) -> list[str]:
     # Least squares leaves a smaller residual than the estimate that the deviations were taken from.
     deviation = found.precision.standard_deviation / np.sqrt(_cost_ratio(found.estimate))
+    ratio = found.estimate.unconstrained / deviation
     negative = {
-        found.base.names[row]: found.estimate.unconstrained[row] / deviation[row]
+        found.base.names[row]
         for row in range(len(found.base.kept))
-        if found.base.parameter(row).symbol in {"FV", "FC"} and np.isfinite(deviation[row])
+        if found.base.parameter(row).symbol in {"FV", "FC"} and ratio[row] < -CERTAIN
     }
-    joints = sorted({name[2:] for name, ratio in negative.items() if ratio < -CERTAIN}, key=int)
-    both = [j for j in joints if all(negative.get(f"{s}{j}", 0.0) < -CERTAIN for s in ("FV", "FC"))]
+    joints = sorted({name[2:] for name in negative}, key=int)
+    both = [joint for joint in joints if {f"FV{joint}", f"FC{joint}"} <= negative]
     return [
         f"Least squares finds negative viscous and Coulomb friction on joint {joint}, each more than "
         f"{CERTAIN:g} standard deviations below zero: its torque may have the opposite sign"
@@ -101,9 +104,13 @@ def _joints_with_held_out_outliers(found: Identification) -> str:
         if (block.log, block.number) in found.held_out
         for defect in found.logs[block.log].defects
         if (defect.kind, defect.channel) == ("outliers", "torque") and defect.joint is not None
-        if any(start <= block.end and end >= block.start for start, end in defect.intervals)
+        if _overlaps(defect, block)
     }
-    return ", ".join(str(joint) for joint in sorted(joints))
+    return ", ".join(map(str, sorted(joints)))
+
+
+def _overlaps(defect: Defect, block: Block) -> bool:
+    return any(start <= block.end and end >= block.start for start, end in defect.intervals)
 
 
 def _not_excited(found: Identification) -> list[str]:

@@ -5,7 +5,7 @@ columns looked for, those that are there, and plausible readings.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -21,6 +21,7 @@ from .plausible_units import readings_by_column
 
 SHOWN_COLUMNS = 24
 OTHER_NAME = "a column of another name is mapped, with its unit"
+_DEFAULT_NAME = re.compile(rf"({'|'.join(channel.prefix for channel in CHANNELS.values())})(_\d+)?")
 
 
 @dataclass(frozen=True)
@@ -116,8 +117,7 @@ def bind(table: Table, mapping: LogMapping) -> Layout:
     _require(table, channels)
     channels = tuple(channel for channel in channels if not _is_other(channel, channels[0], mapping))
     _one_column_per_joint(channels)
-    used = {column for channel in (*channels, *([time] if time else [])) for column in channel.columns}
-    _no_column_twice(channels, time)
+    used = _used_once((*channels, time) if time else channels)
     ignored = tuple(name for name in table.names if name not in used)
     return Layout(time, mapping.rate_hz or 0.0, channels, ignored)
 
@@ -167,25 +167,31 @@ def _is_other(bound: Binding, position: Binding, mapping: LogMapping) -> bool:
 def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     """Find `q_1` to `q_n`, or the single `q` of a one-joint log."""
     prefix = channel.prefix
+    _refuse_count_from_zero(channel, table)
+    numbered = [name for name in table.names if re.fullmatch(f"{prefix}_[1-9][0-9]{{0,3}}", name)]
+    if not numbered:
+        return (prefix,) if prefix in table.names else ()
+    highest = max(int(name[len(prefix) + 1 :]) for name in numbered)
+    if len(numbered) < highest and channel.need == "reference":
+        return ()
+    wanted = _default_names(channel, highest)
+    if len(numbered) < highest:
+        raise _missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
+    return tuple(wanted)
+
+
+def _default_names(channel: Channel, joints: int) -> list[str]:
+    return [f"{channel.prefix}_{number}" for number in range(1, joints + 1)]
+
+
+def _refuse_count_from_zero(channel: Channel, table: Table) -> None:
+    prefix = channel.prefix
     if channel.need in ("always", "effort") and f"{prefix}_0" in table.names:
         raise LogError(
             f"the columns of {channel.name} are counted from 0, and default names from 1",
             evidence={"columns": [name for name in table.names if re.fullmatch(f"{prefix}_[0-9]+", name)]},
             remedy=f"map them in the order of the joints, or rename them {prefix}_1, {prefix}_2, ...",
         )
-    numbers = [
-        int(name[len(prefix) + 1 :])
-        for name in table.names
-        if re.fullmatch(f"{prefix}_[1-9][0-9]{{0,3}}", name)
-    ]
-    if not numbers:
-        return (prefix,) if prefix in table.names else ()
-    wanted = [f"{prefix}_{number}" for number in range(1, max(numbers) + 1)]
-    if len(numbers) < len(wanted) and channel.need == "reference":
-        return ()
-    if len(numbers) < len(wanted):
-        raise _missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
-    return tuple(wanted)
 
 
 def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
@@ -199,22 +205,19 @@ def _bind_request(channel: str, request: ChannelRequest, table: Table) -> Bindin
     if missing:
         raise _missing_error(channel, list(request.columns), table, "map columns that the file has")
     default = re.compile(CHANNELS[channel].prefix + ("(_[1-9][0-9]*)?" if channel != TIME else ""))
-    if any(
-        not unit and not default.fullmatch(name)
-        for name, unit in zip(request.columns, request.units, strict=True)
-    ):
+    named = zip(request.columns, request.units, strict=True)
+    if any(not unit and not default.fullmatch(name) for name, unit in named):
         raise _unit_error(channel, request, table)
+    return _binding(channel, request)
+
+
+def _binding(channel: str, request: ChannelRequest) -> Binding:
     named = tuple(unit or next(iter(UNITS[channel])) for unit in request.units)
     units = [UNITS[channel][unit] for unit in named]
-    return Binding(
-        channel,
-        request.columns,
-        tuple(unit.factor * scale for unit, scale in zip(units, request.scales, strict=True)),
-        tuple(
-            unit.factor * (offset + unit.offset) for unit, offset in zip(units, request.offsets, strict=True)
-        ),
-        named,
-    )
+    scales = tuple(unit.factor * scale for unit, scale in zip(units, request.scales, strict=True))
+    offsets = zip(units, request.offsets, strict=True)
+    shifts = tuple(unit.factor * (offset + unit.offset) for unit, offset in offsets)
+    return Binding(channel, request.columns, scales, shifts, named)
 
 
 def _require(table: Table, channels: Sequence[Binding]) -> None:
@@ -236,22 +239,24 @@ def _one_column_per_joint(channels: Sequence[Binding]) -> None:
     odd = next((channel for channel in channels if len(channel.columns) != usual), None)
     if odd is None:
         return
-    wanted = [f"{CHANNELS[odd.name].prefix}_{number}" for number in range(1, usual + 1)]
+    wanted = _default_names(CHANNELS[odd.name], usual)
     evidence: dict[str, object] = {"columns": counts}
     if set(odd.columns) < set(wanted):
         evidence["absent"] = [name for name in wanted if name not in odd.columns]
-    need = CHANNELS[odd.name].need
-    spare = need in ("optional", "reference") or (need == "effort" and set(EFFORTS) <= set(counts))
-    raise LogError(
-        f"{odd.name} does not have one column per joint",
-        evidence=evidence,
-        remedy=f"log {odd.name} of every joint; {OTHER_NAME}"
-        + (f'; "{odd.name}": null in the mapping leaves it out' if spare else ""),
-    )
+    remedy = f"log {odd.name} of every joint; {OTHER_NAME}"
+    if _is_dispensable(odd.name, counts):
+        remedy += f'; "{odd.name}": null in the mapping leaves it out'
+    raise LogError(f"{odd.name} does not have one column per joint", evidence=evidence, remedy=remedy)
 
 
-def _no_column_twice(channels: Sequence[Binding], time: Binding | None) -> None:
-    columns = [column for channel in (*channels, *([time] if time else [])) for column in channel.columns]
+def _is_dispensable(channel: str, present: Collection[str]) -> bool:
+    need = CHANNELS[channel].need
+    return need in ("optional", "reference") or (need == "effort" and set(EFFORTS) <= set(present))
+
+
+def _used_once(channels: Sequence[Binding]) -> list[str]:
+    """Give the columns in use; refuse one that serves two channels."""
+    columns = [column for channel in channels for column in channel.columns]
     twice = sorted({column for column in columns if columns.count(column) > 1})
     if twice:
         raise LogError(
@@ -259,12 +264,12 @@ def _no_column_twice(channels: Sequence[Binding], time: Binding | None) -> None:
             evidence={"columns": twice},
             remedy="map every column to one channel",
         )
+    return columns
 
 
 def _missing_error(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
     absent = [name for name in wanted if name not in table.names]
-    default = "|".join(channel.prefix for channel in CHANNELS.values())
-    candidates = [name for name in table.names if not re.fullmatch(rf"({default})(_\d+)?", name)]
+    candidates = [name for name in table.names if not _DEFAULT_NAME.fullmatch(name)]
     nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
     evidence: dict[str, object] = {
         "looked_for": wanted[:SHOWN_COLUMNS],

@@ -38,13 +38,7 @@ def plausible_readings(channel: str, values: Vector) -> list[str]:
     if len(finite) == 0:
         return []
     whole = bool(np.all(finite == np.round(finite)))
-    steps = np.diff(finite)
-    size = float(np.median(steps)) if channel == TIME and len(steps) else float(np.max(np.abs(finite)))
-    seen = (
-        f"the median step is {size:.4g}"
-        if channel == TIME
-        else f"values reach {size:.4g} and span {np.ptp(finite):.4g}"
-    )
+    size, seen = _size(channel, finite)
     fitting = [
         unit
         for unit in CHANNELS[channel].quantity.units
@@ -53,6 +47,15 @@ def plausible_readings(channel: str, values: Vector) -> list[str]:
     if whole:  # whole numbers speak for counts before anything else
         fitting.sort(key=lambda unit: not unit.needs_scale)
     return [f"{unit.name}: {seen}; {unit.reason}" for unit in fitting]
+
+
+def _size(channel: str, values: Vector) -> tuple[float, str]:
+    """Give what the size of a channel's values is told by, and a sentence on it."""
+    largest, steps = float(np.max(np.abs(values))), np.diff(values)
+    if channel != TIME:
+        return largest, f"values reach {largest:.4g} and span {np.ptp(values):.4g}"
+    size = float(np.median(steps)) if len(steps) else largest
+    return size, f"the median step is {size:.4g}"
 
 
 def readings_by_column(channel: str, columns: Sequence[str], table: Table) -> dict[str, list[str]]:

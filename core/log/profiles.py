@@ -118,7 +118,7 @@ def fill_in(document: object, names: Sequence[str]) -> object:
         return document
     filled = dict(document)
     profile, joints = _named_profile(filled.pop(PROFILE)), filled.pop(JOINTS, None)
-    if TIME not in filled and "rate_hz" not in filled:
+    if {TIME, "rate_hz"}.isdisjoint(filled):
         filled |= _clock(profile, names)
     for channel in JOINT_CHANNELS:
         found = _columns(profile.channels.get(channel.name, ()), names, joints)

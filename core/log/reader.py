@@ -5,7 +5,7 @@ the samples refuses what cannot be used and lists what is wrong but usable.
 """
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -137,32 +137,14 @@ def log_from_arrays(
     >>> round(log_from_arrays("swing", time, swing, 5.0 * swing).rate_hz, 6)
     250.0
     """
-    given = {"position": position, "torque": torque, **channels}
-    known = [channel.name for channel in JOINT_CHANNELS]
-    unknown = sorted(set(given) - set(known))
-    if unknown:
-        raise LogError(
-            f"there is no channel {unknown[0]!r}",
-            evidence={"known": known},
-            remedy="name a known channel",
-        )
+    _refuse_unknown(channels)
     arrays = {
         key: np.array(value, dtype=np.float64, order="C", ndmin=2)
-        for key, value in given.items()
+        for key, value in {"position": position, "torque": torque, **channels}.items()
         if value is not None
     }
     clock = np.array(time, dtype=np.float64)
-    shapes = {"time": clock.shape, **{key: array.shape for key, array in arrays.items()}}
-    if clock.ndim != 1 or any(
-        array.shape != (len(clock), arrays["position"].shape[1]) for array in arrays.values()
-    ):
-        raise LogError(
-            "the channels disagree in shape", evidence=shapes, remedy="give every channel samples by joints"
-        )
-    if not set(EFFORTS) & set(arrays):
-        raise LogError(
-            "the log has neither torque nor current", evidence=shapes, remedy="give one of the two"
-        )
+    _check_shapes(clock, arrays)
     joints = range(1, arrays["position"].shape[1] + 1)
     plain = tuple(1.0 for _ in joints), tuple(0.0 for _ in joints)
     layout = Layout(
@@ -173,6 +155,30 @@ def log_from_arrays(
         ),
     )
     return _log_of(name, ArraySource(LogRows(clock, **arrays)), layout, "")
+
+
+def _refuse_unknown(channels: Collection[str]) -> None:
+    known = [channel.name for channel in JOINT_CHANNELS]
+    unknown = sorted(set(channels) - set(known))
+    if unknown:
+        raise LogError(
+            f"there is no channel {unknown[0]!r}",
+            evidence={"known": known},
+            remedy="name a known channel",
+        )
+
+
+def _check_shapes(clock: np.ndarray, arrays: dict[str, np.ndarray]) -> None:
+    shapes = {"time": clock.shape, **{key: array.shape for key, array in arrays.items()}}
+    wanted = (len(clock), arrays["position"].shape[1])
+    if clock.ndim != 1 or any(array.shape != wanted for array in arrays.values()):
+        raise LogError(
+            "the channels disagree in shape", evidence=shapes, remedy="give every channel samples by joints"
+        )
+    if not set(EFFORTS) & set(arrays):
+        raise LogError(
+            "the log has neither torque nor current", evidence=shapes, remedy="give one of the two"
+        )
 
 
 def _source(table: Table, layout: Layout) -> LogSource:

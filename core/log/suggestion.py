@@ -10,7 +10,7 @@ from collections.abc import Collection, Mapping, Sequence
 from ..errors import LogError
 from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, REFERENCE_WORDS, TIME
 from .formats.table import Table
-from .layout import Layout
+from .layout import Binding, Layout
 from .mapping import RATE
 from .model import Defect
 from .plausible_units import readings_by_column
@@ -37,15 +37,18 @@ def suggest_mapping(table: Table) -> dict[str, object] | None:
     profile = _profile(table.names)
     if profile is not None:
         return {PROFILE: profile} | _own_clock(profile, table)
-    time = next((name for name in table.names if _words(name) & set(CHANNELS[TIME].words)), None)
     mapping = {
         channel: {"columns": columns, "unit": _unit(channel, table, columns[0])}
         for channel, columns in _joint_columns(table.names).items()
     }
     if not _is_whole(mapping):
         return None
-    clock = {RATE: UNKNOWN} if time is None else {TIME: {"column": time, "unit": _unit(TIME, table, time)}}
-    return clock | {name: mapping[name] for name in CHANNELS if name in mapping}
+    return _clock(table) | {name: mapping[name] for name in CHANNELS if name in mapping}
+
+
+def _clock(table: Table) -> dict[str, object]:
+    time = next((name for name in table.names if _words(name) & set(CHANNELS[TIME].words)), None)
+    return {RATE: UNKNOWN} if time is None else {TIME: {"column": time, "unit": _unit(TIME, table, time)}}
 
 
 def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
@@ -58,9 +61,12 @@ def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> di
             continue
         unit = _unit(channel.name, table, channel.columns[(defect.joint or 1) - 1])
         if unit not in (UNKNOWN, *channel.units):
-            columns = {"column": channel.columns[0]} if channel.name == TIME else {"columns": channel.columns}
-            mapping[channel.name] = columns | {"unit": unit}
+            mapping[channel.name] = _columns_of(channel) | {"unit": unit}
     return mapping or None
+
+
+def _columns_of(channel: Binding) -> dict[str, object]:
+    return {"column": channel.columns[0]} if channel.name == TIME else {"columns": channel.columns}
 
 
 def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:

@@ -153,10 +153,19 @@ def observe(
     weigh
         For robust fits: gives the weights of a tile's rows.
     """
-    gathered = [
-        _Gathering(plan, weigh, frozenset(block for log, block in held_out if log == number))
-        for number in range(len(motions))
-    ]
+    gathered = [_Gathering(plan, weigh, held_out, number) for number in range(len(motions))]
+    total = _take_all(motions, gathered, progress)
+    blocks = tuple(block for gathering in gathered for block in gathering.blocks())
+    memory = tuple(
+        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered))
+        for joint in range(len(plan.columns_of))
+    )
+    positions = np.vstack([position for gathering in gathered for position in gathering.positions])
+    return Observation(plan, blocks, plan.columns_of, memory, positions, total)
+
+
+def _take_all(motions: tuple[Motion, ...], gathered: list["_Gathering"], progress: Progress | None) -> int:
+    """Let every motion's tiles be gathered, and count the instants."""
     total, done = sum(motion.kept for motion in motions), 0
     for motion, gathering in zip(motions, gathered, strict=True):
         for tile in motion.tiles():
@@ -164,13 +173,7 @@ def observe(
             done += len(tile.time)
             if progress is not None:
                 progress(done / total)
-    blocks = tuple(block for number, gathering in enumerate(gathered) for block in gathering.blocks(number))
-    memory = tuple(
-        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered))
-        for joint in range(len(plan.columns_of))
-    )
-    positions = np.vstack([position for gathering in gathered for position in gathering.positions])
-    return Observation(plan, blocks, plan.columns_of, memory, positions, total)
+    return total
 
 
 def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
@@ -184,10 +187,13 @@ def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
 class _Gathering:
     """Collect the tiles of one motion, block by block."""
 
-    def __init__(self, plan: ColumnPlan, weigh: Weigh | None, held_out: frozenset[int]) -> None:
+    def __init__(
+        self, plan: ColumnPlan, weigh: Weigh | None, held_out: frozenset[BlockKey], log: int
+    ) -> None:
         self.plan = plan
         self.weigh = weigh
         self.held_out = held_out
+        self.log = log
         self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
         self._tails = [np.zeros((0, len(columns) + 1)) for columns in plan.columns_of]
         self._blocks: dict[int, _OpenBlock] = {}
@@ -205,7 +211,7 @@ class _Gathering:
         for joint, (rows, usable) in enumerate(pairs):
             marked = rows * (usable if weights is None else usable * weights[joint])[:, None]
             block.take(joint, marked[usable], rows[usable, -1])
-            if tile.block in self.held_out:
+            if (self.log, tile.block) in self.held_out:
                 self._tails[joint] = self._tails[joint][:0]
             else:
                 self.memory[joint] = self.memory[joint].extended(
@@ -213,8 +219,8 @@ class _Gathering:
                 )
                 self._tails[joint] = np.vstack([self._tails[joint], marked])[-LaggedProducts.LAGS :]
 
-    def blocks(self, log: int) -> list[Block]:
-        return [self._blocks[number].closed(log, number) for number in sorted(self._blocks)]
+    def blocks(self) -> list[Block]:
+        return [self._blocks[number].closed(self.log, number) for number in sorted(self._blocks)]
 
 
 class _OpenBlock:

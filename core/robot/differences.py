@@ -17,7 +17,7 @@ def differences(first: RobotModel, second: RobotModel) -> tuple[str, ...]:
 
     Bodies are not compared: they are what an identification finds.
     """
-    if len(first.joints) != len(second.joints) or len(first.links) != len(second.links):
+    if (len(first.joints), len(first.links)) != (len(second.joints), len(second.links)):
         return ("the number of joints or links",)
     found = []
     for number, (link, other) in enumerate(zip(first.links, second.links, strict=True), start=1):

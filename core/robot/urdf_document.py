@@ -77,20 +77,24 @@ def read_urdf_document(text: bytes | str) -> UrdfDocument:
     root = _parse(text)
     links = [element for element in root if _tag(element) == "link"]
     joints = [element for element in root if _tag(element) == "joint"]
-    for kind, elements in (("link", links), ("joint", joints)):
-        names = [_attribute(element, "name", kind) for element in elements]
-        twins = [name for name, count in Counter(names).items() if count > 1]
-        if twins:
-            raise RobotError(
-                f"two {kind}s have the same name",
-                evidence={kind: twins[:5]},
-                remedy=f"give every {kind} its own name",
-            )
+    _refuse_twins(links, "link")
+    _refuse_twins(joints, "joint")
     return UrdfDocument(
         name=_attribute(root, "name", "the document"),
         links={_attribute(element, "name", "link"): _body(element) for element in links},
         joints=tuple(_joint(element) for element in joints),
     )
+
+
+def _refuse_twins(elements: list[Element], kind: str) -> None:
+    names = [_attribute(element, "name", kind) for element in elements]
+    twins = [name for name, count in Counter(names).items() if count > 1]
+    if twins:
+        raise RobotError(
+            f"two {kind}s have the same name",
+            evidence={kind: twins[:5]},
+            remedy=f"give every {kind} its own name",
+        )
 
 
 def _parse(text: bytes | str) -> Element:

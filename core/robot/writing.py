@@ -23,23 +23,13 @@ def to_description(robot: RobotModel) -> dict[str, object]:
     """
     owners = _owners(robot)
     tabular = owners == list(range(len(robot.links))) and all(map(_follows_its_row, robot.links))
-    joints: list[dict[str, object]] = []
-    for index, link in enumerate(robot.links):
-        joint = robot.joints[link.joint - 1]
-        entry: dict[str, object] = {"name": joint.name if index in owners else link.name}
-        if link.name != entry["name"]:
-            entry["link"] = link.name
-        entry |= {"type": link.kind, "antecedent": link.antecedent}
-        entry |= _row(link) if tabular else _frame(link)
-        if index in owners:
-            entry |= _drive(joint)
-        else:
-            entry["mimics"] = joint.name
-        joints.append(entry)
     return {
         "name": robot.name,
         "convention": MODIFIED_DH if tabular else FRAMES,
-        "joints": joints,
+        "joints": [
+            _entry(link, robot.joints[link.joint - 1], tabular=tabular, owner=index in owners)
+            for index, link in enumerate(robot.links)
+        ],
         "gravity": _floats(robot.gravity),
         "couplings": [
             {
@@ -52,6 +42,16 @@ def to_description(robot: RobotModel) -> dict[str, object]:
         ],
         "prior": None if robot.prior is None else [_body(body) for body in robot.prior],
     }
+
+
+def _entry(link: Link, joint: Joint, *, tabular: bool, owner: bool) -> dict[str, object]:
+    """Write a link, together with its joint if it owns it."""
+    entry: dict[str, object] = {"name": joint.name if owner else link.name}
+    if link.name != entry["name"]:
+        entry["link"] = link.name
+    entry |= {"type": link.kind, "antecedent": link.antecedent}
+    entry |= _row(link) if tabular else _frame(link)
+    return entry | (_drive(joint) if owner else {"mimics": joint.name})
 
 
 def _owners(robot: RobotModel) -> list[int]:

@@ -54,15 +54,14 @@ class FilterOptions:
 
     def __post_init__(self) -> None:
         """Refuse what no log could be filtered with."""
-        wrong: dict[str, float] = {
-            name: value
-            for name, value in (("median_order", self.median_order), ("decimation", self.decimation))
-            if value is not None and (value < 1 or value > 1000)
+        counts = {
+            "median_order": (self.median_order, range(1, 32, 2)),
+            "decimation": (1 if self.decimation is None else self.decimation, range(1, 1001)),
+            "order": (self.order, range(1, HIGHEST_ORDER + 1)),
         }
-        if self.median_order % 2 == 0 or self.median_order > 31:
-            wrong["median_order"] = self.median_order
-        if not 1 <= self.order <= HIGHEST_ORDER:
-            wrong["order"] = self.order
+        wrong: dict[str, float] = {
+            name: count for name, (count, allowed) in counts.items() if count not in allowed
+        }
         wrong |= {name: value for name, value in self.cutoffs_hz.items() if value <= 0.0}
         if wrong:
             raise OptionError(

@@ -6,7 +6,7 @@ lacks. Every block of the log is played from its own measured start, all blocks 
 reported is what a channel with the model's faults would show.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import takewhile
@@ -154,13 +154,17 @@ def replay(
         blocks += _played(mechanism, group, gains, asked)
         if progress is not None:
             progress(len(blocks) / len(measured))
-    moved = (
-        [one.position - one.measured.position for one in blocks],
-        [one.velocity - one.measured.velocity for one in blocks],
-        [one.torque - one.measured_torque for one in blocks],
+    return Replay(tuple(blocks), gains, *_rms_errors(blocks))
+
+
+def _rms_errors(blocks: Sequence[Replayed]) -> Iterator[JointVector]:
+    """Give the RMS errors of position, velocity and torque per joint."""
+    errors = (
+        [block.position - block.measured.position for block in blocks],
+        [block.velocity - block.measured.velocity for block in blocks],
+        [block.torque - block.measured_torque for block in blocks],
     )
-    errors = (np.sqrt(np.mean(np.vstack(one) ** 2, axis=0)) for one in moved)
-    return Replay(tuple(blocks), gains, *errors)
+    return (np.sqrt(np.mean(np.vstack(of_channel) ** 2, axis=0)) for of_channel in errors)
 
 
 def _clocked(first: Stretch, other: Stretch) -> bool:

@@ -38,12 +38,13 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
         del operating_point
         robot = dataset.robot
         turning = {link.joint for link in robot.links if link.kind == "revolute"}
-        declared = [set(coupling.joints) for coupling in robot.couplings]
+
         return [
             (first, second)
             for second in sorted(turning)
             for first in range(max(1, second - ADMISSIBLE.coupling_distance), second)
-            if first in turning and not any({first, second} <= joints for joints in declared)
+            if first in turning
+            and not any({first, second}.issubset(coupling.joints) for coupling in robot.couplings)
         ]
 
     def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:

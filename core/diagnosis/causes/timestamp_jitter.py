@@ -7,6 +7,7 @@ rounding and noise lack this property.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import ClassVar
 
 import numpy as np
@@ -41,12 +42,11 @@ class TimestampJitter:
         """Compare the joints' remainders with their velocities."""
         if dataset.joints < 2:
             return ()
-        parts = [
-            part for motion in dataset.motions for segment in motion.segments for part in _parts(segment)
-        ]
+        segments = [segment for motion in dataset.motions for segment in motion.segments]
+        parts = list(chain.from_iterable(map(_parts, segments)))
         if not parts:
             return ()
-        crosses, alone = (np.concatenate(products) for products in zip(*map(_products, parts), strict=True))
+        crosses, alone = map(np.concatenate, zip(*map(_products, parts), strict=True))
         shared = float(crosses[:, 0].sum() / max(crosses[:, 1].sum(), 1e-300))
         own = float(alone[:, 0].sum() / max(alone[:, 1].sum(), 1e-300))
         statistic = float(crosses[:, 0].sum() / np.sqrt(max(float(np.sum(crosses[:, 0] ** 2)), 1e-300)))

@@ -52,8 +52,8 @@ def curve(
     rows = np.flatnonzero(dataset.clear[:, joint])
     own, forward = torque[joint][rows], dataset.state.velocity[rows, joint] > 0.0
     together, apart = _binned(rows, along.values), _apart(rows, forward, along.values)
-    shares = [_explained_by_means(own, rows, groups) for groups in (together, apart)]
-    split = shares[0] < TOLD and shares[1] > shares[0]
+    share, share_apart = _explained_by_means(own, rows, together), _explained_by_means(own, rows, apart)
+    split = share < TOLD and share_apart > share
     groups = apart if split else together
     return Curve(
         coordinate=along.name,
@@ -63,7 +63,7 @@ def curve(
         before=_over(groups, left[0][:, joint], np.mean),
         after=_over(groups, left[1][:, joint], np.mean),
         model=_over(groups, torque[joint], np.mean),
-        standard_error=_over(groups, left[1][:, joint], np.std) / np.sqrt([len(group) for group in groups]),
+        standard_error=_over(groups, left[1][:, joint], np.std) / np.sqrt(list(map(len, groups))),
         direction=_over(groups, np.sign(dataset.state.velocity[:, joint]), np.median)
         if split
         else np.zeros(len(groups)),

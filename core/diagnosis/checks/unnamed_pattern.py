@@ -8,6 +8,7 @@ Inverse Problems 30, 2014, for why a free discrepancy may not claim a physical n
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import combinations_with_replacement, product
 
 import numpy as np
 
@@ -81,14 +82,11 @@ def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], 
     others = [one for one in range(1, joints + 1) if one != own]
     out: list[tuple[str, Numbers]] = [
         ("speeds", (float(one), float(other)))
-        for one in range(1, joints + 1)
-        for other in range(one, joints + 1)
+        for one, other in combinations_with_replacement(range(1, joints + 1), 2)
     ]
     out += [
         ("angle", (float(one), wave, float(factor)))
-        for one in others
-        for wave in WAVES
-        for factor in range(len(FACTORS))
+        for one, wave, factor in product(others, WAVES, range(len(FACTORS)))
     ]
     out += [
         ("clock", (float(rate),)) for rate in np.arange(max(SLOWEST, 2.0 / seconds), QUICKEST, STEP / seconds)

@@ -189,10 +189,7 @@ def build_dataset(
         **series,
         held_out=np.isin(series["log"] * blocks + series["block"], sorted(keys)),
         state=concatenate_states([part.state for part in parts]),
-        sticking=tuple(
-            block_diag(blocks_of_joint, format="csr")
-            for blocks_of_joint in zip(*(part.sticking for part in parts), strict=True)
-        ),
+        sticking=_join_sticking(parts),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
         position_share=np.zeros(len(model.robot.joints)),
@@ -210,6 +207,11 @@ def _concatenate_series(parts: Sequence[DatasetSegment]) -> dict[str, np.ndarray
         "usable": np.vstack([part.usable for part in parts]),
         "clear": np.vstack([part.usable & part.clear for part in parts]),
     }
+
+
+def _join_sticking(parts: Sequence[DatasetSegment]) -> tuple[csr_array, ...]:
+    of_joints = zip(*(part.sticking for part in parts), strict=True)
+    return tuple(block_diag(of_joint, format="csr") for of_joint in of_joints)
 
 
 def _place_stretches(parts: Sequence[DatasetSegment]) -> tuple[Stretch, ...]:

@@ -189,16 +189,21 @@ def degrees_of_freedom(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     return float(rows.nuisance.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
+def _gram(joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | None) -> np.ndarray:
+    gram = np.zeros((size, size))
+    for joint in joints:
+        gram[np.ix_(joint.acting, joint.acting)] += joint.gram
+    if prior is not None:
+        known = prior.rows.shape[1]
+        gram[:known, :known] += prior.rows.T @ prior.rows
+    return gram
+
+
 def _solved(
     joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | None, plain: Fit | None = None
 ) -> Fit:
     """Solve the normal equations with iterative refinement: the ridge and rounding bias one step."""
-    gram = np.zeros((size, size))
-    for one in joints:
-        gram[np.ix_(one.acting, one.acting)] += one.gram
-    if prior is not None:
-        known = prior.rows.shape[1]
-        gram[:known, :known] += prior.rows.T @ prior.rows
+    gram = _gram(joints, size, prior)
     scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor, _ = cho_factor(scaled, lower=True)

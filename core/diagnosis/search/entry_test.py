@@ -138,7 +138,7 @@ def _is_independent(
     member, others = trial.members[index], [set(one.site) for one in now.members]
     if not others or not member.site or _acts_rarely(trial, index):
         return False
-    if not all(site and site.isdisjoint(member.site) for site in others):
+    if not all(others) or not set().union(*others).isdisjoint(member.site):
         return False
     if not is_significant(fitter, now, trial, kinds, ENTRY.level, index):
         return False

@@ -5,6 +5,7 @@ Columns are kept by the operating point that they are linearised at, so that a s
 and scalars is a few matrix products.
 """
 
+from collections import ChainMap
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -128,12 +129,12 @@ class HypothesisFitter:
         return self._columns(candidates, self.at)
 
     def _columns(self, candidates: Sequence[Candidate], at: Candidates) -> list[Columns]:
-        known = (self._fixed_columns, at.columns)
-        new = [each for each in candidates if not any(each.place in kept for kept in known)]
+        known = ChainMap(self._fixed_columns, at.columns)
+        new = [each for each in candidates if each.place not in known]
         terms = [each.cause.term(self.dataset, at.operating_point, each.site, each.scalars) for each in new]
         for candidate, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
-            known[hasattr(term, "believed")][candidate.place] = columns
-        return [next(kept[each.place] for kept in known if each.place in kept) for each in candidates]
+            known.maps[hasattr(term, "believed")][candidate.place] = columns
+        return [known[each.place] for each in candidates]
 
     def _without_lasting_causes(self, found: Hypothesis) -> Dataset:
         """Take from the torque what a hypothesis's members explain of it, all but transient ones."""

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from scipy.optimize import root_scalar
 
-from ...arrays import Vector
+from ...arrays import Samples, Vector
 from ...numerics.chi2_tail import log_chi2_tail
 from ..regression.score_test import Score
 from ..thresholds.search import REFINEMENT
@@ -117,16 +117,21 @@ def _at_likeliest_onset(
     time, rows = fitter.dataset.time, np.arange(1, len(fitter.dataset.time))
     throughout, some = _at(candidate, name, -np.inf), candidate.cause.traits.onset[name]
     worth = np.array([one.statistic for one in fitter.score_onsets(under, throughout, some, rows)])
-    peaks: list[int] = []
-    for place in np.argsort(-worth, kind="stable"):
-        if len(peaks) < REFINEMENT.onsets and all(
-            abs(time[rows[place]] - time[rows[one]]) > REFINEMENT.onset_distance for one in peaks
-        ):
-            peaks.append(int(place))
-    trials = [candidate, *(_at(candidate, name, float(time[rows[place]])) for place in peaks)]
+    trials = [candidate, *(_at(candidate, name, instant) for instant in _peaks(time[rows], worth))]
     found = fitter.score(under, trials)
     ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
     return trials[ranks.index(max(ranks))]
+
+
+def _peaks(time: Samples, worth: np.ndarray) -> list[float]:
+    """Give the instants of the highest values that keep their distance from each other, the highest first."""
+    peaks: list[float] = []
+    for instant in time[np.argsort(-worth, kind="stable")]:
+        if len(peaks) == REFINEMENT.onsets:
+            break
+        if all(abs(instant - peak) > REFINEMENT.onset_distance for peak in peaks):
+            peaks.append(float(instant))
+    return peaks
 
 
 def _row(fitter: HypothesisFitter) -> float:

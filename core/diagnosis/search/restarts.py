@@ -7,6 +7,8 @@ causes that the first one came through, and the better of the two ends is kept.
 Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ..causes.masking import excludes, masks
@@ -20,18 +22,24 @@ from .stepwise import continue_search, start_with
 def restart_from_common_cause(found: SearchState) -> SearchState:
     """Give the better of a search and its restarts from one cause of the whole robot in place of several."""
     best = found
-    for cause in found.fitter.causes:
-        several = [member for member in found.chosen.members if member.cause.id in masks(cause.id)]
-        if len(several) < SEARCH.several or cause.id in {member.cause.id for member in found.chosen.members}:
-            continue
-        start = _started_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
-        if start is None:
-            continue
-        other = continue_search(start, known=found.through)
-        met = other.chosen is not start.chosen and other.keys in found.through
-        if not met and bic(other.chosen) > bic(best.chosen) + SELECTION.undecided:
+    for other in _restarts(found):
+        if bic(other.chosen) > bic(best.chosen) + SELECTION.undecided:
             best = other
     return best
+
+
+def _restarts(found: SearchState) -> Iterator[SearchState]:
+    """Give the ends of restarts that do not come to a set of causes which the search came through."""
+    present = [member.cause.id for member in found.chosen.members]
+    for cause in found.fitter.causes:
+        several = [name for name in present if name in masks(cause.id)]
+        if len(several) < SEARCH.several or cause.id in present:
+            continue
+        start = _started_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
+        if start is not None:
+            other = continue_search(start, known=found.through)
+            if other.chosen is start.chosen or other.keys not in found.through:
+                yield other
 
 
 def _started_from(found: SearchState, cause: str, replaced: set[str]) -> SearchState | None:

@@ -14,7 +14,7 @@ from ..thresholds.search import MASKING, SEARCH, SELECTION
 from .confounding import is_masked
 from .entry_test import best_entry, is_significant, passes_exit_test, with_candidate
 from .fitter import HypothesisFitter
-from .hypothesis import Candidate
+from .hypothesis import Candidate, Hypothesis
 from .joint_refinement import refine_jointly
 from .likelihood_ratio import bic_gain, likelihood_ratio
 from .state import Keys, SearchState, Step
@@ -133,12 +133,16 @@ def _exit_or_swap(state: SearchState) -> SearchState | None:
         for index, without in enumerate(smaller)
         if not passes_exit_test(fitter, without, now, index) or is_masked(fitter, now, index, without)
     ]
-    if weak:
-        least = min(weak, key=lambda index: brings[index])
-        member = now.members[least]
-        return (
-            state.at(fitter, smaller[least]).recorded("dropped", member, brings[least]).excluding(member.key)
-        )
+    if not weak:
+        return _swap(state, smaller, brings)
+    least = min(weak, key=lambda index: brings[index])
+    member = now.members[least]
+    return state.at(fitter, smaller[least]).recorded("dropped", member, brings[least]).excluding(member.key)
+
+
+def _swap(state: SearchState, smaller: Sequence[Hypothesis], brings: Sequence[float]) -> SearchState | None:
+    """Give the state with the first member swapped that another cause improves on; None where none does."""
+    fitter, now = state.fitter, state.chosen
     for index, member in enumerate(now.members):
         closed = {**state.excluded, member.key: np.inf}
         if not member.cause.traits.transient:

@@ -111,12 +111,16 @@ def _form_of(head: bytes) -> Form:
         return MATLAB7
     if head[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
         return MATLAB5
+    _refuse_foreign(head)
+    return DELIMITED
+
+
+def _refuse_foreign(head: bytes) -> None:
     for magic, what, remedy in _FOREIGN:
         if head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(magic):
             raise _not_a_log(what, remedy)
     if b"\x00" in head:
         raise _not_a_log("binary data with NUL bytes", "upload CSV, Parquet, NPZ or MAT")
-    return DELIMITED
 
 
 def _zip_form(head: bytes) -> Form:

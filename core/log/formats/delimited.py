@@ -205,8 +205,7 @@ def _header(lines: Sequence[str]) -> tuple[int, str, str]:
     first = lines[content[0]]
     if not _is_numbers(first):
         return content[0], first, lines[content[1]] if len(content) > 1 else ""
-    comments = [index for index in range(content[0]) if lines[index].strip()]
-    commented = lines[comments[-1]].lstrip("# ") if comments else ""
+    commented = next(filter(str.strip, reversed(lines[: content[0]])), "").lstrip("# ")
     delimiter = max(DELIMITERS, key=first.count)
     if commented and commented.count(delimiter) == first.count(delimiter) and not _is_numbers(commented):
         return content[0] - 1, commented, first

@@ -44,13 +44,7 @@ def open_npz(path: Path) -> MemoryTable:
     _check_directory(path)
     with reading(FORM, path), warnings.catch_warnings(), zipfile.ZipFile(path) as archive:
         warnings.simplefilter("ignore")  # numpy warns when an array was written by Python 2
-        members = [item for item in archive.infolist() if item.filename.endswith(".npy")]
-        if not members:
-            raise LogError(
-                "the archive holds no arrays",
-                evidence={"members": archive.namelist()[:20]},
-                remedy="write it by numpy.savez, or upload the table itself",
-            )
+        members = _members(archive)
         check_columns([item.filename for item in members[: MAX_COLUMNS + 1]])
         check_density(sum(item.file_size for item in members), path.stat().st_size)
         numeric = {item.filename: _numeric_shape(archive, item) for item in members}
@@ -62,6 +56,17 @@ def open_npz(path: Path) -> MemoryTable:
             for item in members
         }
     return expand(variables)
+
+
+def _members(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
+    members = [item for item in archive.infolist() if item.filename.endswith(".npy")]
+    if not members:
+        raise LogError(
+            "the archive holds no arrays",
+            evidence={"members": archive.namelist()[:20]},
+            remedy="write it by numpy.savez, or upload the table itself",
+        )
+    return members
 
 
 def _check_directory(path: Path) -> None:

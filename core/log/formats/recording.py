@@ -116,15 +116,15 @@ def _table(states: Iterator[State]) -> MemoryTable:
         raise LogError("the recording holds no messages", evidence={"messages": 0}, remedy="record a motion")
     width = len(first.joints)
     fields = [field for field in FIELDS if width and len(first.values[field]) == width]
-    check_columns([f"{field}.{joint}" for field in fields for joint in first.joints])
+    names = [f"{field}.{joint}" for field in fields for joint in first.joints]
+    check_columns(names)
     stamps, rows = [first.stamp], [_row(first, first, fields)]
     for state in states:
-        check_values(len(rows) * (len(fields) * width + 1))
+        check_values(len(rows) * (len(names) + 1))
         stamps.append(state.stamp)
         rows.append(_row(state, first, fields))
     block = np.array(rows).T
     time = (np.array(stamps, dtype=np.int64) - stamps[0]) / NANOSECONDS
-    names = [f"{field}.{joint}" for field in fields for joint in first.joints]
     return MemoryTable({"time": time} | dict(zip(names, block, strict=True)))
 
 

@@ -1,6 +1,7 @@
 """Compare all joints before and after the correction on held-out data, in torque and in simulated motion."""
 
 from collections.abc import Sequence
+from itertools import product
 
 from markupsafe import Markup
 
@@ -93,19 +94,18 @@ def _bars(old: dict[int, Document], new: dict[int, Document]) -> Markup:
 
 def _motion(document: Document) -> Table | None:
     simulation = document["diagnosis"].get("simulation") or {}
-    old, new = simulation.get("before") or {}, simulation.get("after") or {}
+    old, new = simulation.get("before"), simulation.get("after")
     if not old:
         return None
     horizons, joints = old["horizons_s"], range(len(old["position_rms"][0]))
     ends = simulation.get("interval_95") or [None] * len(joints)
-    times = [f"{side}, {1000.0 * horizon:.0f} ms" for horizon in horizons for side in ("before", "after")]
+    times = [f"{side}, {1000.0 * time:.0f} ms" for time, side in product(horizons, ("before", "after"))]
     rows = [
         [
             f"{joint + 1}",
             *(
                 position_error(document, joint + 1, side["position_rms"][place][joint])
-                for place in range(len(horizons))
-                for side in (old, new)
+                for place, side in product(range(len(horizons)), (old, new))
             ),
             _improvement(simulation["improvement_total_percent"][joint], ends[joint]),
             interval(ends[joint]),

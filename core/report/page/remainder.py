@@ -53,7 +53,7 @@ def sentences(document: Document) -> list[str]:
     left = document["diagnosis"]["unexplained"]
     shares, pattern = left["predictable_residual_fraction"], left["pattern"]
     parked = [joint for joint, fraction in enumerate(shares, start=1) if fraction is None]
-    listed = [_on_prediction(left, "any other joint" if parked else "any joint")]
+    listed = [_on_prediction(left)]
     if pattern:
         listed[0] += f" {pattern['statement']}; no known cause explains it (p = 10^{pattern['log10_p']:.0f})."
     elif not left["joints"]:
@@ -73,14 +73,14 @@ def sentences(document: Document) -> list[str]:
     return listed
 
 
-def _on_prediction(left: Document, tried: str) -> str:
-    """Say on which joints a learner predicts the residual, or that it does on none of those tried."""
+def _on_prediction(left: Document) -> str:
+    """Say on which joints a learner predicts the residual, or that it does on none."""
     shares, of_pattern = left["predictable_residual_fraction"], (left["pattern"] or {}).get("joint")
     predicted = [joint for joint in left["joints"] if joint != of_pattern or shares[joint - 1]]
     if not predicted:
         return (
             "A generic learner with positions, velocities, loads and time as inputs cannot predict the "
-            f"residual of {tried} on held-out data."
+            f"residual of {'any other joint' if None in shares else 'any joint'} on held-out data."
         )
     return (
         f"On {series([f'joint {joint} ({share(shares[joint - 1])})' for joint in predicted])} part of the "

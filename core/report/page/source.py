@@ -67,7 +67,7 @@ def _provenance(document: Document) -> Table:
     provenance = document.get("provenance") or {}
     version = provenance.get("version", "")
     names = [str(log.get("name", "")) for log in document.get("logs") or []]
-    hashes = [digest for digest in provenance.get("log_sha256") or [] if digest]
+    hashes = filter(None, provenance.get("log_sha256") or [])
     rows = [
         *(
             (f"log {name}", element("span", "SHA-256 ", element("code", digest)))

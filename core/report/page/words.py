@@ -96,7 +96,7 @@ def percent(value: Number) -> str:
     """
     if value is None:
         return NOTHING
-    if value and abs(value) < 0.5 * _SMALLEST:
+    if 0.0 < abs(value) < 0.5 * _SMALLEST:
         return f"{'<' if value > 0.0 else '>'} {MINUS * (value < 0.0)}{_SMALLEST} %"
     if abs(value) > _LARGEST:
         return f"{'>' if value > 0.0 else '<'} {MINUS * (value < 0.0)}{_LARGEST} %"
