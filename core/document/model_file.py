@@ -6,7 +6,9 @@ parameter, and the predictions that some terms are built on.
 """
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from itertools import chain
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -160,7 +162,7 @@ def _terms(
 
 def _model(document: Document, predictions: Sequence[Prediction]) -> tuple[DynamicModel, np.ndarray]:
     robot = robot_from_description(document["robot"])
-    rows: Iterable[Document] = [row for term in document["terms"] for row in term["parameters"]]
+    rows: list[Document] = list(chain.from_iterable(map(itemgetter("parameters"), document["terms"])))
     terms = tuple(term_of(str(term["term"]), term["made_with"], predictions) for term in document["terms"])
     model = DynamicModel(robot, terms)
     names = [parameter.name for parameter in model.parameters]

@@ -1,5 +1,7 @@
 """Write the unexplained residual of a diagnosis: dependences, explainable variance, noise floor."""
 
+from operator import attrgetter
+
 import numpy as np
 
 from ..diagnosis.residual.atlas import Atlas
@@ -22,11 +24,11 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
     return {
         "joints": sorted(foretold | ({stranger.joint} if stranger else set())),
         "pattern": stranger and _pattern(stranger),
-        "predictable_residual_fraction": [one.share for one in predictable],
-        "interval_95": [one.interval for one in predictable],
+        "predictable_residual_fraction": list(map(attrgetter("share"), predictable)),
+        "interval_95": list(map(attrgetter("interval"), predictable)),
         "at_rest_fraction": [None if np.isnan(one) else float(one) for one in diagnosis.at_rest],
-        "rms_residual": [one.rms for one in predictable],
-        "places": [one.places for one in predictable],
+        "rms_residual": list(map(attrgetter("rms"), predictable)),
+        "places": list(map(attrgetter("places"), predictable)),
         "noise_floor": floor.rms,
         "noise_floor_source": floor.source,
         "noise_tilt": floor.tilt,

@@ -113,7 +113,7 @@ def bind(table: Table, mapping: LogMapping) -> Layout:
     """
     time = _bind_time(table, mapping)
     bound = [_bind_channel(channel, table, mapping) for channel in JOINT_CHANNELS]
-    channels = tuple(channel for channel in bound if channel is not None)
+    channels = tuple(filter(None, bound))
     _require(table, channels)
     channels = tuple(channel for channel in channels if not _is_other(channel, channels[0], mapping))
     _one_column_per_joint(channels)
@@ -172,12 +172,16 @@ def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     if not numbered:
         return (prefix,) if prefix in table.names else ()
     highest = max(int(name[len(prefix) + 1 :]) for name in numbered)
-    if len(numbered) < highest and channel.need == "reference":
-        return ()
     wanted = _default_names(channel, highest)
     if len(numbered) < highest:
+        if channel.need == "reference":
+            return ()
         raise _missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
     return tuple(wanted)
+
+
+def _absent(wanted: Sequence[str], present: Sequence[str]) -> list[str]:
+    return [name for name in wanted if name not in present]
 
 
 def _default_names(channel: Channel, joints: int) -> list[str]:
@@ -201,8 +205,7 @@ def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
 
 def _bind_request(channel: str, request: ChannelRequest, table: Table) -> Binding:
     """Turn a request into gains; default names are SI, others must have declared their unit."""
-    missing = [name for name in request.columns if name not in table.names]
-    if missing:
+    if _absent(request.columns, table.names):
         raise _missing_error(channel, list(request.columns), table, "map columns that the file has")
     default = re.compile(CHANNELS[channel].prefix + ("(_[1-9][0-9]*)?" if channel != TIME else ""))
     named = zip(request.columns, request.units, strict=True)
@@ -242,7 +245,7 @@ def _one_column_per_joint(channels: Sequence[Binding]) -> None:
     wanted = _default_names(CHANNELS[odd.name], usual)
     evidence: dict[str, object] = {"columns": counts}
     if set(odd.columns) < set(wanted):
-        evidence["absent"] = [name for name in wanted if name not in odd.columns]
+        evidence["absent"] = _absent(wanted, odd.columns)
     remedy = f"log {odd.name} of every joint; {OTHER_NAME}"
     if _is_dispensable(odd.name, counts):
         remedy += f'; "{odd.name}": null in the mapping leaves it out'
@@ -268,7 +271,7 @@ def _used_once(channels: Sequence[Binding]) -> list[str]:
 
 
 def _missing_error(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
-    absent = [name for name in wanted if name not in table.names]
+    absent = _absent(wanted, table.names)
     candidates = [name for name in table.names if not _DEFAULT_NAME.fullmatch(name)]
     nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
     evidence: dict[str, object] = {

@@ -53,20 +53,25 @@ def _clock(table: Table) -> dict[str, object]:
 
 def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
     """Give the mapping by which channels of implausible size would be of a plausible one; None if none is."""
-    channels = {channel.name: channel for channel in (layout.time, *layout.channels) if channel is not None}
+    channels = {channel.name: channel for channel in filter(None, (layout.time, *layout.channels))}
     mapping: dict[str, object] = {}
     for defect in defects:
         channel = channels.get(defect.channel)
         if defect.kind != IMPLAUSIBLE or channel is None or channel.name in mapping:
             continue
-        unit = _unit(channel.name, table, channel.columns[(defect.joint or 1) - 1])
-        if unit not in (UNKNOWN, *channel.units):
-            mapping[channel.name] = _columns_of(channel) | {"unit": unit}
+        if request := _in_plausible_unit(channel, defect.joint, table):
+            mapping[channel.name] = request
     return mapping or None
 
 
-def _columns_of(channel: Binding) -> dict[str, object]:
-    return {"column": channel.columns[0]} if channel.name == TIME else {"columns": channel.columns}
+def _in_plausible_unit(channel: Binding, joint: int | None, table: Table) -> dict[str, object]:
+    """Give the request for a channel in the unit that fits a joint's column; empty where no other fits."""
+    unit = _unit(channel.name, table, channel.columns[(joint or 1) - 1])
+    if unit in (UNKNOWN, *channel.units):
+        return {}
+    if channel.name == TIME:
+        return {"column": channel.columns[0], "unit": unit}
+    return {"columns": channel.columns, "unit": unit}
 
 
 def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:
@@ -130,13 +135,17 @@ def _channel(stem: str, known: Collection[str]) -> str | None:
     """Find the channel of a name; a reference stands for what was measured where nothing else does."""
     words = _words(stem)
     by_trust = sorted(JOINT_CHANNELS, key=lambda channel: channel.name == "position")  # "joint" says least
-    own = [channel for channel in by_trust if words & set(channel.words)]
+    own = list(filter(lambda channel: not words.isdisjoint(channel.words), by_trust))
     measured = next((channel for channel in own if channel.need != "reference"), None)
     if measured is None:
         return own[0].name if own else None
     if not words & REFERENCE_WORDS or (measured.need != "optional" and measured.name not in known):
         return measured.name
-    return next((channel.name for channel in by_trust if channel.reference_to == measured.name), None)
+    return _reference_to(measured.name)
+
+
+def _reference_to(measured: str) -> str | None:
+    return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured), None)
 
 
 def _words(name: str) -> set[str]:

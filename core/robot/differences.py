@@ -31,11 +31,13 @@ def differences(first: RobotModel, second: RobotModel) -> tuple[str, ...]:
             found.append(f"the declared rotor inertia or friction of joint {number}")
     if not _near(first.gravity, second.gravity):
         found.append("gravity")
-    if [(c.number, c.joints, c.weights) for c in first.couplings] != [
-        (c.number, c.joints, c.weights) for c in second.couplings
-    ]:
+    if _coupled(first) != _coupled(second):
         found.append("the couplings")
     return tuple(found)
+
+
+def _coupled(robot: RobotModel) -> list[tuple[object, ...]]:
+    return [(coupling.number, coupling.joints, coupling.weights) for coupling in robot.couplings]
 
 
 def _alike(link: Link, other: Link) -> bool:

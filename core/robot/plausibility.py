@@ -7,6 +7,7 @@ import numpy as np
 
 from .inertia import pseudo_inertia
 from .model import Joint, Link, RobotModel
+from .modified_dh import ModifiedDHRow
 
 
 def plausibility_warnings(robot: RobotModel) -> tuple[str, ...]:
@@ -73,12 +74,13 @@ def _about_limits(number: int, joint: Joint) -> list[str]:
 
 def _about_letters(robot: RobotModel) -> list[str]:
     """Find Craig's or standard (distal) Denavit-Hartenberg tables by their first and last rows."""
-    rows = [link.row for link in robot.links]
-    first, last = rows[0], rows[-1]
-    if first is None or last is None or len(rows) < 2:
+    first, last = robot.links[0].row, robot.links[-1].row
+    if first is None or last is None or len(robot.links) < 2:
         return []
-    if (first.gamma, first.b) != (0.0, 0.0):
-        return []
+    return _about_rows(first, last) if (first.gamma, first.b) == (0.0, 0.0) else []
+
+
+def _about_rows(first: ModifiedDHRow, last: ModifiedDHRow) -> list[str]:
     found = []
     if first.d != 0.0 and (first.alpha, first.r) == (0.0, 0.0):
         found.append(

@@ -7,13 +7,14 @@ from base to tip.
 """
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import cast
 
 import numpy as np
 
-from ..arrays import LinkParameters, Rotation, Vector3
+from ..arrays import LinkParameters, LinkTable, Rotation, Vector3
 from ..errors import RobotError
 from ..fields import LARGEST_NUMBER
 from .description import LEVEL_GRAVITY, MOST_JOINTS
@@ -91,14 +92,20 @@ def _order(
                 evidence={"link": link[:80], "links": list(document.links)[:20]},
                 remedy="choose base_link and tip_link among the URDF's links",
             )
+    joints = _outwards(children, base)
+    chain = set(map(attrgetter("name"), joints)) if tip_link is None else _chain(joints, base, tip_link)
+    return [(joint, joint.kind != "fixed" and joint.name in chain) for joint in joints]
+
+
+def _outwards(children: Mapping[str, Sequence[UrdfJoint]], base: str) -> list[UrdfJoint]:
+    """List all joints from a link outwards, depth first."""
     joints: list[UrdfJoint] = []
     waiting = list(reversed(children[base]))
     while waiting:
         joint = waiting.pop()
         joints.append(joint)
         waiting += reversed(children[joint.child])
-    chain = None if tip_link is None else _chain(joints, base, tip_link)
-    return [(joint, joint.kind != "fixed" and (chain is None or joint.name in chain)) for joint in joints]
+    return joints
 
 
 def _children(document: UrdfDocument) -> dict[str, list[UrdfJoint]]:
@@ -171,8 +178,8 @@ def _chain(joints: list[UrdfJoint], base: str, tip: str) -> set[str]:
     return chain
 
 
-def _moving(order: list[tuple[UrdfJoint, bool]]) -> list[UrdfJoint]:
-    moving = [joint for joint, moves in order if moves]
+def _moving(order: list[tuple[UrdfJoint, bool]]) -> dict[str, UrdfJoint]:
+    moving = {joint.name: joint for joint, moves in order if moves}
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise RobotError(
             "too many joints move" if moving else "no joint moves",
@@ -183,9 +190,8 @@ def _moving(order: list[tuple[UrdfJoint, bool]]) -> list[UrdfJoint]:
 
 
 def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravity: Vector3) -> RobotModel:
-    moving = _moving(order)
-    by_name = {joint.name: joint for joint in moving}
-    joints = tuple(Joint(joint.name, joint.limits) for joint in moving if joint.mimic is None)
+    by_name = _moving(order)
+    joints = tuple(Joint(joint.name, joint.limits) for joint in by_name.values() if joint.mimic is None)
     numbers = {joint.name: number for number, joint in enumerate(joints, start=1)}
     links: list[Link] = []
     bodies: list[LinkParameters] = []
@@ -217,14 +223,21 @@ def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravi
         body = document.links[joint.child]
         if body is not None and place.number:
             bodies[place.number - 1] += transform_body(body, place.rotation, place.translation)
-    known = any(document.links[joint.child] is not None for joint, _ in order)
     return RobotModel(
         name=document.name,
         links=tuple(links),
         joints=joints,
         gravity=gravity,
-        prior=np.array(bodies) if known else None,
+        prior=_prior(document, order, bodies),
     )
+
+
+def _prior(
+    document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], bodies: list[LinkParameters]
+) -> LinkTable | None:
+    """Give the links' bodies as a table; None where the document describes none."""
+    known = any(document.links[joint.child] is not None for joint, _ in order)
+    return np.array(bodies) if known else None
 
 
 def _drive(joint: UrdfJoint, moving: dict[str, UrdfJoint]) -> _Drive:

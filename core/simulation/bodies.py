@@ -57,5 +57,8 @@ def phases_of(model: DynamicModel, parameters: Parameters) -> Phases:
             body[term.link - 1] = values
             joining.append((term.begin, body))
     begins = np.array(sorted({-np.inf, *(begin for begin, _ in joining)}))
-    tables = [sum((body for begin, body in joining if begin <= now), always) for now in begins]
-    return Phases(begins, tuple(bodies_of(model.robot, table) for table in tables))
+    return Phases(begins, tuple(bodies_of(model.robot, _links_at(now, always, joining)) for now in begins))
+
+
+def _links_at(now: float, always: LinkTable, joining: list[tuple[float, LinkTable]]) -> LinkTable:
+    return sum((body for begin, body in joining if begin <= now), always)

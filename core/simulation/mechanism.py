@@ -162,9 +162,8 @@ def _sorted(
 ) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], Parts]:
     """Sort all terms but bodies: numbers per joint, couplings as weights and three numbers, others."""
     robot = model.robot
-    drives: dict[type, np.ndarray] = {
-        kind: np.zeros(len(robot.joints)) for kind in (RotorInertia, Viscous, Coulomb, Offset)
-    }
+    kinds = (RotorInertia, Viscous, Coulomb, Offset)
+    drives: dict[type, np.ndarray] = dict(zip(kinds, np.zeros((4, len(robot.joints))), strict=True))
     coupled: list[tuple[np.ndarray, np.ndarray]] = []
     others: Parts = []
     for term, values in model.split(parameters):

@@ -135,14 +135,18 @@ def same_clock(one: float, other: float) -> bool:
 
 
 def _joined(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> Iterator[Stretch]:
-    if not run or (chosen is not None and (log, run[0].block) not in chosen):
-        return
+    if run and (chosen is None or (log, run[0].block) in chosen):
+        yield from _usable_part((log, run[0].block), run)
+
+
+def _usable_part(key: BlockKey, run: list[Tile]) -> Iterator[Stretch]:
+    """Give the stretch from the first usable instant of a run to the last one; nothing where none is."""
     every = run[0].parallel.decimation
     usable = np.concatenate([tile.usable.all(axis=1) for tile in run])
     if not usable.any():
         return
     around, torque = _together(run)
-    # the first usable instant to the last one; in between, only ends of a log could be unusable
+    # in between, only ends of a log could be unusable
     first, last = (run[0].first + every * int(one) for one in np.flatnonzero(usable)[[0, -1]])
     torque = torque[first : last + 1]
     # what the filters spoil at a log's ends is no motion
@@ -153,7 +157,7 @@ def _joined(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> It
     time = state.time
     if time is not None and len(time) > 1:
         step = float(time[-1] - time[0]) / (len(time) - 1)
-        yield Stretch((log, run[0].block), step, every, time, state, torque, around, inside)
+        yield Stretch(key, step, every, time, state, torque, around, inside)
 
 
 def _together(run: list[Tile]) -> tuple[MotionState, JointSeries]:

@@ -12,7 +12,7 @@ from itertools import product
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from ...arrays import Indices, JointSeries, Vector
+from ...arrays import Indices, JointSeries, Samples, Vector
 from ...numerics.chi2_tail import log_chi2_tail
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis
@@ -39,13 +39,7 @@ def switching_candidates(
         rows = int(np.count_nonzero(usable))
         if rows < UNNAMED.least_rows or dataset.log.any():
             continue
-        ways = []
-        for changes in _changes(np.where(usable, series, 0.0)):
-            trials = _log_trials(len(changes), rows / BAND.rows)
-            if len(changes) >= UNNAMED.least_changes and trials < UNNAMED.most_log_trials:
-                instants = 0.5 * (dataset.time[changes] + dataset.time[changes + 1])
-                scalars = _UNLISTED.switching(instants)
-                ways.append(Candidate(_UNLISTED, (joint,), scalars, float(np.exp(trials))))
+        ways = list(_ways(dataset.time, joint, np.where(usable, series, 0.0), rows))
         chances = [
             log_chi2_tail(scored.statistic, scored.freedom) + np.log(way.trials)
             for scored, way in zip(fitter.score(now, ways), ways, strict=True)
@@ -53,6 +47,15 @@ def switching_candidates(
         if ways:
             found.append(ways[int(np.argmin(chances))])
     return tuple(found)
+
+
+def _ways(time: Samples, joint: int, series: Samples, rows: int) -> Iterator[Candidate]:
+    """Give a joint's sets of change points that are neither too few nor too many to be tested."""
+    for changes in _changes(series):
+        trials = _log_trials(len(changes), rows / BAND.rows)
+        if len(changes) >= UNNAMED.least_changes and trials < UNNAMED.most_log_trials:
+            instants = 0.5 * (time[changes] + time[changes + 1])
+            yield Candidate(_UNLISTED, (joint,), _UNLISTED.switching(instants), float(np.exp(trials)))
 
 
 def _changes(series: Vector) -> Iterator[Indices]:

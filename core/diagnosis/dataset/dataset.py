@@ -168,18 +168,7 @@ def build_dataset(
         If no row is left to look at.
     """
     motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
-    share = min(1.0, ROWS.seconds / sum(log.duration for log in logs))
-    parts = [
-        part
-        for number, motion in enumerate(motions)
-        for part in segments_of(number, motion, model.robot, share)
-    ]
-    if not parts:
-        raise ExcitationError(
-            "no stretch of the logs is long enough to be looked at",
-            evidence={"seconds": [log.duration for log in logs]},
-            remedy="record at least ten seconds of motion",
-        )
+    parts = _segments(motions, model.robot, [log.duration for log in logs])
     series = _concatenate_series(parts)
     keys = {log * blocks + block for log, block in held_out}
     return Dataset(
@@ -195,6 +184,21 @@ def build_dataset(
         position_share=np.zeros(len(model.robot.joints)),
         position_torque=np.zeros_like(series["torque"]),
     )
+
+
+def _segments(motions: Sequence[Motion], robot: RobotModel, seconds: list[float]) -> list[DatasetSegment]:
+    """Cut all motions into segments, as many as the data set may hold of logs of so many seconds."""
+    share = min(1.0, ROWS.seconds / sum(seconds))
+    parts = [
+        part for number, motion in enumerate(motions) for part in segments_of(number, motion, robot, share)
+    ]
+    if not parts:
+        raise ExcitationError(
+            "no stretch of the logs is long enough to be looked at",
+            evidence={"seconds": seconds},
+            remedy="record at least ten seconds of motion",
+        )
+    return parts
 
 
 def _concatenate_series(parts: Sequence[DatasetSegment]) -> dict[str, np.ndarray]:

@@ -32,8 +32,7 @@ def _restarts(found: SearchState) -> Iterator[SearchState]:
     """Give the ends of restarts that do not come to a set of causes which the search came through."""
     present = [member.cause.id for member in found.chosen.members]
     for cause in found.fitter.causes:
-        several = [name for name in present if name in masks(cause.id)]
-        if len(several) < SEARCH.several or cause.id in present:
+        if cause.id in present or sum(map(masks(cause.id).__contains__, present)) < SEARCH.several:
             continue
         start = _started_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
         if start is not None:

@@ -77,6 +77,11 @@ def _motion(joints: Sequence[JointTraces]) -> Markup:
     return Markup("").join(_overlaid(joints, signal) for signal in MOTION if signal in joints[0].signals)
 
 
+def _range_sentence(trace: JointTraces, signal: str) -> str:
+    low, high = _range(trace.signals[signal])
+    return f"Joint {trace.joint} from {number(low)} to {number(high)} {trace.units[signal]}."
+
+
 def _overlaid(joints: Sequence[JointTraces], signal: str) -> Markup:
     unit = series(list(dict.fromkeys(trace.units[signal] for trace in joints)))
     values = [value for trace in joints for value in trace.signals[signal] if value is not None]
@@ -86,11 +91,8 @@ def _overlaid(joints: Sequence[JointTraces], signal: str) -> Markup:
         for place, trace in enumerate(joints, start=1)
         for line in _lines(frame, trace.time, trace.signals[signal], f"j{place}")
     ]
-    text = f"{signal.capitalize()} of joints {joints[0].joint} to {joints[-1].joint} over time. " + " ".join(
-        f"Joint {trace.joint} from {number(low)} to {number(high)} {trace.units[signal]}."
-        for trace in joints
-        for low, high in [_range(trace.signals[signal])]
-    )
+    ranges = " ".join(_range_sentence(trace, signal) for trace in joints)
+    text = f"{signal.capitalize()} of joints {joints[0].joint} to {joints[-1].joint} over time. {ranges}"
     title = f"{signal.capitalize()} of every joint"
     parts = (frame.axes(title, "time, s", unit), *lines)
     return picture(f"{title} over time", text, (_WIDE, _MOTION_HIGH), *parts)
