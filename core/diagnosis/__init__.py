@@ -1,6 +1,6 @@
-"""Name what a simulation gets wrong.
+"""Name what a simulation gets wrong: in come logs and a model, out goes a `Diagnosis`.
 
-In come an identification and its logs; out goes a `Diagnosis`: causes with their evidence, the rivals that
-were refuted or could not be told apart, and how much stays unexplained. `dataset` prepares the equations,
-`noise` whitens them, `score` judges candidates, `causes` holds one file per cause, `verdict` decides.
+`dataset` prepares the rows, `regression` fits columns under AR noise, `causes` holds one file per cause,
+`search` selects causes stepwise, `checks` tests the result, `residual` tells what is left, and `thresholds`
+holds every number that decides. `diagnose` is the algorithm on one page.
 """
