@@ -32,7 +32,7 @@ from .extension.cure import (
 from .extension.fold import folded
 from .extension.gain import JointGain, gains
 from .extension.result import Extension
-from .extension.verification import proven
+from .extension.verification import verify
 from .identification.admission import admit, known_log
 from .identification.identify import Fit, Progress, fit, judge
 from .identification.options import IdentifyOptions, parse_diagnose_options, parse_options
@@ -200,7 +200,7 @@ def _proven(
         now, then = ((tried.observation, tried.estimate.base) for tried in fits)
         return gains(now, then, now[0].parts(problem.held_out)[1])
 
-    return proven(found, tried, gained)
+    return verify(found, tried, gained)
 
 
 def _within(tell: Progress, begin: float, share: float) -> Progress:

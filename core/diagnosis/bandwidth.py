@@ -28,13 +28,13 @@ Fitted = tuple[Dataset, Prediction, tuple[ARNoise, ...]]
 
 
 def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
-    """Narrow a look until the noise of the positions has little share in any joint's residual.
+    """Lower the bandwidth until position noise has little share in any joint's residual.
 
     Parameters
     ----------
     dataset_at
-        Gives the look of a width (band over the motion's band), what a plain fit then believes, and the noise
-        it leaves.
+        Gives the data set of a width (bandwidth over the motion's), the prediction of a plain fit to it, and
+        the noise of its residual.
     """
     width = BAND.over_motion
     fitted = dataset_at(width)

@@ -129,7 +129,7 @@ class NotIdentifiable:
 
 @dataclass(frozen=True)
 class UnnamedPattern:
-    """Say what a residual still follows that is in no list.
+    """Hold an unnamed pattern that the residual follows.
 
     Attributes
     ----------
@@ -138,8 +138,8 @@ class UnnamedPattern:
     statement
         What it follows.
     statistic, log10_p
-        Rise of twice the log-likelihood (for levels the squared number of deviations), and the chance of it
-        by luck, all patterns and joints counted in.
+        Likelihood ratio statistic (of the kurtosis its squared deviations), and the logarithm of the p-value,
+        corrected for all patterns and joints.
     """
 
     joint: int

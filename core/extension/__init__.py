@@ -1,6 +1,5 @@
-"""Cure a model and measure the gain.
+"""Extend a model by the causes found, and measure the gain.
 
-In come an identified model and a diagnosis; out go the model with the findings' terms, ready to be identified
-again as one semidefinite programme, and what that gained on blocks that no fit has seen. Beside it go the
-repairs, by which the robot's description or the log is mended itself.
+In come an identified model and a diagnosis. Out go the model with the findings' terms, identified again as
+one semidefinite programme, its gain on held-out blocks, and the corrections of the description or the log.
 """

@@ -1,4 +1,4 @@
-"""Let the causes that were found join the model: their terms become columns like all others.
+"""Extend the model by the causes that were found: their terms become columns like all others.
 
 The base parameters of the standard model keep their names and groupings; every parameter of a finding stands
 for itself, because its evidence is what the standard columns do not span.
@@ -17,24 +17,24 @@ from ..reduction.base import BaseModel
 
 
 def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
-    """Give the terms of the findings that have one and whose gain on unseen rows is beyond doubt."""
+    """Give the terms of the findings whose gain on held-out rows is significant or verified."""
     return tuple(term for _, term in _joining(diagnosis))
 
 
 def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
     for one in diagnosis.findings:
-        if one.member is not None and gains_surely(one):
+        if one.member is not None and enters(one):
             member, at = one.member, diagnosis.operating_point
             yield one, member.cause.term(diagnosis.dataset, at, member.site, member.scalars)
 
 
-def gains_surely(finding: Finding) -> bool:
-    """Tell whether what a finding gains on unseen rows is beyond doubt."""
+def enters(finding: Finding) -> bool:
+    """Tell whether a finding's gain on held-out rows is significant or verified."""
     return finding.proven or finding.gain is None or finding.gain.interval_95[0] > 0.0
 
 
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:
-    """Give, by name, what counts as one unit of deviation of the parameters that join the model."""
+    """Give, by name, what counts as one unit of deviation of the parameters that enter the model."""
     return {
         f"{one.name}{one.joint}": 10.0 * abs(one.value)
         for finding in diagnosis.findings
@@ -55,18 +55,18 @@ def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
 
 
 def all_proven(diagnosis: Diagnosis) -> Diagnosis:
-    """Give the diagnosis with every finding's gain beyond doubt, so that all of them join."""
+    """Give the diagnosis with every finding verified, so that all of them enter."""
     return replace(diagnosis, findings=tuple(replace(one, proven=True) for one in diagnosis.findings))
 
 
 def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
-    """Give the places of an extended model's base parameters in the model that all findings join."""
+    """Give the places of an extended model's base parameters in the model with all findings."""
     places = list(range(len(base.kept)))
     members = (one for one in diagnosis.findings if one.member is not None)
     stop = len(places)
     for one, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
         start, stop = stop, stop + len(term.parameters(base.model.robot))
-        if gains_surely(one):
+        if enters(one):
             places += range(start, stop)
     return np.array(places)
 

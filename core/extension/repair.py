@@ -14,7 +14,7 @@ from ..diagnosis.causes.sample_check import SampleCheck
 from ..diagnosis.result import Diagnosis, Finding
 from ..diagnosis.search.hypothesis import Candidate
 from ..robot.model import RobotModel
-from .cure import gains_surely
+from .cure import enters
 
 NOT_SURE = "Nothing is changed for it: its gain on rows that no fit has seen is not beyond doubt"
 
@@ -66,7 +66,7 @@ def _repair(finding: Finding, diagnosis: Diagnosis, robot: RobotModel) -> Repair
         known = BY_ID[finding.cause]
         why = known.beyond_repair if isinstance(known, SampleCheck) else NOT_SURE
         return Repair(finding.cause, finding.joints, "nothing", why, {})
-    if not gains_surely(finding):
+    if not enters(finding):
         return Repair(finding.cause, finding.joints, "nothing", NOT_SURE, {})
     cause = finding.member.cause
     numbers = cause.numbers(diagnosis.dataset, _solved(diagnosis, finding.member))

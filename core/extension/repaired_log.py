@@ -1,7 +1,7 @@
 """Give a log as it would have been without the faults that were found in its channels.
 
-Rows are mended as they are read, so that a log's length costs no memory here either. Every stretch between
-gaps is mended by itself; rows that stand for dropped samples go on repeating the row before.
+Rows are corrected as they are read, so that a log's length costs no memory here either. Every stretch between
+gaps is corrected by itself; rows that stand for dropped samples go on repeating the row before.
 """
 
 from collections.abc import Iterable, Mapping
@@ -23,7 +23,7 @@ from .repair import Repair
 NEIGHBOURS = 40
 """Rows on either side that a spline is laid through; further ones change nothing."""
 FEWEST = 4
-"""Rows of a stretch that can be mended."""
+"""Rows of a stretch that can be corrected."""
 
 
 def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) -> JointLog:
@@ -43,13 +43,13 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
     ------
     LogError
         If the log holds currents, and the robot does not say what torque a current gives; if no stretch of it
-        is long enough to be mended.
+        is long enough to be corrected.
     """
-    mending = _in_order(repairs)
-    if not mending:
+    corrections = _in_order(repairs)
+    if not corrections:
         return log
-    reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in mending)
-    source = RepairedSource(log, effort_scale(log, robot), mending, reach)
+    reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in corrections)
+    source = RepairedSource(log, effort_scale(log, robot), corrections, reach)
     inner = tuple((start + reach, stop - reach) for start, stop in log.segments if stop - start > 2 * reach)
     if not inner:
         raise LogError(
@@ -74,7 +74,7 @@ def _in_order(repairs: Iterable[Repair]) -> tuple[tuple[Repair, CorrectsLog], ..
 
 @dataclass(frozen=True, eq=False)
 class RepairedSource:
-    """Give the rows of a log as they were mended.
+    """Give the rows of a log as they were corrected.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ class RepairedSource:
 
     log: JointLog
     effort_scale: JointVector
-    mending: tuple[tuple[Repair, CorrectsLog], ...]
+    corrections: tuple[tuple[Repair, CorrectsLog], ...]
     reach: int
 
     @property
@@ -95,7 +95,7 @@ class RepairedSource:
         return self.log.samples
 
     def rows(self, start: int, stop: int) -> LogRows:
-        """Read and mend the rows from start up to, not including, stop."""
+        """Read and correct the rows from start up to, not including, stop."""
         low, high = max(0, start - self.reach - NEIGHBOURS), min(self.samples, stop + self.reach + NEIGHBOURS)
         read = self.log.source.rows(low, high)
         borders = {border - low for one in self.log.segments for border in one if low < border < high}
@@ -104,14 +104,14 @@ class RepairedSource:
         return rows_at(_joined(parts), slice(start - low, stop - low))
 
     def _mended(self, rows: LogRows) -> LogRows:
-        """Mend a stretch without gaps; what only repeats the row before does so again."""
+        """Correct a stretch without gaps; rows that repeat the row before do so again."""
         fresh = ~dropped(rows)
         if np.count_nonzero(fresh) < FEWEST:
             return rows
-        mended = self._with_torque(rows_at(rows, fresh))
-        for one, cause in self.mending:
-            mended = cause.corrected_rows(mended, one.joints, one.numbers)
-        held = rows_at(self._with_channel(mended, rows), np.cumsum(fresh) - 1)
+        corrected = self._with_torque(rows_at(rows, fresh))
+        for one, cause in self.corrections:
+            corrected = cause.corrected_rows(corrected, one.joints, one.numbers)
+        held = rows_at(self._with_channel(corrected, rows), np.cumsum(fresh) - 1)
         return replace(held, time=rows.time)
 
     def _with_torque(self, rows: LogRows) -> LogRows:
@@ -119,11 +119,11 @@ class RepairedSource:
             return rows
         return replace(rows, torque=rows.current * self.effort_scale)
 
-    def _with_channel(self, mended: LogRows, rows: LogRows) -> LogRows:
+    def _with_channel(self, corrected: LogRows, rows: LogRows) -> LogRows:
         """Give the effort back to the channel that it was logged in."""
-        if rows.torque is not None or mended.torque is None:
-            return mended
-        return replace(mended, torque=None, current=mended.torque / self.effort_scale)
+        if rows.torque is not None or corrected.torque is None:
+            return corrected
+        return replace(corrected, torque=None, current=corrected.torque / self.effort_scale)
 
 
 def _joined(parts: list[LogRows]) -> LogRows:

@@ -1,8 +1,8 @@
-"""Let causes prove themselves whose gain the search leaves in doubt: identify again with them, one by one.
+"""Verify causes whose gain the search leaves in doubt: identify again with them, one by one.
 
-A search looks at a wide band, in which slow torque counts for little and much of the rest is noise; what a
-user gets is an identification at the band of the motion. Where that predicts motion it has not seen surely
-better, the cause belongs to the model.
+A search uses a wide bandwidth, in which slow torque has little weight and much of the rest is noise. A user
+gets an identification at the bandwidth of the motion. Where that predicts held-out motion significantly
+better, the cause enters the model.
 """
 
 from collections.abc import Callable
@@ -11,32 +11,32 @@ from typing import TypeVar
 
 from ..diagnosis.result import Diagnosis, Evidence, Finding
 from ..errors import SolverError
-from .cure import gains_surely
+from .cure import enters
 from .gain import JointGain
 
 Answer = TypeVar("Answer")
 """What an identification gives."""
 
 
-def proven(
+def verify(
     diagnosis: Diagnosis,
     tried: Callable[[Diagnosis], Answer],
     gained: Callable[[Answer, Answer], tuple[JointGain, ...]],
 ) -> tuple[Diagnosis, Answer | None]:
-    """Mark the findings without which the held-out blocks are surely predicted worse.
+    """Mark the findings without which the held-out blocks are predicted significantly worse.
 
-    Gives, besides, what identifying with all findings then beyond doubt gave, if that was asked for.
+    Gives the last identification with all verified findings as well, if there was one.
 
     Parameters
     ----------
     tried
-        Identifies with all findings whose gain is beyond doubt.
+        Identifies with all verified findings.
     gained
-        Tells what one identification gains over another on the held-out blocks.
+        Gives the gain of one identification over another on the held-out blocks.
     """
     now: Answer | None = None
     for place, finding in enumerate(diagnosis.findings):
-        if finding.member is None or gains_surely(finding):
+        if finding.member is None or enters(finding):
             continue
         findings = list(diagnosis.findings)
         findings[place] = replace(finding, proven=True)
@@ -53,13 +53,13 @@ def proven(
 
 
 def _shown(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:
-    """Tell which of a finding's joints are surely predicted better; none where the others lose as much."""
+    """Give the evidence per joint that is predicted better; none where the others lose as much."""
     if sum(one.improvement_percent for one in found) <= 0.0:
         return ()
     return tuple(
         Evidence(
-            f"Percent that identifying the robot with it takes from the error of joint {one.joint} on unseen "
-            f"motion; 95 % interval {one.interval_95[0]:.1f} to {one.interval_95[1]:.1f}",
+            f"Reduction of the error of joint {one.joint} on held-out motion, in percent, when the robot is "
+            f"identified with it; 95 % interval {one.interval_95[0]:.1f} to {one.interval_95[1]:.1f}",
             "gain identified",
             one.improvement_percent,
         )

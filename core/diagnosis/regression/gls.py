@@ -62,7 +62,7 @@ class Fit:
 
     @cached_property
     def log_likelihood(self) -> float:
-        """Give the log-likelihood of all rows, and of what was believed."""
+        """Give the log-likelihood of all rows and of the prior."""
         departed = 0.0 if self.prior is None else self.prior.departure(self.values)
         return float(self.by_joint.sum()) - 0.5 * departed
 

@@ -24,7 +24,7 @@ this by the others. Of much less the Gram matrix, which squares it, would hold r
 EARLIER = 1e-9
 """By how much a column counts for more than the next: rounding must not choose between two that are alike."""
 RIDGE = 1e-13
-"""Share of a column's square, above rounding, that keeps the factor real; the second pass mends it."""
+"""Share of a column's square, above rounding, that keeps the factor real; the second pass corrects it."""
 
 
 @dataclass(frozen=True, eq=False)
