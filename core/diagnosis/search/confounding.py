@@ -30,14 +30,22 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
         without = fitter.fit((*whole.members[:place], *whole.members[place + 1 :]), whole)
         if own.traits.transient:
             within = leaves and _acts_within(whole, index, place)
-            least = likelihood_ratio(without, whole) * (1.0 if within else MASKING.event_over_other)
-            if own_ratio.sum() < least and (within or not _is_extreme(less, whole, index)):
+            if _is_masked_event(less, whole, without, index, within=within):
                 return True
             continue
         left = MASKING.left * np.maximum(likelihood_ratio_by_joint(without, whole), 0.0)
         if np.maximum(own_ratio - left, 0.0).sum() < MASKING.clear * own_ratio.sum():
             return True
     return False
+
+
+def _is_masked_event(
+    less: Hypothesis, whole: Hypothesis, without: Hypothesis, index: int, *, within: bool
+) -> bool:
+    """Tell whether a transient member explains less than another, within which alone it happens or not."""
+    least = likelihood_ratio(without, whole) * (1.0 if within else MASKING.event_over_other)
+    explains_less = likelihood_ratio_by_joint(less, whole).sum() < least
+    return bool(explains_less) and (within or not _is_extreme(less, whole, index))
 
 
 def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, other: Candidate, alone: float) -> bool:

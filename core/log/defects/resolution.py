@@ -4,6 +4,8 @@ On a grid every increment is a whole number of steps; the smallest increment is 
 inherits the step divided by the sample time, which is why a fast log of a coarse encoder needs filtering.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...arrays import JointVector, Samples, Series
@@ -40,21 +42,26 @@ class Resolution:
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State where the grid is coarse."""
-        found = []
+        found: list[Defect] = []
         for channel, kept in self._increments.items():
             for joint, row in enumerate(np.hstack(kept) if kept else ()):
-                step, typical = _grid_step(row)
-                if step == 0.0:
-                    continue
-                deviation = float(facts.deviation[channel][joint])
-                coarse = typical <= COARSE_POSITION_STEPS * step and facts.travels(joint)
-                if channel == "torque":
-                    coarse = step > COARSE_TORQUE_SHARE * deviation
-                if coarse:
-                    share = typical / step if channel == "position" else step / deviation
-                    statement = _statement(channel, joint, step, share, facts)
-                    found.append(Defect("quantisation", channel, joint + 1, facts.samples, (), statement))
+                found += _coarse_grid(channel, joint, row, facts)
         return found
+
+
+def _coarse_grid(channel: str, joint: int, increments: Samples, facts: Facts) -> Iterator[Defect]:
+    """Give the defect of one joint's signal; nothing where its grid is fine or does not show."""
+    step, typical = _grid_step(increments)
+    if step == 0.0:
+        return
+    if channel == "position":
+        coarse, share = typical <= COARSE_POSITION_STEPS * step and facts.travels(joint), typical / step
+    else:
+        deviation = float(facts.deviation[channel][joint])
+        coarse, share = step > COARSE_TORQUE_SHARE * deviation, step / deviation
+    if coarse:
+        statement = _statement(channel, joint, step, share, facts)
+        yield Defect("quantisation", channel, joint + 1, facts.samples, (), statement)
 
 
 def _grid_step(increments: Samples) -> tuple[float, float]:
