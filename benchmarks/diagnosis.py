@@ -73,5 +73,5 @@ def _cost(case: Case) -> tuple[float, int]:
     plan = ColumnPlan(model, base_model(model).kept)
     question = DiagnosisProblem(plan, (case.log,), HoldOut(0.25, BLOCKS).chosen(1), BLOCKS)
     rows: list[int] = []
-    spent = processor_seconds(lambda: rows.append(len(diagnose(question).look.time)), repeats=1, least=0.0)
+    spent = processor_seconds(lambda: rows.append(len(diagnose(question).dataset.time)), repeats=1, least=0.0)
     return spent, rows[-1]

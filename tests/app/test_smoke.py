@@ -69,7 +69,7 @@ def test_the_report_of_a_job_names_it_and_shows_its_motion_and_torque(real, iden
     assert job["finished_at"][:10] in page
     for kind in ("measured", "filtered", "estimated", "residual"):
         assert page.count(f'class="line trace {kind}"') >= 2  # joints
-    assert page.count('class="band unseen"') == 8  # four of twenty blocks on either joint
+    assert page.count('class="band held-out"') == 8  # four of twenty blocks on either joint
 
 
 def test_one_request_identifies_a_robot_that_is_sent_along(real, identified):

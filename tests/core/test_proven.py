@@ -11,6 +11,7 @@ from veritorque.core import study
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.errors import SolverError
 from veritorque.core.extension.result import Extension
+from veritorque.core.identification import identify
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
 
 HARMLESS, HIDDEN = measured_arm(), measured_arm(hidden)
@@ -44,12 +45,12 @@ def test_what_proved_itself_is_not_identified_once_more(monkeypatch):
     fits = []
 
     def fitted(*asked):
-        fits.append(core.fitting.fitted(*asked))
+        fits.append(identify.fit(*asked))
         return fits[-1]
 
-    monkeypatch.setattr(study, "fitted", fitted)
+    monkeypatch.setattr(study, "fit", fitted)
     found = studied(monkeypatch, HIDDEN)
-    assert len(fits) == 2
+    assert len(fits) == 3  # the plain model, as it is with what is beyond doubt, and with the cause in doubt
     assert found.after.observation is fits[-1].observation
     assert found.after.estimate is fits[-1].estimate
 
@@ -71,10 +72,14 @@ def test_a_cause_in_doubt_joins_no_model_where_it_gains_nothing(monkeypatch):
 
 
 def test_a_cause_in_doubt_with_which_there_is_no_answer_joins_no_model(monkeypatch):
-    def unsolved(*_):
+    plain = iter([identify.fit])
+
+    def unsolved(*asked):
+        for first in plain:
+            return first(*asked)
         raise SolverError("it has no answer", evidence={}, remedy="none")
 
-    monkeypatch.setattr(study, "fitted", unsolved)
+    monkeypatch.setattr(study, "fit", unsolved)
     found = studied(monkeypatch, HIDDEN)
     assert found.after is None
     assert not found.diagnosis.findings[0].proven

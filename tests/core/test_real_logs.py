@@ -180,7 +180,7 @@ def test_tx40_agrees_with_the_published_base_parameters_within_three_combined_de
         relation = found.base.relation(row).items()
         value, deviation = published[frozenset((symbol, round(size, 6)) for symbol, size in relation)]
         ours = sums @ found.estimate.base
-        combined = np.hypot(np.sqrt(sums @ found.precision.inference @ sums), deviation)
+        combined = np.hypot(np.sqrt(sums @ found.precision.covariance @ sums), deviation)
         if abs(ours - value) > 3.0 * combined:
             far[name] = (float(ours), value, float(combined))
     assert not far

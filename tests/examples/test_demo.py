@@ -221,7 +221,7 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     assert len(told) == 4
     assert all(abs(float(z)) < 3.0 for z in told)  # one log in four hundred exceeds 3 per number
     guide = (demo.ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
-    shown = re.search(r"```\n(The simulation of.*?)```", guide, re.DOTALL)
+    shown = re.search(r"```\n(\d+ causes of simulation error.*?)```", guide, re.DOTALL)
     assert all(is_printed(line, words) for line in shown.group(1).splitlines() if line[:1] != " ")
     report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
     assert "gets two things wrong" in report

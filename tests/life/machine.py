@@ -130,7 +130,7 @@ class JobLives(RuleBasedStateMachine):
     def kill(self, owner):
         """Kill a worker: its lock is free, and whoever watches takes its jobs back."""
         os.close(self.workers[owner]._file)
-        Reclaimer(self.store, self.watcher).look()
+        Reclaimer(self.store, self.watcher).run()
         for identity, job in list(self.jobs.items()):
             if job.state == "running" and job.owner == owner:
                 self._ended(identity, "die", None)

@@ -103,7 +103,7 @@ def test_what_a_parked_joint_could_not_show_is_listed_with_the_motion_that_would
     assert all(one["why"] and one["separating_experiment"] for one in hidden.values())
     assert diagnosis["unexplained"]["predictable_residual_fraction"][1] is None
     report = client.get(job["links"]["report"]).text
-    assert "Of joint 2, which the motion hardly moves, nothing can be said." in report
+    assert "No statement is possible on joint 2: there is hardly any motion." in report
 
 
 def test_a_motion_in_which_no_joint_turns_round_is_diagnosed(client):

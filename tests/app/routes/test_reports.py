@@ -105,4 +105,4 @@ def test_a_log_sent_over_http_is_diagnosed_by_the_real_science_and_reported(tmp_
         result = client.get(job["links"]["results"])
         ResultDocument.model_validate_json(result.content)
         assert result.json()["diagnosis"]["findings"] == []
-        assert "Nothing that this log can show is wrong" in client.get(job["links"]["report"]).text
+        assert "No cause of simulation error found" in client.get(job["links"]["report"]).text

@@ -54,7 +54,7 @@ def test_a_tenant_runs_no_more_jobs_at_once_than_its_share(store):
     assert claimed(store, most=1).tenant == "one"
 
 
-@pytest.mark.parametrize("change", ["report", "succeed", "fail", "hand_back", "bury"])
+@pytest.mark.parametrize("change", ["report", "succeed", "fail", "hand_back", "retry_or_fail"])
 def test_who_held_a_job_before_it_was_taken_again_changes_nothing(store, change):
     job = asked(store)
     first = claimed(store)
@@ -66,14 +66,14 @@ def test_who_held_a_job_before_it_was_taken_again_changes_nothing(store, change)
         "report": {"stage": "late", "fraction": 0.9},
         "succeed": {"result_sha256": "ab", "result_bytes": 2},
         "fail": {"problem": PROBLEM},
-        "bury": {"problem": PROBLEM},
+        "retry_or_fail": {"problem": PROBLEM},
     }
     assert not getattr(store.work, change)(held(first), **arguments.get(change, {}))
     assert now(store, job) == before
     assert store.work.succeed(held(second), result_sha256="cd", result_bytes=2)
 
 
-@pytest.mark.parametrize("change", ["report", "succeed", "fail", "hand_back", "bury"])
+@pytest.mark.parametrize("change", ["report", "succeed", "fail", "hand_back", "retry_or_fail"])
 def test_a_dismissed_job_stays_dismissed(store, change):
     job = asked(store)
     first = claimed(store)
@@ -82,7 +82,7 @@ def test_a_dismissed_job_stays_dismissed(store, change):
         "report": {"stage": "late", "fraction": 0.9},
         "succeed": {"result_sha256": "ab", "result_bytes": 2},
         "fail": {"problem": PROBLEM},
-        "bury": {"problem": PROBLEM},
+        "retry_or_fail": {"problem": PROBLEM},
     }
     assert not getattr(store.work, change)(held(first), **arguments.get(change, {}))
     assert now(store, job) == dismissed

@@ -102,7 +102,7 @@ def test_friction_at_rest_that_is_left_in_the_rows_is_seen(monkeypatch):
 def test_friction_at_rest_that_is_taken_out_row_by_row_is_seen(monkeypatch):
     law = partial(test_gls.test_noise_beside_friction_at_rest_is_learned_as_that_noise_would_have_it, 0)
     law()
-    monkeypatch.setattr(Prewhitened, "missed", lambda white, rows, values: rows.residual(values))
+    monkeypatch.setattr(Prewhitened, "residual", lambda white, rows, values: rows.residual(values))
     with pytest.raises(AssertionError):
         law()
 

@@ -21,7 +21,7 @@ def seen(effect=None, seed=6):
 def test_a_push_without_a_shape_is_seen_on_its_joint_and_when_it_was(height):
     found = seen(on_joint(lambda state: height * ((state.time > BEGIN) & (state.time < END))))
     assert found.joint == JOINT
-    when = float(found.statement.split("about ")[1].split(" s")[0])
+    when = float(found.statement.split(" at ")[1].split(" s")[0])
     assert BEGIN - 0.2 < when < END + 0.2
     assert found.log10_p < -6.0
 

@@ -10,6 +10,7 @@ import pytest
 from tests.core.diagnosis.residual.worlds import NOISES, on_joint, world
 from veritorque.core.diagnosis.residual import blocks, learner
 from veritorque.core.diagnosis.residual.learner import predictable_share
+from veritorque.core.diagnosis.thresholds.residual import PREDICTION
 from veritorque.core.errors import ExcitationError
 
 
@@ -56,8 +57,9 @@ def test_the_places_are_where_the_effect_was_put():
 def test_noise_passes_for_structure_where_blocks_are_shorter_than_its_memory(monkeypatch):
     here = world()
     residual, noise = here.left(here.noise("ar_0.98", seed=3))
-    monkeypatch.setattr(blocks, "BLOCKS", 400)
-    monkeypatch.setattr(learner, "LONGEST_GAP", 0.0)
+    finer = replace(PREDICTION, blocks=400, longest_gap=0.0)
+    for module in (blocks, learner):
+        monkeypatch.setattr(module, "PREDICTION", finer)
     found = predictable_share(here.dataset, residual, here.operating_point, noise)
     assert sum(one.interval[0] > 0.0 for one in found) >= 2
 
@@ -75,7 +77,7 @@ def test_a_log_too_short_to_hold_anything_out_is_refused_with_its_remedy():
     residual, noise = here.left(here.noise("white", seed=4))
     with pytest.raises(ExcitationError, match="too little motion") as caught:
         predictable_share(short, residual, here.operating_point, noise)
-    assert caught.value.evidence["needed"] == learner.FEWEST_ROWS
+    assert caught.value.evidence["needed"] == PREDICTION.least_rows
     assert caught.value.remedy
 
 
