@@ -274,23 +274,19 @@ def _missing_error(channel: str, wanted: list[str], table: Table, remedy: str) -
     absent = _absent(wanted, table.names)
     candidates = [name for name in table.names if not _DEFAULT_NAME.fullmatch(name)]
     nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
-    evidence: dict[str, object] = {
-        "looked_for": wanted[:SHOWN_COLUMNS],
-        "columns": list(table.names[:SHOWN_COLUMNS]),
-        "nearest": nearest,
-    }
-    readings = readings_by_column(channel, candidates[:SHOWN_COLUMNS], table)
-    if readings:
+    shown, there = wanted[:SHOWN_COLUMNS], list(table.names[:SHOWN_COLUMNS])
+    evidence: dict[str, object] = {"looked_for": shown, "columns": there, "nearest": nearest}
+    if readings := readings_by_column(channel, candidates[:SHOWN_COLUMNS], table):
         evidence["plausible_readings"] = readings
-    return LogError(
-        f"the log has no column for {channel}: {', '.join(absent[:8])}", evidence=evidence, remedy=remedy
-    )
+    cause = f"the log has no column for {channel}: {', '.join(absent[:8])}"
+    return LogError(cause, evidence=evidence, remedy=remedy)
 
 
 def _unit_error(channel: str, request: ChannelRequest, table: Table) -> LogError:
     columns = [name for name, unit in zip(request.columns, request.units, strict=True) if not unit]
     readings = readings_by_column(channel, columns[:SHOWN_COLUMNS], table)
     first = next(iter(readings.values()), [])
+    likely = f", most plausibly {first[0].split(':')[0]}" if first else ""
     return LogError(
         f"the unit of {channel} is not declared, and {columns[0]!r} is not a default name, which would be SI",
         evidence={
@@ -298,6 +294,5 @@ def _unit_error(channel: str, request: ChannelRequest, table: Table) -> LogError
             "plausible_readings": readings,
             "known": list(UNITS[channel]),
         },
-        remedy=f'declare "unit" for {channel}'
-        + (f", most plausibly {first[0].split(':')[0]}" if first else ""),
+        remedy=f'declare "unit" for {channel}{likely}',
     )
