@@ -55,8 +55,8 @@ function overCoordinate(views, joint, found, over) {
       const { label, colour } = SIDES[signal];
       const name = both && signal === "residual" ? "before" : label;
       const ends = both && signal === "residual" ? [] : [
-        { label: "5 and 95 %", values: high, colour: 7, width: 1, dashed: true },
-        { label: "5 %", values: low, colour: 7, width: 1, dashed: true, unnamed: true },
+        { label: "5 % and 95 % quantiles", values: high, colour: 7, width: 1, dashed: true },
+        { label: "5 % quantile", values: low, colour: 7, width: 1, dashed: true, unnamed: true },
       ];
       return [...ends, { label: `mean ${name}`, values: mean, colour, width: 2 }];
     }),
