@@ -39,7 +39,7 @@ def description() -> dict[str, object]:
 
 
 def main() -> None:
-    """Describe, check, and list what can be told apart."""
+    """Describe, check, and list what is identifiable."""
     robot = robot_from_description(description())
     for warning in plausibility_warnings(robot):
         print(f"rarely meant: {warning}")

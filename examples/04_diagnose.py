@@ -1,4 +1,4 @@
-"""Ask a service what the simulation of a robot gets wrong, and read findings, rivals and gain.
+"""Ask a service what the simulation of a robot gets wrong, and read findings, alternatives and gain.
 
 The log hides two effects that the description does not tell of. Start the service with
 ``python -m veritorque serve``, then run ``python -m examples.04_diagnose``; it takes ten seconds or so.
@@ -29,7 +29,7 @@ def main() -> None:
         for name, (value, deviation) in finding.parameters.items():
             print(f"   {name}: {value:.4g} ± {deviation:.2g}")
         if finding.ambiguous_with:
-            print(f"   not told apart from: {', '.join(finding.ambiguous_with)}")
+            print(f"   undecided with: {', '.join(finding.ambiguous_with)}")
         if finding.improvement_percent is not None:
             print(f"   takes {finding.improvement_percent:.0f} % of the error away")
 

@@ -1,7 +1,7 @@
 """Compare two identifications: which parameters differ by more than chance lets them.
 
 Here the same arm was logged twice, the second time with something hidden in it. A difference is told in
-standard deviations; among 71 parameters a few beyond 2 are luck, and any beyond 4 is not. Run
+standard deviations; among 71 parameters a few beyond 2 are expected by chance, and none beyond 4. Run
 ``python -m examples.05_compare``.
 """
 

@@ -54,7 +54,7 @@ class BaseParameters(Rows):
     Attributes
     ----------
     value, value_ols
-        Of the robot that can exist, and of least squares, in `unit`.
+        Of the physically consistent robot, and of least squares, in `unit`.
     standard_deviation
         In `unit`.
     relative_deviation_percent
@@ -170,7 +170,7 @@ class Finding:
             parameters={
                 row["name"]: (row["value"], row["standard_deviation"]) for row in document["parameters"]
             },
-            ambiguous_with=tuple(rival["cause"] for rival in document["ambiguous_with"]),
+            ambiguous_with=tuple(other["cause"] for other in document["ambiguous_with"]),
             improvement_percent=None if gain is None else gain["improvement_total_percent"],
         )
 

@@ -33,7 +33,7 @@ class Evidence(Open):
     value: float | None
 
 
-class Rival(Open):
+class Alternative(Open):
     """An alternative cause that was compared."""
 
     cause: str
@@ -82,8 +82,8 @@ class Finding(Open):
     parameters: list[FoundParameter]
     explained_residual_fraction: float | None
     evidence: list[Evidence]
-    ambiguous_with: list[Rival]
-    refuted: list[Rival]
+    ambiguous_with: list[Alternative]
+    refuted: list[Alternative]
     gain: Gain | None
     curve: Curve | None
 

@@ -1,4 +1,4 @@
-"""Hold what a diagnosis found out: causes with evidence and rivals, what cannot be told, what is left."""
+"""Hold the result of a diagnosis: findings with evidence and alternatives, and what is left."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -35,7 +35,7 @@ class Alternative:
     statistic
         Rise of twice the log-likelihood that it brings in the finding's place.
     why
-        Why it cannot be told apart, or why it was refuted.
+        Why the two are undecided, or why it was refuted.
     separating_experiment
         The motion that would separate the two; empty where it was refuted.
     """

@@ -31,7 +31,7 @@ def _body(number: int, link: LinkParameters) -> dict[str, object]:
 def solid_ellipsoid(link: LinkParameters) -> tuple[np.ndarray | None, np.ndarray | None]:
     """Give the half axes (m, ascending) of a body's ellipsoid and their directions as columns of a rotation.
 
-    None, None where no such body can exist.
+    None, None where no such body is physically consistent.
 
     Examples
     --------

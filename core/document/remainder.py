@@ -19,11 +19,11 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
     least
         Lower end of the predictable share's interval above which a joint is listed under `joints`.
     """
-    predictable, floor, stranger = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.unnamed_pattern
-    foretold = {one.joint for one in predictable if one.interval[0] > least}
+    predictable, floor, unnamed = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.unnamed_pattern
+    predicted = {one.joint for one in predictable if one.interval[0] > least}
     return {
-        "joints": sorted(foretold | ({stranger.joint} if stranger else set())),
-        "pattern": stranger and _pattern(stranger),
+        "joints": sorted(predicted | ({unnamed.joint} if unnamed else set())),
+        "pattern": unnamed and _pattern(unnamed),
         "predictable_residual_fraction": list(map(attrgetter("share"), predictable)),
         "interval_95": list(map(attrgetter("interval"), predictable)),
         "at_rest_fraction": [None if np.isnan(one) else float(one) for one in diagnosis.at_rest],
@@ -36,12 +36,12 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
     }
 
 
-def _pattern(stranger: UnnamedPattern) -> dict[str, object]:
+def _pattern(unnamed: UnnamedPattern) -> dict[str, object]:
     return {
-        "joint": stranger.joint,
-        "statement": stranger.statement,
-        "likelihood_ratio": stranger.statistic,
-        "log10_p": stranger.log10_p,
+        "joint": unnamed.joint,
+        "statement": unnamed.statement,
+        "likelihood_ratio": unnamed.statistic,
+        "log10_p": unnamed.log10_p,
     }
 
 

@@ -1,4 +1,4 @@
-"""Find what can be told apart.
+"""Find the identifiable parameters.
 
 In comes a `DynamicModel`, out goes a `BaseModel` of base parameters and how the rest groups.
 """

@@ -1,4 +1,4 @@
-"""Find the base parameters of a robot: the columns that can be told apart, and how the others group.
+"""Find the base parameters of a robot: the independent columns, and how the others group.
 
 Columns are visited in Khalil's order, link after link from the base outwards and YY, MZ, M last within a
 revolute link; a column that the ones before it already span is dropped and its coefficients say how its

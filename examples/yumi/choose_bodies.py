@@ -1,8 +1,9 @@
-"""Choose link bodies that can exist, weigh what a YuMi arm weighs, and come near the study's Table 3.
+"""Choose physically consistent bodies that weigh what a YuMi arm weighs, near the study's Table 3.
 
 Table 3 lists base parameters, most of them sums over several bodies, and was fitted without regard to whether
-bodies can exist; so the bodies are those closest to it among all that can. A log-determinant term keeps each
-body near a plausible ellipsoid, without which the optimum would be flat discs and needles. Sources: Table 3
+bodies are physically consistent, so the bodies are those closest to it among all that are. A log-determinant
+term keeps each body near a plausible ellipsoid, without which the optimum would be flat discs and needles.
+Sources: Table 3
 of the study; Khalil & Dombre (2002), ch. 9, for the grouping along a chain of revolute joints; Lee, Wensing &
 Park, IEEE T-RO 36(1), 2020, for the distance.
 
@@ -117,8 +118,8 @@ def choose() -> tuple[list[np.ndarray], dict[str, float]]:
     )
     plausible = [pseudo_inertia_of_shape(*shape) for shape in SHAPES]
     distance = sum(
-        cp.trace(np.linalg.solve(believed, np.eye(4)) @ body) - cp.log_det(body)
-        for believed, body in zip(plausible, bodies, strict=True)
+        cp.trace(np.linalg.solve(assumed, np.eye(4)) @ body) - cp.log_det(body)
+        for assumed, body in zip(plausible, bodies, strict=True)
     )
     objective = cp.Minimize(CLOSENESS * cp.sum_squares(misfit) + distance)
     masses = [body[3, 3] == shape[0] for body, shape in zip(bodies, SHAPES, strict=True)]
@@ -143,7 +144,7 @@ def main() -> None:
     """Write `bodies.json`."""
     matrices, base = choose()
     document = {
-        "how": "closest to Table 3 among bodies that can exist and weigh 9.5 kg together",
+        "how": "closest to Table 3 among physically consistent bodies that weigh 9.5 kg together",
         "units": {"mass": "kg", "centre": "m, in the link frame", "inertia": "kg m2, about the centre"},
         "links": [as_body(matrix) for matrix in matrices],
         "table_3": {

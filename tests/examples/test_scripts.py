@@ -81,7 +81,7 @@ def test_findings_are_read_with_sizes_rivals_and_gain(folder, capsys, monkeypatc
         told = ran("04", capsys)
     assert "verdict: causes_found" in told
     assert "load_coefficient: 0.07 ± 0.002" in told
-    assert "not told apart from: torque_gain" in told
+    assert "undecided with: torque_gain" in told
     assert "takes 33 % of the error away" in told
     assert (folder / "diagnosis.html").stat().st_size > 10_000
 
