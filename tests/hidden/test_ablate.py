@@ -38,7 +38,7 @@ def test_changed_answers_are_counted_and_thresholds_without_any_are_flagged():
 
 
 def test_a_threshold_is_not_changed_where_the_diagnosis_was_loaded_before():
-    import veritorque.core.diagnosis.diagnose  # noqa: F401
+    import veritorque.core.diagnosis.diagnose  # noqa: F401  # loading it is what the test is about
 
     with pytest.raises(RuntimeError, match="loaded before"):
         answers(Task("ENTRY.level", 0.5, ()))
