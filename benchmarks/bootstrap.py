@@ -20,8 +20,7 @@ def run(*, quick: bool) -> list[Figure]:
     found = identify_in_full(IdentifyRequest(demo_robot(), (demo_log(),), {"bootstrap": {"draws": 0}}))
     options = EstimateOptions()
     once = processor_seconds(
-        lambda: estimate(found.base, found.estimate.system, found.estimate.prior, options),
-        repeats=3,
+        lambda: estimate(found.base, found.estimate.system, found.estimate.prior, options), repeats=3
     )
     spent = processor_seconds(
         lambda: bootstrap(

@@ -21,14 +21,7 @@ from .dynamics.model import DynamicModel, standard_model
 from .errors import OptionError, SolverError, VeritorqueError
 from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
-from .extension.cure import (
-    all_proven,
-    cures,
-    extended_base,
-    places_among_all,
-    sizes,
-    taken_along,
-)
+from .extension.cure import all_proven, cures, extended_base, places_among_all, sizes, taken_along
 from .extension.fold import folded
 from .extension.gain import JointGain, gains
 from .extension.result import Extension

@@ -23,12 +23,7 @@ def bar(console: Console | None = None) -> Iterator[Report]:
     if not (console.is_terminal or console.is_jupyter):
         yield _lines(console)
         return
-    columns = (
-        TextColumn("{task.description:<18}"),
-        BarColumn(),
-        TaskProgressColumn(),
-        TimeElapsedColumn(),
-    )
+    columns = (TextColumn("{task.description:<18}"), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("start", total=1.0)
         yield lambda stage, done: progress.update(task, description=escape(stage), completed=done)

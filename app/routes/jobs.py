@@ -73,22 +73,13 @@ async def create_job(
 
 
 @ROUTER.get("", response_model=JobList, summary="List jobs", responses=problems(422))
-def list_jobs(
-    context: ContextOf,
-    limit: Limit = 100,
-    cursor: CursorOf = None,
-) -> Response:
+def list_jobs(context: ContextOf, limit: Limit = 100, cursor: CursorOf = None) -> Response:
     """List jobs, newest first."""
     jobs = context.store.jobs.page(limit=limit, before=before(cursor))
     return JSONResponse({"jobs": [job_document(job) for job in jobs], "next": following(jobs, limit)})
 
 
-@ROUTER.get(
-    "/{job_id}",
-    response_model=Job,
-    summary="Follow a job",
-    responses=problems(404) | UNCHANGED,
-)
+@ROUTER.get("/{job_id}", response_model=Job, summary="Follow a job", responses=problems(404) | UNCHANGED)
 async def read_job(context: ContextOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read a job and its progress; with the last ETag as If-None-Match, only changes are sent."""
     job = await context.feed.job((context.caller.tenant, job_id))

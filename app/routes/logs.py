@@ -89,11 +89,7 @@ async def create_log(
 
 
 @ROUTER.get("", response_model=LogList, summary="List logs", responses=problems(422))
-def list_logs(
-    context: ContextOf,
-    limit: Limit = 100,
-    cursor: CursorOf = None,
-) -> Response:
+def list_logs(context: ContextOf, limit: Limit = 100, cursor: CursorOf = None) -> Response:
     """List logs, newest first."""
     logs = context.store.logs.page(limit=limit, before=before(cursor))
     return JSONResponse({"logs": [log_document(log) for log in logs], "next": following(logs, limit)})
@@ -112,10 +108,7 @@ def read_log(context: ContextOf, log_id: str) -> Response:
     responses=problems(404, 422) | UNCHANGED,
 )
 async def read_traces(
-    context: ContextOf,
-    log_id: str,
-    selection: SelectionOf,
-    if_none_match: IfNoneMatch = None,
+    context: ContextOf, log_id: str, selection: SelectionOf, if_none_match: IfNoneMatch = None
 ) -> Response:
     """Read the channels of a log, min/max decimated; `from` and `to` select a range."""
     log = await anyio.to_thread.run_sync(context.catalogue.log, log_id)

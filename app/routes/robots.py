@@ -61,11 +61,7 @@ async def create_robot(
 
 
 @ROUTER.get("", response_model=RobotList, summary="List robots", responses=problems(422))
-def list_robots(
-    context: ContextOf,
-    limit: Limit = 100,
-    cursor: CursorOf = None,
-) -> Response:
+def list_robots(context: ContextOf, limit: Limit = 100, cursor: CursorOf = None) -> Response:
     """List robots: built-in ones first, then the newest."""
     robots = context.catalogue.robots(limit=limit, before=before(cursor))
     listed = {"robots": [robot_summary(robot) for robot in robots]}

@@ -125,8 +125,7 @@ class Unexplained(Open):
         Pattern | None, Field(description="the most significant pattern; null if there is none")
     ]
     predictable_residual_fraction: Annotated[
-        PerJoint,
-        Field(description="R2, upper bound; null if the joint moves too little"),
+        PerJoint, Field(description="R2, upper bound; null if the joint moves too little")
     ]
     interval_95: list[Interval]
     at_rest_fraction: Annotated[
@@ -292,7 +291,6 @@ class Diagnosis(Open):
     spectra: list[Spectrum] = Field(default=[])
     search: Annotated[list[SearchStep], Field(description="steps in chronological order")] = Field(default=[])
     band_hz: Annotated[float | None, Field(description="upper frequency limit of the diagnosis")] = None
-    held_out: Annotated[
-        list[HeldOutSpan],
-        Field(description="spans held out from the search"),
-    ] = Field(default=[])
+    held_out: Annotated[list[HeldOutSpan], Field(description="spans held out from the search")] = Field(
+        default=[]
+    )

@@ -34,10 +34,7 @@ class JointDescription(Strict):
     type: Literal["revolute", "prismatic"]
     antecedent: Annotated[
         int | None,
-        Field(
-            ge=0,
-            description="the joint that carries this one, 0 for the base; default: the joint before",
-        ),
+        Field(ge=0, description="the joint that carries this one, 0 for the base; default: the joint before"),
     ] = None
     alpha: Annotated[
         float | None, Field(description="rad, about x, from the antecedent's z axis to this one")
@@ -143,8 +140,7 @@ class Robot(RobotSummary):
     """A robot. Robots are immutable: the same description has the same id."""
 
     suspicions: Annotated[
-        list[str],
-        Field(description="warnings about a valid description, such as degrees instead of radians"),
+        list[str], Field(description="warnings about a valid description, such as degrees instead of radians")
     ]
     description: RobotDescription
 

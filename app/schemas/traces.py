@@ -63,8 +63,7 @@ class ResultTraces(Open):
     joint: Annotated[int, Field(description="counted from 1")]
     extent: Annotated[Span, Field(description="first and last time stamp of the log, s")]
     rows_per_stretch: Annotated[
-        int,
-        Field(description="rows per decimation group (minimum and maximum); 1 without decimation"),
+        int, Field(description="rows per decimation group (minimum and maximum); 1 without decimation")
     ]
     time: Stamps
     traces: list[ResultTrace]

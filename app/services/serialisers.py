@@ -19,10 +19,7 @@ def robot_summary(robot: RobotRecord) -> Document:
 
 def robot_document(robot: RobotRecord) -> Document:
     """Write a robot in full."""
-    return robot_summary(robot) | {
-        "suspicions": list(robot.suspicions),
-        "description": robot.description,
-    }
+    return robot_summary(robot) | {"suspicions": list(robot.suspicions), "description": robot.description}
 
 
 def log_document(log: LogRecord) -> Document:

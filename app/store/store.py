@@ -87,8 +87,7 @@ class Store:
     def needed(self) -> set[str]:
         """List the hashes of all bytes that a record needs."""
         query = union_all(
-            select(LOGS.c.sha256),
-            *(select(column).where(column.is_not(None)) for column in BYTES_OF_JOBS),
+            select(LOGS.c.sha256), *(select(column).where(column.is_not(None)) for column in BYTES_OF_JOBS)
         )
         return self.database.read(lambda connection: set(connection.execute(query).scalars()))
 

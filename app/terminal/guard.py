@@ -87,10 +87,7 @@ def _other(error: Exception) -> Exit:
     if isinstance(error, OSError) and error.errno in NO_ROOM:
         complain(
             "no space left on the device",
-            {
-                "reason": error.strerror,
-                "where": error.filename or "standard output, or a temporary file",
-            },
+            {"reason": error.strerror, "where": error.filename or "standard output, or a temporary file"},
             "free space, or write elsewhere; TMPDIR sets the folder of temporary files",
         )
         return Exit.INPUT
@@ -99,9 +96,7 @@ def _other(error: Exception) -> Exit:
     ) as file:
         file.write("".join(traceback.format_exception(error)))
     complain(
-        "internal error",
-        {"what": f"{type(error).__name__}: {error}"},
-        f"report it with {Path(file.name)}",
+        "internal error", {"what": f"{type(error).__name__}: {error}"}, f"report it with {Path(file.name)}"
     )
     return Exit.MISTAKE
 

@@ -38,8 +38,7 @@ UrlOption = Annotated[
     str, typer.Option(envvar="VERITORQUE_URL", help="Address of the service that computes.")
 ]
 KeyOption = Annotated[
-    str,
-    typer.Option(envvar="VERITORQUE_KEY", help="Key of the service; safer in the environment variable."),
+    str, typer.Option(envvar="VERITORQUE_KEY", help="Key of the service; safer in the environment variable.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print a JSON document only.")]
 

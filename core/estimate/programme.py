@@ -84,10 +84,7 @@ _MEANINGS = {
         "no robot satisfies the bounds on masses and mass centres",
         "widen the bounds or lower the margin, and check that masses are in kg and lengths in m",
     ),
-    "unbounded": (
-        "the optimum lies at infinity",
-        "use a pull towards a prior greater than zero",
-    ),
+    "unbounded": ("the optimum lies at infinity", "use a pull towards a prior greater than zero"),
     "inaccurate": (
         "the solver stopped before it reached its accuracy",
         "record a more exciting motion, give a prior, or raise the pull towards the prior",

@@ -97,10 +97,7 @@ def _carriers(document: UrdfDocument, moving: set[str]) -> dict[str, str]:
 
 
 def _bodies(
-    document: UrdfDocument,
-    links: dict[str, Element],
-    bodies: dict[str, np.ndarray],
-    carriers: dict[str, str],
+    document: UrdfDocument, links: dict[str, Element], bodies: dict[str, np.ndarray], carriers: dict[str, str]
 ) -> Iterable[Edit]:
     axes = {joint.child: joint.axis for joint in document.joints}
     for name, element in links.items():

@@ -31,9 +31,7 @@ class JointGain:
 
 
 def gains(
-    before: tuple[Observation, BaseParameters],
-    after: tuple[Observation, Vector],
-    held: tuple[int, ...],
+    before: tuple[Observation, BaseParameters], after: tuple[Observation, Vector], held: tuple[int, ...]
 ) -> tuple[JointGain, ...]:
     """Compare two identified models, the second with parameters of its own, on their held-out blocks."""
     old, rows = _squares(*before, held)

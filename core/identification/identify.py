@@ -60,11 +60,7 @@ def fit(
 
 
 def judge(
-    logs: tuple[JointLog, ...],
-    options: IdentifyOptions,
-    found: Fit,
-    tell: Progress,
-    mapper: Mapper = SERIAL,
+    logs: tuple[JointLog, ...], options: IdentifyOptions, found: Fit, tell: Progress, mapper: Mapper = SERIAL
 ) -> Identification:
     """Judge a fit: how well every parameter is known, and how well held-out blocks are predicted."""
     problem, observation, answer = found.problem, found.observation, found.estimate

@@ -162,9 +162,7 @@ def _refuse_unknown(channels: Collection[str]) -> None:
     unknown = sorted(set(channels) - set(known))
     if unknown:
         raise LogError(
-            f"there is no channel {unknown[0]!r}",
-            evidence={"known": known},
-            remedy="name a known channel",
+            f"there is no channel {unknown[0]!r}", evidence={"known": known}, remedy="name a known channel"
         )
 
 

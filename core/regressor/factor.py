@@ -74,9 +74,7 @@ class Factor:
         if not other.rows or not self.rows:
             return self if self.rows else other
         return replace(
-            self,
-            triangle=_triangle(np.vstack([self.triangle, other.triangle])),
-            rows=self.rows + other.rows,
+            self, triangle=_triangle(np.vstack([self.triangle, other.triangle])), rows=self.rows + other.rows
         )
 
     def over(self, columns: Indices) -> "Factor":

@@ -11,14 +11,7 @@ from functools import reduce
 
 import numpy as np
 
-from ..arrays import (
-    BaseParameters,
-    BlockKey,
-    Indices,
-    JointSeries,
-    JointVector,
-    Samples,
-)
+from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Samples
 from ..errors import OptionError
 from ..signals.condition import Motion
 from ..signals.tile import Tile

@@ -70,11 +70,7 @@ def rotation_to(axis: Vector3) -> Rotation:
     # Both forms are equal; near -z only the second keeps its digits.
     scale = 1.0 / (1.0 + z) if z >= 0.0 else (1.0 - z) / across
     return np.array(
-        [
-            [1.0 - x * x * scale, -x * y * scale, x],
-            [-x * y * scale, 1.0 - y * y * scale, y],
-            [-x, -y, z],
-        ]
+        [[1.0 - x * x * scale, -x * y * scale, x], [-x * y * scale, 1.0 - y * y * scale, y], [-x, -y, z]]
     )
 
 

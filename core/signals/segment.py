@@ -90,11 +90,7 @@ class Segment:
         inner = slice(begin - early, end - early)
         now = self.begin_time + np.arange(begin, end) / self.rate_hz
         state = MotionState(
-            wide.position[inner],
-            wide.velocity[inner],
-            wide.acceleration[inner],
-            now,
-            self._temperature(now),
+            wide.position[inner], wide.velocity[inner], wide.acceleration[inner], now, self._temperature(now)
         )
         marks = (self._unusable(wide.velocity, early) | unknown[:, None])[inner]
         influence = self.parallel.influence(marks.T.astype(float), first - begin, last_kept - first_kept)

@@ -13,12 +13,7 @@ from numba import njit
 
 PART = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Only compiled functions call these, so that they need no way in from Python."""
-INLINE = {
-    **PART,
-    "forceinline": True,
-    "fastmath": {"contract", "nsz", "arcp"},
-    "error_model": "numpy",
-}
+INLINE = {**PART, "forceinline": True, "fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy"}
 """LLVM puts such functions into their callers. numba's own `inline` would translate them once per call."""
 
 

@@ -34,12 +34,7 @@ def bodies_of(robot: RobotModel, links: LinkTable) -> Bodies:
     for number in range(len(robot.links), 0, -1):
         if robot.links[number - 1].antecedent:
             masses[robot.links[number - 1].antecedent - 1] += masses[number - 1]
-    return (
-        *robot.link_arrays,
-        np.array(robot.gravity, dtype=float),
-        table,
-        masses,
-    )
+    return (*robot.link_arrays, np.array(robot.gravity, dtype=float), table, masses)
 
 
 def columns(series: JointSeries) -> np.ndarray:

@@ -178,11 +178,7 @@ def _errors(
     moved = rollout(mechanism, start, drive, longest_step=asked.longest_step)
     at = np.rint(np.array(asked.horizons) / group.step).astype(int)
     kept = position[0] + (at * group.step)[:, None, None] * velocity[0]
-    errors = (
-        moved.position[at] - position[at],
-        moved.velocity[at] - velocity[at],
-        kept - position[at],
-    )
+    errors = (moved.position[at] - position[at], moved.velocity[at] - velocity[at], kept - position[at])
     return tuple(one.transpose(2, 0, 1) for one in errors)
 
 

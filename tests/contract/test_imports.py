@@ -54,11 +54,7 @@ REFUSED = (
     ("chapters-in-order", "veritorque.core.robot.model", "veritorque.core.log.model"),
     ("chapters-in-order", "veritorque.core.dynamics.terms", "veritorque.core.regressor.kernel"),
     ("chapters-in-order", "veritorque.core.errors", "veritorque.core.arrays"),
-    (
-        "chapters-in-order",
-        "veritorque.core.helpers",
-        "veritorque.core.errors",
-    ),  # a folder without a place
+    ("chapters-in-order", "veritorque.core.helpers", "veritorque.core.errors"),  # a folder without a place
     ("solvers-in-estimate", "veritorque.core.regressor.kernel", "cvxpy"),
     ("solvers-in-estimate", "veritorque.app.main", "clarabel"),
     ("compiled-kernels", "veritorque.core.dynamics.terms", "numba"),

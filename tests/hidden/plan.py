@@ -46,12 +46,7 @@ class Order:
 
 
 def orders(
-    seed: int,
-    cases: int,
-    *,
-    strength: float | None = None,
-    cause: str | None = None,
-    kind: str | None = None,
+    seed: int, cases: int, *, strength: float | None = None, cause: str | None = None, kind: str | None = None
 ) -> list[Order]:
     """Lay out a run: causes, strengths, noises and kinds take turns, so that tables fill evenly.
 

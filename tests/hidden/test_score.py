@@ -21,11 +21,7 @@ STRIBECK = Truth(
     local=True,
 )
 DELAY = replace(
-    STRIBECK,
-    cause="time_delay",
-    joints=(1, 2, 3),
-    parameters=(Hidden("delay", 1, "s", 0.004),),
-    local=False,
+    STRIBECK, cause="time_delay", joints=(1, 2, 3), parameters=(Hidden("delay", 1, "s", 0.004),), local=False
 )
 
 

@@ -13,8 +13,7 @@ from veritorque.core.log.model import whole_rows
 
 @pytest.mark.parametrize("strength", [0.3, 3.0])
 @pytest.mark.parametrize(
-    "cause",
-    ["friction_stribeck", "time_delay", "joint_elasticity", "encoder_quantization", "cable_force"],
+    "cause", ["friction_stribeck", "time_delay", "joint_elasticity", "encoder_quantization", "cable_force"]
 )
 def test_a_case_has_the_strength_it_was_asked_for(cause, strength):
     case = draw(2, cause, strength, robot="planar-2", duration=8.0)

@@ -16,17 +16,7 @@ from ...kinds.registry import KINDS
 from ...problems import Problem
 from ...processes.fork_server import READERS, Child, NotNeeded, ProcessPool, fork_server
 from .. import compute
-from ..computation import (
-    Computation,
-    Died,
-    Failed,
-    Finished,
-    Outcome,
-    Rehearse,
-    Stopped,
-    Work,
-    Workspace,
-)
+from ..computation import Computation, Died, Failed, Finished, Outcome, Rehearse, Stopped, Work, Workspace
 from . import job_process
 from .limits import Limits
 

@@ -119,9 +119,7 @@ def _hash(path: Path) -> str:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError as error:
         raise LogError(
-            f"{path} cannot be read",
-            evidence={"reason": error.strerror},
-            remedy="name the file of a log",
+            f"{path} cannot be read", evidence={"reason": error.strerror}, remedy="name the file of a log"
         ) from error
 
 

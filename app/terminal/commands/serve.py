@@ -11,12 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...settings import PREFIX, Settings
-from ..environment import (
-    chosen_settings,
-    opened,
-    require_directory,
-    stop,
-)
+from ..environment import chosen_settings, opened, require_directory, stop
 from ..kernel_cache import COMPILING, keep_compiled_kernels
 from ..output.streams import say
 from ..threads import limit_threads

@@ -4,11 +4,7 @@ from typing import Annotated
 
 import typer
 
-from ..environment import (
-    chosen_settings,
-    opened,
-    require_directory,
-)
+from ..environment import chosen_settings, opened, require_directory
 from ..kernel_cache import keep_compiled_kernels
 from ..threads import limit_threads
 

@@ -41,11 +41,7 @@ class KinematicError(OwnJointCause, CorrectsRobot):
         """List the entries that are neither the joint's own stroke nor a shift of the whole robot."""
         del operating_point
         link = link_of(dataset.robot, site[0])
-        kept = {
-            "alpha": True,
-            "d": link.antecedent > 0,
-            "r": link.antecedent > 0 and link.kind == "revolute",
-        }
+        kept = {"alpha": True, "d": link.antecedent > 0, "r": link.antecedent > 0 and link.kind == "revolute"}
         return [{"entry": float(code)} for code, entry in enumerate(ENTRIES) if kept[entry]]
 
     def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:

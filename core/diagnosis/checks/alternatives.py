@@ -207,11 +207,7 @@ def _undecided(
     experiment = known.experiment if known else other.cause.experiment
     noise = f"; position noise may account for {like:.1f}" if like > SELECTION.undecided else ""
     return Alternative(
-        other.cause.id,
-        other.site,
-        statistic,
-        f"Delta BIC only {behind:.1f}{noise}: {why}",
-        experiment,
+        other.cause.id, other.site, statistic, f"Delta BIC only {behind:.1f}{noise}: {why}", experiment
     )
 
 

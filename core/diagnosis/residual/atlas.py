@@ -72,10 +72,7 @@ class Atlas:
 
 
 def atlas(
-    dataset: Dataset,
-    residual: JointSeries,
-    operating_point: Prediction,
-    noise: Sequence[ARNoise],
+    dataset: Dataset, residual: JointSeries, operating_point: Prediction, noise: Sequence[ARNoise]
 ) -> Atlas:
     """Show a residual over time, angle, speed, load, travel, temperature, the other joints and frequency.
 

@@ -69,10 +69,7 @@ class Predictable:
 
 
 def predictable_share(
-    dataset: Dataset,
-    residual: JointSeries,
-    operating_point: Prediction,
-    noise: Sequence[ARNoise],
+    dataset: Dataset, residual: JointSeries, operating_point: Prediction, noise: Sequence[ARNoise]
 ) -> tuple[Predictable, ...]:
     """Learn every joint's residual from the motion of all joints, and judge it on blocks not learned from.
 

@@ -44,11 +44,7 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
 
 
 def _ratio_on(
-    fitter: HypothesisFitter,
-    joints: tuple[JointRows, ...],
-    now: Hypothesis,
-    trial: Hypothesis,
-    share: float,
+    fitter: HypothesisFitter, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, share: float
 ) -> float:
     rows = [extended(joints, fitter.columns(one.members)) for one in (now, trial)]
     squares = np.zeros(2)

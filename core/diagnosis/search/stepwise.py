@@ -42,10 +42,7 @@ def confirm(
 
 
 def continue_search(
-    so_far: SearchState,
-    progress: Callable[[float], None] | None = None,
-    *,
-    known: Collection[Keys] = (),
+    so_far: SearchState, progress: Callable[[float], None] | None = None, *, known: Collection[Keys] = ()
 ) -> SearchState:
     """Search for more causes than those found so far, until no more enter.
 

@@ -21,17 +21,7 @@ from ...regressor.columns import ColumnPlan
 from ...regressor.observe import compare
 from ...robot.model import RobotModel
 from ...signals.tile import Tile
-from .layout import (
-    EXTENDED,
-    HELD_OUT,
-    LOG,
-    MEASURED,
-    PREDICTED,
-    TIME,
-    USED,
-    column,
-    unit,
-)
+from .layout import EXTENDED, HELD_OUT, LOG, MEASURED, PREDICTED, TIME, USED, column, unit
 
 TILES_TOGETHER = 32
 """Tiles of one group of rows: 16384 rows at most."""

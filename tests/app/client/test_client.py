@@ -26,10 +26,7 @@ def swing(tmp_path_factory):
 def busy(tmp_path):
     """A service whose jobs do not end by themselves; gives its executor and a client."""
     executor = StubExecutor()
-    with (
-        listening_service(tmp_path, executor) as (_, port),
-        Client(f"http://127.0.0.1:{port}") as client,
-    ):
+    with listening_service(tmp_path, executor) as (_, port), Client(f"http://127.0.0.1:{port}") as client:
         yield executor, client
 
 

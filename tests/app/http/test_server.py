@@ -247,8 +247,7 @@ def test_what_follows_a_body_is_no_part_of_its_head(port, log_bytes):
 
 
 @pytest.mark.parametrize(
-    ("start", "piece"),
-    [(b"0\r\n", b"a:b\r\n" * 10_000), (b"0\r\nX: ", b"x" * 65536), (b"1;", b"x" * 65536)],
+    ("start", "piece"), [(b"0\r\n", b"a:b\r\n" * 10_000), (b"0\r\nX: ", b"x" * 65536), (b"1;", b"x" * 65536)]
 )
 def test_what_goes_with_a_body_is_refused_before_it_fills_the_memory(patient_port, start, piece, monkeypatch):
     monkeypatch.setattr(connection, "CLOSING_BYTES", 1_000_000)

@@ -69,9 +69,7 @@ def test_a_column_of_measured_torque_is_seen():
 def test_rows_taken_for_independent_are_seen(law, monkeypatch):
     law()
     monkeypatch.setattr(
-        ARNoise,
-        "whitening",
-        lambda noise, place: csr_array(identity(len(place)) / noise.deviations[0]),
+        ARNoise, "whitening", lambda noise, place: csr_array(identity(len(place)) / noise.deviations[0])
     )
     with pytest.raises(AssertionError):
         law()

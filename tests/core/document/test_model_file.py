@@ -47,11 +47,7 @@ def test_a_standard_model_comes_back_equal(name):
     assert again.model.terms == found.model.terms
     assert again.model.parameters == found.model.parameters
     np.testing.assert_array_equal(again.standard, found.standard)
-    assert (again.identifiable, again.base, again.remarks) == (
-        found.identifiable,
-        found.base,
-        found.remarks,
-    )
+    assert (again.identifiable, again.base, again.remarks) == (found.identifiable, found.base, found.remarks)
     state = brisk(found.robot)
     np.testing.assert_array_equal(
         again.model.torque(again.standard, state), found.model.torque(found.standard, state)

@@ -140,10 +140,7 @@ def extension():
     model = DynamicModel(robot, (*standard.terms, *added))
     whole = np.concatenate([numbers, *added.values()])
     extended = IdentifiedRobot(model, whole, ("in_combination",) * len(whole))
-    mended = replace(
-        EncoderOffsetCause().corrected_robot(robot, (2,), {"offset": ERROR}),
-        couplings=(MOTOR,),
-    )
+    mended = replace(EncoderOffsetCause().corrected_robot(robot, (2,), {"offset": ERROR}), couplings=(MOTOR,))
     diagnosis = {
         "after": {"model": model_document(extended)},
         "repaired_robot": to_description(mended),

@@ -34,10 +34,7 @@ BAD = {
     ),
     "another document": ('<sdf version="1.7"/>', "its root element is not robot"),
     "a robot without a name": ("<robot/>", "the document: the element robot has no name"),
-    "a xacro": (
-        '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arm/></robot>',
-        "is a xacro",
-    ),
+    "a xacro": ('<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arm/></robot>', "is a xacro"),
     "a xacro without its namespace": ('<robot name="r"><xacro:arm/></robot>', "is a xacro"),
     "an unexpanded value": (robot(PAIR + HINGE.replace("0.0 0.0 0.0", "0 0 ${height}", 1)), "is a xacro"),
     "no links": (robot(""), "has no link"),

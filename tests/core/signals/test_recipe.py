@@ -103,8 +103,7 @@ def test_a_log_too_slow_for_its_motion_still_gets_filters_below_half_its_rate():
 
 
 @pytest.mark.parametrize(
-    "options",
-    [{"cutoff_hz": 250.0}, {"position_cutoff_hz": 300.0}, {"cutoff_hz": float("nan")}],
+    "options", [{"cutoff_hz": 250.0}, {"position_cutoff_hz": 300.0}, {"cutoff_hz": float("nan")}]
 )
 def test_a_cut_off_that_does_not_fit_the_rate_is_refused_with_the_rate(options):
     with pytest.raises(OptionError) as refusal:

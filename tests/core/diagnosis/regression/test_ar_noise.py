@@ -4,15 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from tests.core.diagnosis.processes import (
-    SLOW,
-    WAVY,
-    WHITE,
-    dense_covariance,
-    drawn,
-    exact_noise,
-    ljung_box,
-)
+from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, dense_covariance, drawn, exact_noise, ljung_box
 from veritorque.core.diagnosis.regression.ar_noise import ARNoise, fit_ar_noise, places
 from veritorque.core.diagnosis.thresholds.regression import NOISE
 

@@ -27,11 +27,7 @@ LIKE_LUCK, CLEAR = 0.06, 0.08
 
 @pytest.mark.parametrize(
     ("always", "once", "far_less", "expected"),
-    [
-        (WEAK, LIKE_LUCK, False, False),
-        (STRONG, LIKE_LUCK, True, True),
-        (STRONG, CLEAR, True, False),
-    ],
+    [(WEAK, LIKE_LUCK, False, False), (STRONG, LIKE_LUCK, True, True), (STRONG, CLEAR, True, False)],
 )
 def test_a_push_is_told_from_what_a_strong_cause_leaves(always, once, far_less, expected):
     effect = on_joint(lambda state: always * waves(state) + once * push(state))

@@ -84,10 +84,7 @@ def test_the_columns_of_an_encoder_do_not_depend_on_where_the_log_begins():
     believed, _ = believed_chain(1)
     state = motion_of(1, 8)
     later = replace(
-        state,
-        position=state.position[4:],
-        velocity=state.velocity[4:],
-        acceleration=state.acceleration[4:],
+        state, position=state.position[4:], velocity=state.velocity[4:], acceleration=state.acceleration[4:]
     )
     robot = believed.model.robot
     term = EncoderEccentricity(2, believed)

@@ -361,9 +361,7 @@ def test_the_parameters_of_a_diagnosis_are_those_of_the_extended_model():
 
 
 def test_no_text_of_a_user_becomes_markup():
-    document = diagnosed(
-        findings=[finding(title=EVIL, statement=EVIL, refuted=[rival(EVIL, EVIL, EVIL)])],
-    )
+    document = diagnosed(findings=[finding(title=EVIL, statement=EVIL, refuted=[rival(EVIL, EVIL, EVIL)])])
     document["robot"] = {"name": EVIL, "joints": []}
     document["logs"] = [{"name": EVIL}]
     document["doubts"] = [EVIL]
