@@ -64,6 +64,14 @@ class IdentifyRequest:
     mapper: Mapper = SERIAL
 
 
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """Hold a request with its options read."""
+
+    asked: IdentifyRequest
+    options: IdentifyOptions
+
+
 def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
     """Identify a robot and give the result document.
 
@@ -77,17 +85,20 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
     VeritorqueError
         Whatever stands in the way, with cause, evidence and remedy.
     """
-    found = identify_in_full(request, progress)
-    write_traces(request.traces, found)
-    return identification_document(found, version=_version(), options=parse_options(request.options).given)
+    task = _Task(request, parse_options(request.options))
+    found = _identify(task, progress or _say_nothing)
+    write_traces(task.asked.traces, found)
+    return identification_document(found, version=_version(), options=task.options.given)
 
 
 def identify_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Identification:
     """Identify a robot and give every chapter's result."""
-    tell = progress or _say_nothing
-    options = parse_options(request.options)
-    problem = _prepared(request, options, tell)
-    return judge(request.logs, options, fit(problem, options, tell), tell, request.mapper)
+    return _identify(_Task(request, parse_options(request.options)), progress or _say_nothing)
+
+
+def _identify(task: _Task, tell: Progress) -> Identification:
+    problem = _prepared(task, tell)
+    return judge(task.asked.logs, task.options, fit(problem, task.options, tell), tell, task.asked.mapper)
 
 
 def check_reference(request: IdentifyRequest) -> None:
@@ -100,26 +111,26 @@ def check_reference(request: IdentifyRequest) -> None:
     RobotError
         If the robot's own bodies are to be compared with and it brings none.
     """
-    options = parse_diagnose_options(request.options)
-    _earlier(request, options)
-    if options.reference == PRIOR:
-        reference_from_prior(base_model(standard_model(request.robot, options.terms)))
+    task = _Task(request, parse_diagnose_options(request.options))
+    _earlier(task)
+    if task.options.reference == PRIOR:
+        reference_from_prior(base_model(standard_model(task.asked.robot, task.options.terms)))
 
 
-def _earlier(request: IdentifyRequest, options: IdentifyOptions) -> Reference | None:
+def _earlier(task: _Task) -> Reference | None:
     """Read the earlier result that logs are compared with; None where they are compared with none."""
-    name = options.reference
+    options, name = task.options, task.options.reference
     if name is None or name == PRIOR:
         return None
     decided = [option for option in ("terms", "smooth_coulomb") if options.given.get(option)]
-    if decided or request.reference is None:
+    if decided or task.asked.reference is None:
         cause, remedy = (
             (f"the reference {name} decides the model's {' and '.join(decided)}", "leave these options out")
             if decided
             else (f"the result of the reference {name} is not at hand", "name a finished job")
         )
         raise OptionError(cause, evidence={"reference": name, "given": decided}, remedy=remedy)
-    return reference_from_document(request.reference, request.robot, name)
+    return reference_from_document(task.asked.reference, task.asked.robot, name)
 
 
 def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict[str, object]:
@@ -130,24 +141,26 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     VeritorqueError
         Whatever stands in the way, with cause, evidence and remedy.
     """
-    found = diagnose_in_full(request, progress)
-    write_traces(request.traces, found.before, found)
-    options = parse_diagnose_options(request.options).given
-    return diagnosis_document(found, version=_version(), options=options)
+    task = _Task(request, parse_diagnose_options(request.options))
+    found = _diagnose(task, progress or _say_nothing)
+    write_traces(task.asked.traces, found.before, found)
+    return diagnosis_document(found, version=_version(), options=task.options.given)
 
 
 def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Extension:
     """Identify, diagnose, extend and identify again; give every chapter's result."""
-    tell = progress or _say_nothing
-    options = parse_diagnose_options(request.options)
-    reference = _earlier(request, options)
-    problem = _prepared(request, options, tell, reference)
+    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _say_nothing)
+
+
+def _diagnose(task: _Task, tell: Progress) -> Extension:
+    options, reference = task.options, _earlier(task)
+    problem = _prepared(task, tell, reference)
     if options.reference == PRIOR:
         reference = reference_from_prior(problem.base)
     first, last = _within(tell, 0.0, 0.3), _within(tell, 0.8, 0.15)
-    before = judge(request.logs, options, fit(problem, options, first), first, request.mapper)
+    before = judge(task.asked.logs, options, fit(problem, options, first), first, task.asked.mapper)
     question = DiagnosisProblem(
-        problem.plan, request.logs, problem.held_out, options.validation.blocks, reference
+        problem.plan, task.asked.logs, problem.held_out, options.validation.blocks, reference
     )
     found = find_causes(question, _within(tell, 0.3, 0.5))
     plain = problem if reference is None else replace(problem, prior=reference.prior)
@@ -158,7 +171,7 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
         return Extension(before, found, None, (), None, "nothing joined the model", as_it_is)
     try:
         extended = proof or fit(_extended(found, plain), options, last)
-        after = judge(request.logs, options, extended, last, request.mapper)
+        after = judge(task.asked.logs, options, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return Extension(before, found, None, (), None, note, as_it_is)
@@ -213,14 +226,15 @@ def _motion(
         return None, str(error)
 
 
-def _prepared(
-    request: IdentifyRequest, options: IdentifyOptions, tell: Progress, reference: Reference | None = None
-) -> Problem:
+def _prepared(task: _Task, tell: Progress, reference: Reference | None = None) -> Problem:
     """Condition the logs, set blocks aside, and group the model's parameters; a reference has its own."""
     tell("condition", 0.02)
-    model = standard_model(request.robot, options.terms) if reference is None else reference.base.model
-    admit(options, model, [known_log(log) for log in request.logs])
-    motions = condition_all(request.logs, request.robot, options.filter, blocks=options.validation.blocks)
+    options = task.options
+    model = standard_model(task.asked.robot, options.terms) if reference is None else reference.base.model
+    admit(options, model, [known_log(log) for log in task.asked.logs])
+    motions = condition_all(
+        task.asked.logs, task.asked.robot, options.filter, blocks=options.validation.blocks
+    )
     held_out = options.validation.chosen(len(motions))
     if reference is None and options.smooth_coulomb:
         model = with_smoothed_friction(
