@@ -224,6 +224,6 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     shown = re.search(r"```\n(\d+ causes of simulation error.*?)```", guide, re.DOTALL)
     assert all(is_printed(line, words) for line in shown.group(1).splitlines() if line[:1] != " ")
     report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
-    assert "gets two things wrong" in report
+    assert "Two causes of simulation error found" in report
     assert "torque ripple (joint 4)" in report
     assert "load-dependent friction (joint 2)" in report
