@@ -33,6 +33,12 @@ def drawn(cause: str, robot: str = "planar-3") -> Effect:
 
 def test_every_cause_of_the_enumeration_can_be_hidden():
     assert set(CLASSES) == set(PARAMETERS) | set(FOREIGN)
+    assert all(PARAMETERS.values())
+
+
+def test_every_position_in_the_drawing_order_belongs_to_one_effect():
+    """Cases are drawn by position: a new effect takes the next free one."""
+    assert [kind.draw_order for kind in EFFECTS.values()] == list(range(1, len(EFFECTS) + 1))
 
 
 @pytest.mark.parametrize("cause", EFFECTS)

@@ -22,6 +22,8 @@ class KinematicError(Effect):
     entry: str
     error: float
     cause = "kinematic_error"
+    draw_order = 24
+    parameters = ("error",)
     units: ClassVar = {"error": "rad or m"}
     sizes = ("error",)
 
@@ -60,6 +62,8 @@ class GravityMisalignment(Effect):
     tilt_x: float
     tilt_y: float
     cause = "gravity_misalignment"
+    draw_order = 25
+    parameters = ("tilt_x", "tilt_y")
     units: ClassVar = {"tilt_x": "rad", "tilt_y": "rad"}
     sizes = ("tilt_x", "tilt_y")
     largest = 0.4

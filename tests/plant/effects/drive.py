@@ -32,6 +32,8 @@ class TorqueGain(Effect):
 
     relative_error: float
     cause = "torque_gain"
+    draw_order = 13
+    parameters = ("relative_error",)
     units: ClassVar = {"relative_error": "1"}
     sizes = ("relative_error",)
     largest = 0.6
@@ -53,6 +55,8 @@ class TorqueGainNonlinear(Effect):
     cubic_coefficient: float
     peak: float
     cause = "torque_gain_nonlinear"
+    draw_order = 14
+    parameters = ("cubic_coefficient",)
     units: ClassVar = {"cubic_coefficient": "1/(N m)^2"}
     sizes = ("cubic_coefficient",)
 
@@ -82,6 +86,8 @@ class TorqueOffsetDrift(Effect):
     total_drift: float
     time_constant: float
     cause = "torque_offset_drift"
+    draw_order = 15
+    parameters = ("total_drift",)
     units: ClassVar = {"total_drift": "N m"}
     sizes = ("total_drift",)
 
@@ -112,6 +118,8 @@ class TorqueSaturation(Effect):
     limit: float
     peak: float
     cause = "torque_saturation"
+    draw_order = 16
+    parameters = ("limit",)
     units: ClassVar = {"limit": "N m"}
 
     @classmethod
@@ -144,6 +152,8 @@ class TorqueRipple(Effect):
     harmonic: float
     phase: float
     cause = "torque_ripple"
+    draw_order = 12
+    parameters = ("amplitude", "harmonic", "phase")
     units: ClassVar = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
     sizes = ("amplitude",)
 

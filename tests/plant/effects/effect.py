@@ -87,6 +87,10 @@ class Effect:
         The joints it belongs to, counted from 1.
     cause
         Its public name.
+    draw_order
+        Its position in the order in which causes are drawn, counted from 1; 0 if it is in no list.
+    parameters
+        Its numbers, as the public document names them.
     units
         Unit of every hidden number, by the field's name.
     sizes
@@ -103,6 +107,8 @@ class Effect:
 
     joints: tuple[int, ...]
     cause: ClassVar[str] = ""
+    draw_order: ClassVar[int] = 0
+    parameters: ClassVar[tuple[str, ...]] = ()
     units: ClassVar[Mapping[str, str]] = {}
     sizes: ClassVar[tuple[str, ...]] = ()
     largest: ClassVar[float] = np.inf

@@ -20,6 +20,8 @@ class EncoderOffset(Effect):
 
     offset: float
     cause = "encoder_offset"
+    draw_order = 21
+    parameters = ("offset",)
     units: ClassVar = {"offset": "rad"}
     sizes = ("offset",)
     largest = 0.3
@@ -43,6 +45,8 @@ class EncoderEccentricity(Effect):
     amplitude: float
     phase: float
     cause = "encoder_eccentricity"
+    draw_order = 22
+    parameters = ("amplitude", "phase")
     units: ClassVar = {"amplitude": "rad", "phase": "rad"}
     sizes = ("amplitude",)
     largest = 0.3
@@ -71,6 +75,8 @@ class EncoderQuantization(Effect):
 
     lsb: float
     cause = "encoder_quantization"
+    draw_order = 23
+    parameters = ("lsb",)
     units: ClassVar = {"lsb": "rad"}
     sizes = ("lsb",)
     largest = 0.05

@@ -31,6 +31,8 @@ class Stribeck(Effect):
     excess_torque: float
     stribeck_velocity: float
     cause = "friction_stribeck"
+    draw_order = 1
+    parameters = ("excess_torque", "stribeck_velocity")
     units: ClassVar = {"excess_torque": "N m", "stribeck_velocity": "rad/s"}
     sizes = ("excess_torque",)
 
@@ -54,6 +56,8 @@ class ViscousNonlinear(Effect):
     coefficient: float
     exponent: float
     cause = "friction_viscous_nonlinear"
+    draw_order = 2
+    parameters = ("coefficient", "exponent")
     units: ClassVar = {"coefficient": "N m (s/rad)^p", "exponent": "1"}
     sizes = ("coefficient",)
 
@@ -80,6 +84,8 @@ class Asymmetric(Effect):
     delta_viscous: float
     mean_viscous: float
     cause = "friction_asymmetric"
+    draw_order = 3
+    parameters = ("delta_viscous",)
     units: ClassVar = {"delta_viscous": "N m s/rad"}
     sizes = ("delta_viscous",)
 
@@ -105,6 +111,8 @@ class LoadDependent(Effect):
 
     load_coefficient: float
     cause = "friction_load_dependent"
+    draw_order = 4
+    parameters = ("load_coefficient",)
     units: ClassVar = {"load_coefficient": "1"}
     sizes = ("load_coefficient",)
     largest = 0.5
@@ -134,6 +142,8 @@ class Temperature(Effect):
     logged: bool
     level: float
     cause = "friction_temperature"
+    draw_order = 5
+    parameters = ("coulomb_slope", "viscous_slope", "time_constant")
     units: ClassVar = {"coulomb_slope": "N m", "viscous_slope": "N m s/rad", "time_constant": "s"}
     sizes = ("coulomb_slope", "viscous_slope")
     rise = 15.0
@@ -188,6 +198,8 @@ class PositionDependent(Effect):
     phase: float
     level: float
     cause = "friction_position_dependent"
+    draw_order = 6
+    parameters = ("amplitude", "harmonic", "phase")
     units: ClassVar = {"amplitude": "N m", "harmonic": "1", "phase": "rad"}
     sizes = ("amplitude",)
 
@@ -217,6 +229,8 @@ class Presliding(Effect):
 
     presliding_distance: float
     cause = "friction_presliding"
+    draw_order = 7
+    parameters = ("presliding_distance",)
     units: ClassVar = {"presliding_distance": "rad"}
     sizes = ("presliding_distance",)
     largest = 0.3

@@ -1,4 +1,8 @@
-"""List what can be hidden by its public name, so that a case is drawn by a word."""
+"""List what can be hidden by its public name, so that a case is drawn by a word.
+
+An effect is listed by its class, wherever in this folder that stands. A case is drawn by the position of its
+cause in `EFFECTS`, so that a new effect takes the next free `draw_order` and leaves those before it in place.
+"""
 
 from collections.abc import Iterator
 from importlib import import_module
@@ -7,39 +11,6 @@ from pkgutil import iter_modules
 
 from tests.plant import effects
 from tests.plant.effects.effect import Effect
-
-PARAMETERS: dict[str, set[str]] = {
-    "friction_stribeck": {"excess_torque", "stribeck_velocity"},
-    "friction_viscous_nonlinear": {"coefficient", "exponent"},
-    "friction_asymmetric": {"delta_viscous"},
-    "friction_load_dependent": {"load_coefficient"},
-    "friction_temperature": {"coulomb_slope", "viscous_slope", "time_constant"},
-    "friction_position_dependent": {"amplitude", "harmonic", "phase"},
-    "friction_presliding": {"presliding_distance"},
-    "joint_elasticity": {"stiffness", "damping"},
-    "backlash": {"half_width"},
-    "joint_coupling": {"Fvm", "Fcm", "Iam"},
-    "rotor_inertia_missing": {"IA"},
-    "torque_ripple": {"amplitude", "harmonic", "phase"},
-    "torque_gain": {"relative_error"},
-    "torque_gain_nonlinear": {"cubic_coefficient"},
-    "torque_offset_drift": {"total_drift"},
-    "torque_saturation": {"limit"},
-    "time_delay": {"delay"},
-    "torque_filter_lag": {"time_constant"},
-    "timestamp_jitter": {"std"},
-    "dropped_samples": {"fraction"},
-    "encoder_offset": {"offset"},
-    "encoder_eccentricity": {"amplitude", "phase"},
-    "encoder_quantization": {"lsb"},
-    "kinematic_error": {"error"},
-    "gravity_misalignment": {"tilt_x", "tilt_y"},
-    "payload_change": {"mass", "com_x", "com_y", "com_z", "time"},
-    "spring_compensator": {"stiffness"},
-    "cable_force": {"stiffness", "engage_angle"},
-    "external_contact": {"force"},
-}
-"""The enumeration of causes and of their parameters, as the public document names them, in drawing order."""
 
 
 def _classes() -> Iterator[type[Effect]]:
@@ -55,8 +26,13 @@ def _classes() -> Iterator[type[Effect]]:
 CLASSES: dict[str, type[Effect]] = {kind.cause: kind for kind in _classes()}
 """Every effect by its name."""
 
-EFFECTS: dict[str, type[Effect]] = {cause: CLASSES[cause] for cause in PARAMETERS}
-"""Every cause that has a name."""
+EFFECTS: dict[str, type[Effect]] = {
+    kind.cause: kind for kind in sorted(CLASSES.values(), key=lambda kind: kind.draw_order) if kind.draw_order
+}
+"""The public enumeration of causes that can be hidden, in drawing order."""
+
+PARAMETERS: dict[str, set[str]] = {cause: set(kind.parameters) for cause, kind in EFFECTS.items()}
+"""The parameters of these causes, as the public document names them."""
 
 FOREIGN: dict[str, type[Effect]] = {
     cause: kind for cause, kind in CLASSES.items() if cause.startswith("foreign_")

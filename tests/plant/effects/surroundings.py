@@ -26,6 +26,8 @@ class PayloadChange(Effect):
     com_z: float
     time: float
     cause = "payload_change"
+    draw_order = 26
+    parameters = ("mass", "com_x", "com_y", "com_z", "time")
     units: ClassVar = {"mass": "kg", "com_x": "m", "com_y": "m", "com_z": "m", "time": "s"}
     sizes = ("mass",)
     local = False
@@ -52,6 +54,8 @@ class SpringCompensator(Effect):
     stiffness: float
     rest_angle: float
     cause = "spring_compensator"
+    draw_order = 27
+    parameters = ("stiffness",)
     units: ClassVar = {"stiffness": "N m/rad"}
     sizes = ("stiffness",)
 
@@ -76,6 +80,8 @@ class CableForce(Effect):
     stiffness: float
     engage_angle: float
     cause = "cable_force"
+    draw_order = 28
+    parameters = ("stiffness", "engage_angle")
     units: ClassVar = {"stiffness": "N m/rad", "engage_angle": "rad"}
     sizes = ("stiffness",)
 
@@ -103,6 +109,8 @@ class ExternalContact(Effect):
     direction: tuple[float, float, float]
     intervals: tuple[tuple[float, float], ...]
     cause = "external_contact"
+    draw_order = 29
+    parameters = ("force",)
     units: ClassVar = {"force": "N"}
     sizes = ("force",)
     local = False

@@ -23,6 +23,8 @@ class TimeDelay(Effect):
 
     delay: float
     cause = "time_delay"
+    draw_order = 17
+    parameters = ("delay",)
     units: ClassVar = {"delay": "s"}
     sizes = ("delay",)
     largest = 0.03
@@ -48,6 +50,8 @@ class TorqueFilterLag(Effect):
 
     time_constant: float
     cause = "torque_filter_lag"
+    draw_order = 18
+    parameters = ("time_constant",)
     units: ClassVar = {"time_constant": "s"}
     sizes = ("time_constant",)
     largest = 0.05
@@ -75,6 +79,8 @@ class TimestampJitter(Effect):
 
     std: float
     cause = "timestamp_jitter"
+    draw_order = 19
+    parameters = ("std",)
     units: ClassVar = {"std": "s"}
     sizes = ("std",)
     largest = 0.002
@@ -104,6 +110,8 @@ class DroppedSamples(Effect):
 
     fraction: float
     cause = "dropped_samples"
+    draw_order = 20
+    parameters = ("fraction",)
     units: ClassVar = {"fraction": "1"}
     sizes = ("fraction",)
     largest = 0.4

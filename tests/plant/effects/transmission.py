@@ -19,6 +19,8 @@ class JointElasticity(Effect):
     stiffness: float
     damping: float
     cause = "joint_elasticity"
+    draw_order = 8
+    parameters = ("stiffness", "damping")
     units: ClassVar = {"stiffness": "N m/rad", "damping": "N m s/rad"}
     splits = True
 
@@ -51,6 +53,8 @@ class Backlash(Effect):
     contact: float
     damping: float
     cause = "backlash"
+    draw_order = 9
+    parameters = ("half_width",)
     units: ClassVar = {"half_width": "rad"}
     sizes = ("half_width",)
     largest = 0.02
@@ -90,6 +94,8 @@ class JointCoupling(Effect):
     Fcm: float
     Iam: float
     cause = "joint_coupling"
+    draw_order = 10
+    parameters = ("Fvm", "Fcm", "Iam")
     units: ClassVar = {"Fvm": "N m s/rad", "Fcm": "N m", "Iam": "kg m2"}
     sizes = ("Fvm", "Fcm", "Iam")
 
@@ -126,6 +132,8 @@ class RotorInertiaMissing(Effect):
 
     IA: float
     cause = "rotor_inertia_missing"
+    draw_order = 11
+    parameters = ("IA",)
     units: ClassVar = {"IA": "kg m2"}
     sizes = ("IA",)
 
