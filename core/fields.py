@@ -46,15 +46,6 @@ class Fields:
     meanings
         Every field that may stand here, with what it must hold.
 
-    Attributes
-    ----------
-    error
-        Class of the refusals.
-    largest, longest
-        Largest magnitude of a number, greatest length of a text.
-    holds
-        Name of a refused value in the evidence.
-
     Raises
     ------
     VeritorqueError
@@ -62,9 +53,12 @@ class Fields:
     """
 
     error: ClassVar[type[VeritorqueError]] = VeritorqueError
+    """Class of the refusals."""
     largest: ClassVar[float] = LARGEST_NUMBER
     longest: ClassVar[int] = LONGEST_NAME
+    """Largest magnitude of a number, greatest length of a text."""
     holds: ClassVar[str] = "given"
+    """Name of a refused value in the evidence."""
 
     def __init__(self, value: object, where: str, pointer: str, meanings: Mapping[str, str]) -> None:
         self.where, self.pointer, self.meanings = where, pointer, meanings

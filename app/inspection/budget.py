@@ -11,21 +11,14 @@ MEGABYTE = 1024**2
 
 @dataclass(frozen=True)
 class Budget:
-    """Bound what one process may use.
-
-    Attributes
-    ----------
-    processor_s
-        Processor time, s, which does not depend on what else the machine does.
-    wall_s
-        Time by the clock, s; it is there for processes that wait forever.
-    memory_bytes
-        Memory beyond what the loaded libraries take.
-    """
+    """Bound what one process may use."""
 
     processor_s: float
+    """Processor time, s, which does not depend on what else the machine does."""
     wall_s: float
+    """Time by the clock, s; it is there for processes that wait forever."""
     memory_bytes: int
+    """Memory beyond what the loaded libraries take."""
 
 
 def budget_for(size: int) -> Budget:

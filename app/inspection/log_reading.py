@@ -18,44 +18,29 @@ MOST_NUMBERS = 600_000
 
 @dataclass(frozen=True)
 class LogFile:
-    """Name the file of a log and how to read it.
-
-    Attributes
-    ----------
-    path
-        The bytes as they were uploaded.
-    name
-        The log's name.
-    mapping
-        Which column is what; None for the default names.
-    sha256
-        Hash of the bytes.
-    """
+    """Name the file of a log and how to read it."""
 
     path: Path
+    """The bytes as they were uploaded."""
     name: str
+    """The log's name."""
     mapping: Document | None
+    """Which column is what; None for the default names."""
     sha256: str
+    """Hash of the bytes."""
 
 
 @dataclass(frozen=True)
 class ChannelSelection:
-    """Select what is shown of a log.
-
-    Attributes
-    ----------
-    channels
-        Their names.
-    points
-        The most points per trace.
-    begin, end
-        Interval of the log's clock, s; None for its own ends.
-    """
+    """Select what is shown of a log."""
 
     channels: tuple[str, ...]
+    """Their names."""
     points: int
+    """The most points per trace."""
     begin: float | None = None
     end: float | None = None
+    """Interval of the log's clock, s; None for its own ends."""
 
 
 def summarise_log(log: LogFile, *, media_type: str | None) -> Document:

@@ -10,40 +10,27 @@ from ..store.records import Document
 
 @dataclass(frozen=True)
 class LogBlob:
-    """Name the blob of a log, and how to read it.
-
-    Attributes
-    ----------
-    sha256
-        Digest of the bytes as they were uploaded.
-    name
-        The log's name.
-    mapping
-        Which column is what; None for the default names.
-    """
+    """Name the blob of a log, and how to read it."""
 
     sha256: str
+    """Digest of the bytes as they were uploaded."""
     name: str
+    """The log's name."""
     mapping: Document | None
+    """Which column is what; None for the default names."""
 
 
 @dataclass(frozen=True)
 class Computation:
-    """Describe a computation completely, by values and digests: equal computations give equal results.
-
-    Attributes
-    ----------
-    robot
-        The robot's description.
-    reference
-        Digest of the earlier result that the options name; None where they name none.
-    """
+    """Describe a computation completely, by values and digests: equal computations give equal results."""
 
     kind: str
     robot: Document
+    """The robot's description."""
     logs: tuple[LogBlob, ...]
     options: Document
     reference: str | None = None
+    """Digest of the earlier result that the options name; None where they name none."""
 
     @property
     def digests(self) -> tuple[str, ...]:
@@ -54,18 +41,12 @@ class Computation:
 
 @dataclass(frozen=True)
 class Workspace:
-    """Name the local files of one run of a computation.
-
-    Attributes
-    ----------
-    files
-        The blobs that it reads, by digest.
-    traces
-        File to write the torques and residuals of every sample to; None where they are not kept.
-    """
+    """Name the local files of one run of a computation."""
 
     files: Mapping[str, Path] = field(default_factory=dict)
+    """The blobs that it reads, by digest."""
     traces: Path | None = None
+    """File to write the torques and residuals of every sample to; None where they are not kept."""
 
 
 Work = Callable[[Computation, Workspace, Progress], Document]
@@ -103,21 +84,13 @@ Outcome = Finished | Failed | Died | Stopped
 
 @dataclass(frozen=True)
 class Ended:
-    """Describe how a computation ended, for metrics and the service's log.
-
-    Attributes
-    ----------
-    kind
-        What was computed.
-    outcome
-        ``successful``, ``failed``, ``died`` or ``stopped``.
-    seconds
-        How long it took.
-    problem
-        Kind of the problem, where there is one.
-    """
+    """Describe how a computation ended, for metrics and the service's log."""
 
     kind: str
+    """What was computed."""
     outcome: str
+    """``successful``, ``failed``, ``died`` or ``stopped``."""
     seconds: float
+    """How long it took."""
     problem: str | None = None
+    """Kind of the problem, where there is one."""

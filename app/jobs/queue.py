@@ -23,22 +23,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Submission:
-    """Ask for a job of a robot and logs by their ids.
-
-    Attributes
-    ----------
-    key
-        The client's Idempotency-Key, which makes a repeated request the same job.
-    trace
-        Id of the trace that the request belongs to.
-    """
+    """Ask for a job of a robot and logs by their ids."""
 
     kind: str
     robot: str
     logs: tuple[str, ...]
     options: Document
     key: str | None = None
+    """The client's Idempotency-Key, which makes a repeated request the same job."""
     trace: str | None = None
+    """Id of the trace that the request belongs to."""
 
 
 class Queue:

@@ -42,24 +42,16 @@ OUTCOMES = {Finished: "successful", Failed: "failed", Died: "died", Stopped: "st
 
 @dataclass(frozen=True)
 class Capacity:
-    """Bound what a worker takes on.
-
-    Attributes
-    ----------
-    slots
-        Jobs at the same time.
-    most_per_tenant
-        Of these, jobs of one tenant.
-    timeout_s
-        Longest a job may compute, s.
-    retention_days
-        How long finished jobs and the like are kept; see `app.lifecycle.retention`.
-    """
+    """Bound what a worker takes on."""
 
     slots: int
+    """Jobs at the same time."""
     most_per_tenant: int
+    """Of these, jobs of one tenant."""
     timeout_s: float
+    """Longest a job may compute, s."""
     retention_days: Mapping[Kept, float]
+    """How long finished jobs and the like are kept; see `app.lifecycle.retention`."""
 
 
 class Worker:

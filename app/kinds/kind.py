@@ -32,123 +32,80 @@ Options = TypeVar("Options")
 
 @dataclass(frozen=True)
 class Alarm:
-    """Let a command end with exit code 1 where its result calls for it.
-
-    Attributes
-    ----------
-    name
-        Of the flag that asks for it, as a Python name.
-    help
-        What the terminal says of it.
-    is_raised
-        Decides by the result document.
-    """
+    """Let a command end with exit code 1 where its result calls for it."""
 
     name: str
+    """Name of the flag that asks for it, as a Python name."""
     help: str
+    """What the terminal says of it."""
     is_raised: Callable[[Mapping[str, Any]], bool]
+    """Decides by the result document."""
 
 
 @dataclass(frozen=True)
 class Words:
-    """Hold what the contract and the terminal say of a kind.
-
-    Attributes
-    ----------
-    help
-        One sentence, for the command.
-    commands
-        Example command lines.
-    summary
-        Title of the example request.
-    request
-        The example request.
-    flags
-        Options of the computation that have a flag of their own, with its help.
-    alarm
-        When the command ends with exit code 1 although it has a result.
-    """
+    """Hold what the contract and the terminal say of a kind."""
 
     help: str
+    """One sentence, for the command."""
     commands: tuple[str, ...]
+    """Example command lines."""
     summary: str
+    """Title of the example request."""
     request: Document
+    """The example request."""
     flags: Mapping[str, str] = field(default_factory=dict)
+    """Options of the computation that have a flag of their own, with its help."""
     alarm: Alarm | None = None
+    """When the command ends with exit code 1 although it has a result."""
 
 
 @dataclass(frozen=True)
 class PlannedJob:
-    """Hold what is known of a job before anything is computed.
-
-    Attributes
-    ----------
-    robot
-        The robot's description.
-    logs
-        Summaries of the logs.
-    options
-        As they were sent.
-    model
-        Gives the robot's dynamic model with the named torque terms; None for the standard ones.
-    earlier_result
-        Gives the result document of an earlier job by its id, or refuses.
-    """
+    """Hold what is known of a job before anything is computed."""
 
     robot: Document
+    """The robot's description."""
     logs: tuple[Document, ...]
+    """Summaries of the logs."""
     options: Document
+    """As they were sent."""
     model: Callable[[tuple[str, ...] | None], "DynamicModel"]
+    """Gives the robot's dynamic model with the named torque terms; None for the standard ones."""
     earlier_result: Callable[[str], Document]
+    """Gives the result document of an earlier job by its id, or refuses."""
 
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """Hold what a computation takes.
-
-    Attributes
-    ----------
-    reference
-        Result document of the earlier job that the options name.
-    traces
-        File to write the torques and residuals of every sample to; None where they are not wanted.
-    """
+    """Hold what a computation takes."""
 
     robot: "RobotModel"
     logs: "tuple[JointLog, ...]"
     options: Document
     reference: Document | None = None
+    """Result document of the earlier job that the options name."""
     traces: Path | None = None
+    """File to write the torques and residuals of every sample to; None where they are not wanted."""
 
 
 class JobKind(ABC, Generic[Options]):
-    """Describe one kind of job; the methods with a body here are defaults.
-
-    Attributes
-    ----------
-    name
-        Its name in requests, results and commands.
-    takes_logs
-        Whether it is computed from logs, or from the robot alone.
-    result
-        Model of its result document.
-    words
-        What the contract and the terminal say of it.
-    preload
-        Modules to load before the first computation.
-    artifacts
-        The files that its result is also offered as.
-    has_report
-        Whether `report` writes one.
-    """
+    """Describe one kind of job; the methods with a body here are defaults."""
 
     name: ClassVar[str]
+    """Its name in requests, results and commands."""
     takes_logs: ClassVar[bool] = True
+    """Whether it is computed from logs, or from the robot alone."""
     result: ClassVar[type[BaseModel]]
+    """Model of its result document."""
     words: ClassVar[Words]
+    """What the contract and the terminal say of it."""
     preload: ClassVar[tuple[str, ...]] = ()
+    """Modules to load before the first computation."""
     artifacts: ClassVar[Mapping[str, Format]] = {}
+    """The files that its result is also offered as."""
     has_report: ClassVar[bool] = False
+    """Whether `report` writes one."""
 
     @abstractmethod
     def read_options(self, options: Document) -> Options:

@@ -23,24 +23,16 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class Finding:
-    """Say what was looked at and seen.
-
-    Attributes
-    ----------
-    subject
-        What was looked at.
-    seen
-        What is the case.
-    remedy
-        What to do; empty where all is well.
-    harm
-        Whether something is lost, wrong or will stop; otherwise a remedy is advice.
-    """
+    """Say what was looked at and seen."""
 
     subject: str
+    """What was looked at."""
     seen: str
+    """What is the case."""
     remedy: str = ""
+    """What to do; empty where all is well."""
     harm: bool = False
+    """Whether something is lost, wrong or will stop; otherwise a remedy is advice."""
 
 
 def examine(settings: Settings) -> Iterator[Finding]:

@@ -50,19 +50,13 @@ NEW = insert(JOBS).returning(JOBS)
 
 @dataclass(frozen=True)
 class NewJob:
-    """Describe a job to be queued.
-
-    Attributes
-    ----------
-    key
-        The client's Idempotency-Key, which makes a repeated request the same job.
-    trace
-        Id of the trace that the request belongs to; a job keeps that of the first one.
-    """
+    """Describe a job to be queued."""
 
     request: JobRequestRecord
     key: str | None = None
+    """The client's Idempotency-Key, which makes a repeated request the same job."""
     trace: str | None = None
+    """Id of the trace that the request belongs to; a job keeps that of the first one."""
 
     @cached_property
     def document(self) -> bytes:

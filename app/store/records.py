@@ -66,29 +66,22 @@ class JobRequestRecord:
 
 @dataclass(frozen=True)
 class JobRecord:
-    """Keep a job: what was asked for, how far it is, and how it ended.
-
-    Attributes
-    ----------
-    trace
-        Id of the trace that the request belonged to.
-    token
-        How often it was taken; who took it earlier no longer has a say.
-    version
-        Grows with every change.
-    """
+    """Keep a job: what was asked for, how far it is, and how it ended."""
 
     tenant: str
     id: str
     sequence: int
     request: JobRequestRecord
     trace: str | None
+    """Id of the trace that the request belonged to."""
     state: State
     stage: str
     fraction: float
     attempts: int
     token: int
+    """How often it was taken; who took it earlier no longer has a say."""
     version: int
+    """Grows with every change."""
     problem: Document | None
     result_sha256: str | None
     traces_sha256: str | None

@@ -43,23 +43,16 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisProblem:
-    """Ask what is missing from a model, or what has changed since a reference.
-
-    Attributes
-    ----------
-    plan
-        The model and its base columns.
-    held_out, blocks
-        Blocks of every log that no fit may see, and how many blocks a log has.
-    reference
-        What the logs are compared with; None to identify the model from the logs first.
-    """
+    """Ask what is missing from a model, or what has changed since a reference."""
 
     plan: ColumnPlan
+    """The model and its base columns."""
     logs: tuple[JointLog, ...]
     held_out: frozenset[BlockKey]
     blocks: int
+    """Blocks of every log that no fit may see, and how many blocks a log has."""
     reference: Reference | None = None
+    """What the logs are compared with; None to identify the model from the logs first."""
 
     @property
     def model(self) -> DynamicModel:

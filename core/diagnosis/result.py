@@ -28,37 +28,21 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Alternative:
-    """Name another cause that was weighed for the same evidence.
-
-    Attributes
-    ----------
-    statistic
-        Rise of twice the log-likelihood that it brings in the finding's place.
-    why
-        Why the two are undecided, or why it was refuted.
-    separating_experiment
-        The motion that would separate the two; empty where it was refuted.
-    """
+    """Name another cause that was weighed for the same evidence."""
 
     cause: str
     joints: Site
     statistic: float
+    """Rise of twice the log-likelihood that it brings in the finding's place."""
     why: str
+    """Why the two are undecided, or why it was refuted."""
     separating_experiment: str
+    """The motion that would separate the two; empty where it was refuted."""
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Show one joint's residual over the coordinate that explains it, in bins.
-
-    Attributes
-    ----------
-    centre, before, after, model, standard_error
-        Per bin: coordinate, mean residual without and with the finding, what the finding says, and the
-        standard error of the means (N m or N).
-    direction
-        Per bin: 1 where only forward motion counts, -1 where only backward motion does, 0 where both do.
-    """
+    """Show one joint's residual over the coordinate that explains it, in bins."""
 
     coordinate: str
     unit: str
@@ -68,7 +52,10 @@ class Curve:
     after: Vector
     model: Vector
     standard_error: Vector
+    """Per bin: coordinate, mean residual without and with the finding, what the finding says, and the
+    standard error of the means (N m or N)."""
     direction: Vector
+    """Per bin: 1 where only forward motion counts, -1 where only backward motion does, 0 where both do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,55 +116,39 @@ class NotIdentifiable:
 
 @dataclass(frozen=True)
 class UnnamedPattern:
-    """Hold an unnamed pattern that the residual follows.
-
-    Attributes
-    ----------
-    joint
-        Where it acts, from 1.
-    statement
-        What it follows.
-    statistic, log10_p
-        Likelihood ratio statistic (of the kurtosis its squared deviations), and the logarithm of the p-value,
-        corrected for all patterns and joints.
-    """
+    """Hold an unnamed pattern that the residual follows."""
 
     joint: int
+    """Where it acts, from 1."""
     statement: str
+    """What it follows."""
     statistic: float
     log10_p: float
+    """Likelihood ratio statistic (of the kurtosis its squared deviations), and the logarithm of the p-value,
+    corrected for all patterns and joints."""
 
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Hold a diagnosis.
-
-    Attributes
-    ----------
-    unnamed_pattern
-        A pattern that what is left still follows; None where none is found.
-    none, chosen, steps
-        The hypotheses without and with the causes, and the decisions of the search.
-    operating_point
-        The model whose prediction the causes' columns were built on.
-    residual_before, residual_after
-        Per row of the look and joint, without and with the findings, N m or N.
-    at_rest
-        Per joint, the share of the residual's mean square that is friction while the joint rests or turns
-        round, and was taken out of it; not a number where it hardly moves.
-    """
+    """Hold a diagnosis."""
 
     verdict: Verdict
     findings: tuple[Finding, ...]
     not_identifiable: tuple[NotIdentifiable, ...]
     predictable: tuple[Predictable, ...]
     unnamed_pattern: UnnamedPattern | None
+    """A pattern that what is left still follows; None where none is found."""
     atlas: Atlas
     dataset: Dataset
     operating_point: Prediction
+    """The model whose prediction the causes' columns were built on."""
     none: Hypothesis
     chosen: Hypothesis
     steps: tuple[Step, ...]
+    """The hypotheses without and with the causes, and the decisions of the search."""
     residual_before: np.ndarray
     residual_after: np.ndarray
+    """Residuals per row of the data set and joint, without and with the findings, N m or N."""
     at_rest: JointVector
+    """Per joint, the share of the residual's mean square that is friction while the joint rests or turns
+    round, and was taken out of it; not a number where it hardly moves."""

@@ -38,25 +38,17 @@ class CoupledMotor:
 
 @dataclass(frozen=True, eq=False)
 class IdentifiedRobot:
-    """Hold a model with numbers.
-
-    Attributes
-    ----------
-    model, standard
-        The model and one value per parameter of it.
-    identifiable
-        Per parameter ``individually``, ``in_combination`` or ``no``.
-    base
-        What the motion told: the base parameters.
-    remarks
-        Sentences about how the numbers came about.
-    """
+    """Hold a model with numbers."""
 
     model: DynamicModel
     standard: Parameters
+    """The model and one value per parameter of it."""
     identifiable: tuple[str, ...]
+    """Per parameter ``individually``, ``in_combination`` or ``no``."""
     base: tuple[BaseValue, ...] = ()
+    """What the motion told: the base parameters."""
     remarks: tuple[str, ...] = ()
+    """Sentences about how the numbers came about."""
 
     @property
     def robot(self) -> RobotModel:

@@ -16,19 +16,13 @@ from .prediction import Prediction
 
 @dataclass(frozen=True)
 class Gear:
-    """Predict the torque through one joint's transmission.
-
-    Attributes
-    ----------
-    joint
-        Counted from 1.
-    motor_inertia
-        Rotor inertia that the operating point's load contains, kg m2 (kg).
-    """
+    """Predict the torque through one joint's transmission."""
 
     believed: Prediction
     joint: int
+    """Counted from 1."""
     motor_inertia: float = 0.0
+    """Rotor inertia that the operating point's load contains, kg m2 (kg)."""
 
     def load(self, state: MotionState, robot: RobotModel | None = None) -> Samples:
         """Give the transmitted torque, N m (N), on the operating point's robot or another one."""

@@ -37,22 +37,16 @@ class Prediction:
     """Predict torque from a model with fixed parameters.
 
     A series that several effects use is computed once per state; such series are read-only.
-
-    Attributes
-    ----------
-    standard
-        One value per parameter of the model.
-    newton_euler
-        Inverse dynamics of the links: the plain recursion unless a faster one is passed.
-    joined
-        Terms added to the model, with their parameters. Transmissions carry those that act on the links, a
-        torque channel scales and delays all of them.
     """
 
     model: DynamicModel
     standard: Parameters
+    """One value per parameter of the model."""
     newton_euler: InverseDynamics = inverse_dynamics
+    """Inverse dynamics of the links: the plain recursion unless a faster one is passed."""
     joined: tuple[tuple[Term, Weights], ...] = ()
+    """Terms added to the model, with their parameters. Transmissions carry those that act on the links, a
+    torque channel scales and delays all of them."""
     _loads: WeakKeyDictionary[MotionState, JointSeries] = field(
         default_factory=WeakKeyDictionary, init=False, repr=False
     )

@@ -17,21 +17,14 @@ Entry = tuple[int, int]
 
 @runtime_checkable
 class Term(Protocol):
-    """Define the columns of one torque effect.
-
-    Attributes
-    ----------
-    remembers
-        Whether the torque depends on the motion before the instant.
-    channel
-        Whether the torque is an error of the torque channel, which moves nothing.
-    loads
-        Whether it acts on the links, so that transmissions carry it.
-    """
+    """Define the columns of one torque effect."""
 
     remembers: ClassVar[bool]
+    """Whether the torque depends on the motion before the instant."""
     channel: ClassVar[bool]
+    """Whether the torque is an error of the torque channel, which moves nothing."""
     loads: ClassVar[bool]
+    """Whether it acts on the links, so that transmissions carry it."""
 
     @property
     def name(self) -> str:

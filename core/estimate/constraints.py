@@ -51,24 +51,16 @@ class CentreEllipsoid:
 
 @dataclass(frozen=True)
 class Bounds:
-    """Ask for a plausible robot.
-
-    Attributes
-    ----------
-    mass
-        Per link number, smallest and largest mass in kg.
-    total_mass
-        Smallest and largest mass of all links together, kg.
-    centres
-        Where mass centres may lie.
-    margin
-        Least eigenvalue of every scaled pseudo-inertia; keeps the mass matrix off singularity.
-    """
+    """Ask for a plausible robot."""
 
     mass: tuple[tuple[int, float, float], ...] = ()
+    """Per link number, smallest and largest mass in kg."""
     total_mass: tuple[float, float] | None = None
+    """Smallest and largest mass of all links together, kg."""
     centres: tuple[CentreBox | CentreEllipsoid, ...] = ()
+    """Where mass centres may lie."""
     margin: float = 1e-4
+    """Least eigenvalue of every scaled pseudo-inertia; keeps the mass matrix off singularity."""
 
     def __post_init__(self) -> None:
         """Refuse empty ranges."""
@@ -105,22 +97,15 @@ def _masses_by_link(rows: tuple[tuple[int, float, float], ...]) -> dict[int, tup
 
 @dataclass(frozen=True, eq=False)
 class Prior:
-    """Hold a prior of the standard parameters, towards which the programme pulls.
-
-    Attributes
-    ----------
-    centre
-        The expected standard parameters.
-    scale
-        What counts as one unit of deviation, per parameter.
-    source
-        Where it comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the
-        torques).
-    """
+    """Hold a prior of the standard parameters, towards which the programme pulls."""
 
     centre: Parameters
+    """The expected standard parameters."""
     scale: Vector
+    """What counts as one unit of deviation, per parameter."""
     source: str
+    """Where it comes from: ``robot`` (CAD, URDF) or ``nominal`` (a plain body in proportion to the
+    torques)."""
 
 
 def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:

@@ -19,27 +19,19 @@ from .with_clarabel import solve_with_clarabel
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Hold an estimate.
-
-    Attributes
-    ----------
-    base
-        Base parameters.
-    standard
-        A robot with these base parameters: of the many, the feasible one nearest the prior (`sdp`), or just
-        the nearest.
-    unconstrained
-        The optimum of the same equations without constraints.
-    solution
-        What the solver said; None where none was needed.
-    """
+    """Hold an estimate."""
 
     base: BaseParameters
+    """Base parameters."""
     standard: Parameters
+    """A robot with these base parameters: of the many, the feasible one nearest the prior (`sdp`), or just
+    the nearest."""
     unconstrained: BaseParameters
+    """The optimum of the same equations without constraints."""
     system: System
     prior: Prior
     solution: Solution | None
+    """What the solver said; None where none was needed."""
 
     @property
     def objective(self) -> float:

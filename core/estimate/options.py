@@ -21,25 +21,17 @@ the log; what the motion leaves open goes to the prior all the same.
 
 @dataclass(frozen=True)
 class EstimateOptions:
-    """Choose how to estimate.
-
-    Attributes
-    ----------
-    estimator
-        One of the registry's names.
-    solver
-        ``clarabel`` called directly, or ``cvxpy``.
-    robust
-        Weigh rows with Huber's function under the semidefinite programme too.
-    pull, entropy
-        Weights of the squared and of the entropic distance to the prior.
-    """
+    """Choose how to estimate."""
 
     estimator: str = "sdp"
+    """One of the registry's names."""
     solver: str = "clarabel"
+    """``clarabel`` called directly, or ``cvxpy``."""
     robust: bool = False
+    """Weigh rows with Huber's function under the semidefinite programme too."""
     pull: float = PULL
     entropy: float = 0.0
+    """Weights of the squared and of the entropic distance to the prior."""
     bounds: Bounds = field(default_factory=Bounds)
 
     @property

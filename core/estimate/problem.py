@@ -20,25 +20,17 @@ from .system import ordinary
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Hold a model to be fitted, the conditioned logs, and what is known otherwise.
-
-    Attributes
-    ----------
-    base
-        The model and its base parameters.
-    held_out
-        Blocks of the motions that no fit sees.
-    sizes
-        By name, what counts as one unit of deviation of parameters that the standard model has not.
-    prior
-        Normal prior of the base parameters; None for none.
-    """
+    """Hold a model to be fitted, the conditioned logs, and what is known otherwise."""
 
     base: BaseModel
+    """The model and its base parameters."""
     motions: tuple[Motion, ...]
     held_out: frozenset[BlockKey]
+    """Blocks of the motions that no fit sees."""
     sizes: Mapping[str, float] = field(default_factory=dict)
+    """By name, what counts as one unit of deviation of parameters that the standard model has not."""
     prior: GaussianPrior | None = None
+    """Normal prior of the base parameters; None for none."""
 
     @cached_property
     def plan(self) -> ColumnPlan:

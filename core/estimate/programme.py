@@ -24,28 +24,19 @@ from .system import System
 
 @dataclass(frozen=True, eq=False)
 class Programme:
-    """Hold one semidefinite least-squares problem.
-
-    Attributes
-    ----------
-    base
-        Grouping of the standard parameters and the robot.
-    system
-        The weighted equations over the base parameters.
-    prior, bounds
-        The prior of the standard parameters, and what is allowed.
-    pull
-        Weight of the squared distance to the prior.
-    entropy
-        Weight of the entropic distance to the prior's bodies, 0 for none.
-    """
+    """Hold one semidefinite least-squares problem."""
 
     base: BaseModel
+    """Grouping of the standard parameters and the robot."""
     system: System
+    """The weighted equations over the base parameters."""
     prior: Prior
     bounds: Bounds
+    """The prior of the standard parameters, and what is allowed."""
     pull: float = PULL
+    """Weight of the squared distance to the prior."""
     entropy: float = 0.0
+    """Weight of the entropic distance to the prior's bodies, 0 for none."""
 
     @property
     def scaled_pull(self) -> float:
@@ -61,22 +52,15 @@ class Programme:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Hold an optimum.
-
-    Attributes
-    ----------
-    standard
-        The optimal standard parameters.
-    status, iterations
-        What the solver said.
-    solver
-        Which solver said it.
-    """
+    """Hold an optimum."""
 
     standard: Parameters
+    """The optimal standard parameters."""
     status: str
     iterations: int
+    """How the solver ended, and after how many iterations."""
     solver: str
+    """Which solver said it."""
 
 
 _MEANINGS = {

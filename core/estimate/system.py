@@ -21,25 +21,17 @@ _REWEIGHTINGS = 2
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """Hold min ||target - triangle base||^2 + rest, weighted.
-
-    Attributes
-    ----------
-    triangle, target
-        The stacked factor over all base columns.
-    rest
-        What no parameters can explain, weighted.
-    rows
-        Number of equations it stands for.
-    noise
-        Standard deviation per joint that the rows were divided by, N m; ones for an unweighted fit.
-    """
+    """Hold min ||target - triangle base||^2 + rest, weighted."""
 
     triangle: Matrix
     target: Vector
+    """The stacked factor over all base columns."""
     rest: float
+    """What no parameters can explain, weighted."""
     rows: int
+    """Number of equations it stands for."""
     noise: JointVector
+    """Standard deviation per joint that the rows were divided by, N m; ones for an unweighted fit."""
 
     def cost(self, base: BaseParameters) -> float:
         """Give the weighted sum of squared residuals."""

@@ -26,30 +26,21 @@ class Following:
 
 @dataclass(frozen=True, eq=False)
 class Mover:
-    """Place one link and the joint that moves it.
-
-    Attributes
-    ----------
-    name
-        The joint's name, which no other mover has.
-    parent
-        Number of the link that carries it, 0 for the base.
-    rotation, translation
-        Pose on the carrier at zero coordinate (m).
-    sign
-        1 or -1: the axis is this times the link's z axis.
-    joint
-        The joint coordinate, with limits and drive; what mimics has none of its own.
-    """
+    """Place one link and the joint that moves it."""
 
     name: str
+    """The joint's name, which no other mover has."""
     link: Link
     kind: JointKind
     parent: int
+    """Number of the link that carries it, 0 for the base."""
     rotation: Rotation
     translation: Vector3
+    """Rotation and translation (m): the pose on the carrier at zero coordinate."""
     sign: float
+    """1 or -1: the axis is this times the link's z axis."""
     joint: Joint
+    """The joint coordinate, with limits and drive; what mimics has none of its own."""
     following: Following | None
 
     @property

@@ -13,21 +13,15 @@ _TYPE = re.compile(rb"\stype\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 
 @dataclass
 class Element:
-    """Hold where a link, a joint or the whole robot stands.
-
-    Attributes
-    ----------
-    inside
-        Where more can be put: an empty span after the start tag, or the ``/>`` of an element without content.
-    kind
-        The value of its attribute `type`, between the quotes.
-    parts
-        Its children `inertial` and `dynamics`, from ``<`` to ``>``.
-    """
+    """Hold where a link, a joint or the whole robot stands."""
 
     inside: Span
+    """Where more can be put: an empty span after the start tag, or the ``/>`` of an element without
+    content."""
     kind: Span = (0, 0)
+    """The value of its attribute `type`, between the quotes."""
     parts: dict[str, Span] = field(default_factory=dict)
+    """Its children `inertial` and `dynamics`, from ``<`` to ``>``."""
 
 
 @dataclass

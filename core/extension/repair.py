@@ -21,25 +21,17 @@ NOT_SURE = "Nothing is changed for it: its gain on rows that no fit has seen is 
 
 @dataclass(frozen=True)
 class Repair:
-    """State what is changed because of one finding.
-
-    Attributes
-    ----------
-    cause, joints
-        The finding's.
-    mends
-        What is changed: the description (`robot`), the `log`, the `model` (a further term), or `nothing`.
-    what
-        What goes from what to what, in one sentence.
-    numbers
-        What the repair is done with, by name, in SI.
-    """
+    """State what is changed because of one finding."""
 
     cause: str
     joints: Site
+    """The finding's cause and joints."""
     mends: Corrects
+    """What is changed: the description (`robot`), the `log`, the `model` (a further term), or `nothing`."""
     what: str
+    """What goes from what to what, in one sentence."""
     numbers: Numbers
+    """What the repair is done with, by name, in SI."""
 
 
 def repairs(diagnosis: Diagnosis) -> tuple[Repair, ...]:

@@ -74,20 +74,14 @@ def _in_order(repairs: Iterable[Repair]) -> tuple[tuple[Repair, CorrectsLog], ..
 
 @dataclass(frozen=True, eq=False)
 class RepairedSource:
-    """Give the rows of a log as they were corrected.
-
-    Attributes
-    ----------
-    effort_scale
-        Per joint, torque per unit of the logged effort.
-    reach
-        Rows on either side that the repairs need.
-    """
+    """Give the rows of a log as they were corrected."""
 
     log: JointLog
     effort_scale: JointVector
+    """Per joint, torque per unit of the logged effort."""
     corrections: tuple[tuple[Repair, CorrectsLog], ...]
     reach: int
+    """Rows on either side that the repairs need."""
 
     @property
     def samples(self) -> int:

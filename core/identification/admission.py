@@ -19,25 +19,18 @@ from .options import IdentifyOptions
 
 @dataclass(frozen=True)
 class KnownLog:
-    """Say what is known of a log that was read once.
-
-    Attributes
-    ----------
-    rate_hz, duration
-        Sampling rate, and last stamp minus first in s.
-    samples, stretches
-        Number of rows, and of parts between gaps, at most.
-    sha256
-        Hash of the file's bytes.
-    """
+    """Say what is known of a log that was read once."""
 
     name: str
     channels: tuple[str, ...]
     rate_hz: float
     duration: float
+    """Sampling rate, and last stamp minus first in s."""
     samples: int
     stretches: int = 1
+    """Number of rows, and of parts between gaps, at most."""
     sha256: str = ""
+    """Hash of the file's bytes."""
 
 
 def known_log(log: JointLog) -> KnownLog:

@@ -28,19 +28,13 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Hold the solution of a problem.
-
-    Attributes
-    ----------
-    observation
-        The equations of all blocks, rows as they were measured.
-    step
-        The equations that were solved.
-    """
+    """Hold the solution of a problem."""
 
     problem: Problem
     observation: Observation
+    """The equations of all blocks, rows as they were measured."""
     step: Step
+    """The equations that were solved."""
     estimate: Estimate
 
 

@@ -40,28 +40,21 @@ class BootstrapOptions:
 
 @dataclass(frozen=True)
 class IdentifyOptions:
-    """Hold all options of an identification.
-
-    Attributes
-    ----------
-    terms
-        Names of the torque terms; None for the standard model.
-    smooth_coulomb
-        Whether the sign of Coulomb friction is smoothed over widths chosen from the fitted data.
-    essential
-        Whether only essential base parameters may explain torque.
-    reference
-        What a diagnosis compares the logs with: a job's name or ``prior``; None to identify everything anew.
-    """
+    """Hold all options of an identification."""
 
     filter: FilterOptions
     estimate: EstimateOptions
     validation: HoldOut
     bootstrap: BootstrapOptions
     terms: tuple[str, ...] | None = None
+    """Names of the torque terms; None for the standard model."""
     smooth_coulomb: bool = False
+    """Whether the sign of Coulomb friction is smoothed over widths chosen from the fitted data."""
     essential: bool = False
+    """Whether only essential base parameters may explain torque."""
     reference: str | None = None
+    """What a diagnosis compares the logs with: a job's name or ``prior``; None to identify everything
+    anew."""
     given: Mapping[str, object] = field(default_factory=dict)
 
 

@@ -31,28 +31,19 @@ diagonal."""
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """Hold a simulation that a log is compared with.
-
-    Attributes
-    ----------
-    name
-        What it is called in documents.
-    base
-        Its model and base parameters.
-    standard
-        Its standard parameters.
-    values
-        Its base parameters.
-    rows
-        Equations over the base parameters whose error has unit variance; directions in which it tells
-        nothing have none.
-    """
+    """Hold a simulation that a log is compared with."""
 
     name: str
+    """What it is called in documents."""
     base: BaseModel
+    """Its model and base parameters."""
     standard: Parameters
+    """Its standard parameters."""
     values: BaseParameters
+    """Its base parameters."""
     rows: Matrix
+    """Equations over the base parameters whose error has unit variance; directions in which it tells nothing
+    have none."""
 
     @property
     def prior(self) -> GaussianPrior:

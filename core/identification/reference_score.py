@@ -11,17 +11,12 @@ from .result import Identification
 
 @dataclass(frozen=True, eq=False)
 class ReferenceScore:
-    """Hold how well a reference predicts the logs as it is.
-
-    Attributes
-    ----------
-    base, standard
-        Its base parameters, with what it leaves open filled in from the logs, and a robot that has them.
-    """
+    """Hold how well a reference predicts the logs as it is."""
 
     reference: Reference
     base: BaseParameters
     standard: Parameters
+    """Its base parameters, with what it leaves open filled in from the logs, and a robot that has them."""
     fit: tuple[JointScore, ...]
     fit_total_percent: float
     validation: tuple[JointScore, ...]

@@ -14,17 +14,6 @@ from typing import Final, Literal
 class Unit:
     """Turn a value into SI, `factor * (value + offset)`, and say which sizes are usual in this unit.
 
-    Attributes
-    ----------
-    usual
-        Smallest and largest usual magnitude of a column in this unit (of time: its median step).
-    reason
-        Why these are usual.
-    prismatic
-        Whether only prismatic joints have it.
-    needs_scale
-        Whether the mapping says what one count is: rad, or N m.
-
     Examples
     --------
     >>> UNITS["temperature"]["K"].offset
@@ -33,11 +22,15 @@ class Unit:
 
     name: str
     usual: tuple[float, float]
+    """Smallest and largest usual magnitude of a column in this unit (of time: its median step)."""
     reason: str
+    """Why these are usual."""
     factor: float = 1.0
     offset: float = 0.0
     prismatic: bool = False
+    """Whether only prismatic joints have it."""
     needs_scale: bool = False
+    """Whether the mapping says what one count is: rad, or N m."""
 
 
 @dataclass(frozen=True)
@@ -120,30 +113,22 @@ COMMANDS = Quantity(
 
 @dataclass(frozen=True)
 class Channel:
-    """Describe one channel.
-
-    Attributes
-    ----------
-    prefix
-        Default column names are the prefix, an underscore and the joint's number from 1; of time the prefix.
-    about
-        What it is.
-    need
-        ``always``, ``effort`` (one of these is enough), ``optional`` or ``reference`` (optional, and used by
-        no computation yet).
-    words
-        Words that tell it in a column's name.
-    reference_to
-        Channel that follows this reference.
-    """
+    """Describe one channel."""
 
     name: str
     prefix: str
+    """Default column names are the prefix, an underscore and the joint's number from 1; of time the
+    prefix."""
     quantity: Quantity
     about: str
+    """What it is."""
     need: Literal["always", "effort", "optional", "reference"] = "optional"
+    """``always``, ``effort`` (one of these is enough), ``optional`` or ``reference`` (optional, and used by
+    no computation yet)."""
     words: tuple[str, ...] = ()
+    """Words that tell it in a column's name."""
     reference_to: str = ""
+    """Channel that follows this reference."""
 
     @property
     def per_joint(self) -> bool:

@@ -30,33 +30,22 @@ class Reach:
 
 @dataclass(frozen=True, eq=False)
 class LogCheck:
-    """Describe what is in a file.
-
-    Attributes
-    ----------
-    format
-        ``CSV``, ``Parquet`` ...
-    columns
-        All columns of the file.
-    recognised
-        Time and channels with their columns and units; empty where they are not known.
-    log
-        The log with its defects; None where it cannot be used.
-    reach
-        Between which values every channel moved.
-    refusal
-        Why it cannot be used.
-    suggestion
-        A mapping to confirm, where names or units are not known, or a unit makes implausible sizes.
-    """
+    """Describe what is in a file."""
 
     format: str
+    """``CSV``, ``Parquet`` ..."""
     columns: tuple[str, ...]
+    """All columns of the file."""
     recognised: tuple[Binding, ...] = ()
+    """Time and channels with their columns and units; empty where they are not known."""
     log: JointLog | None = None
+    """The log with its defects; None where it cannot be used."""
     reach: tuple[Reach, ...] = ()
+    """Between which values every channel moved."""
     refusal: LogError | None = None
+    """Why it cannot be used."""
     suggestion: Mapping[str, object] | None = None
+    """A mapping to confirm, where names or units are not known, or a unit makes implausible sizes."""
 
 
 def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> LogCheck:

@@ -30,22 +30,15 @@ Stretches = Sequence[tuple[int, int]]
 
 @dataclass(frozen=True, eq=False)
 class Preview:
-    """Carry thinned traces.
-
-    Attributes
-    ----------
-    time
-        Stamps in s, ascending. Of a stretch's two extremes the earlier is drawn at its first stamp, the later
-        at its last; an extreme is thus at most one stretch away from where it was.
-    values
-        One column per trace; NaN in all of them at a gap.
-    rows_per_stretch
-        How many rows became two points; 1 where every row is kept as it is.
-    """
+    """Carry thinned traces."""
 
     time: Instants
+    """Stamps in s, ascending. Of a stretch's two extremes the earlier is drawn at its first stamp, the later
+    at its last; an extreme is thus at most one stretch away from where it was."""
     values: InstantSeries
+    """One column per trace; NaN in all of them at a gap."""
     rows_per_stretch: int
+    """How many rows became two points; 1 where every row is kept as it is."""
 
 
 def preview(

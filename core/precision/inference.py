@@ -22,25 +22,17 @@ INTERVAL_95 = 1.959964
 
 @dataclass(frozen=True, eq=False)
 class Inference:
-    """Hold how well the base parameters of any estimator are known.
-
-    Attributes
-    ----------
-    information
-        W'W of the weighted equations.
-    meat
-        W'V W of the weighted equations.
-    open_share
-        Per parameter, the share of its unit vector that lies in directions the motion does not excite.
-    memory_factor
-        Per joint, by how much the residual's memory inflates the variance of a constant: the effective number
-        of independent samples is the number of samples divided by it.
-    """
+    """Hold how well the base parameters of any estimator are known."""
 
     information: SquareMatrix
+    """W'W of the weighted equations."""
     meat: SquareMatrix
+    """W'V W of the weighted equations."""
     open_share: Vector
+    """Per parameter, the share of its unit vector that lies in directions the motion does not excite."""
     memory_factor: JointVector
+    """Per joint, by how much the residual's memory inflates the variance of a constant: the effective number
+    of independent samples is the number of samples divided by it."""
 
     @property
     def bread(self) -> SquareMatrix:

@@ -34,21 +34,14 @@ _PRISMATIC_ORDER = ("M", "MX", "MY", "MZ", "IA", "XX", "XY", "XZ", "YY", "YZ", "
 
 @dataclass(frozen=True, eq=False)
 class BaseModel:
-    """Hold a model's base parameters.
-
-    Attributes
-    ----------
-    model
-        The model whose standard parameters are grouped.
-    kept
-        Positions of the base columns in `model.parameters`, in the order of Khalil's tables.
-    grouping
-        Matrix G with base = G standard: identity on the kept columns, grouping coefficients on the others.
-    """
+    """Hold a model's base parameters."""
 
     model: DynamicModel
+    """The model whose standard parameters are grouped."""
     kept: tuple[int, ...]
+    """Positions of the base columns in `model.parameters`, in the order of Khalil's tables."""
     grouping: Matrix
+    """Matrix G with base = G standard: identity on the kept columns, grouping coefficients on the others."""
 
     def base_of(self, standard: Parameters) -> BaseParameters:
         """Group standard parameters."""

@@ -20,18 +20,12 @@ from .kernel import rigid_body_series
 
 @dataclass(frozen=True, eq=False)
 class ColumnPlan:
-    """Choose columns of a model's observation matrix.
-
-    Attributes
-    ----------
-    model
-        The model.
-    columns
-        Positions in `model.parameters` of the wanted parameters.
-    """
+    """Choose columns of a model's observation matrix."""
 
     model: DynamicModel
+    """The model."""
     columns: tuple[int, ...]
+    """Positions in `model.parameters` of the wanted parameters."""
 
     @cached_property
     def entries(self) -> tuple[tuple[int, int], ...]:

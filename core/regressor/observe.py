@@ -26,48 +26,33 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """Hold one contiguous stretch of one log, condensed.
-
-    Attributes
-    ----------
-    factors
-        Per joint, over the joint's non-zero columns and torque.
-    torque_range
-        Per joint, smallest and largest filtered torque, N m.
-    """
+    """Hold one contiguous stretch of one log, condensed."""
 
     log: int
     number: int
     start: float
     end: float
     factors: tuple[Factor, ...]
+    """Per joint, over the joint's non-zero columns and torque."""
     torque_range: tuple[tuple[float, float], ...]
+    """Per joint, smallest and largest filtered torque, N m."""
 
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """Hold the equations of a study over chosen columns of a model.
-
-    Attributes
-    ----------
-    plan
-        The model and its columns.
-    columns_of
-        Per joint, the positions in `plan.columns` that its factors run over.
-    memory
-        Per joint, the lagged products of its rows.
-    positions
-        A sample of the positions along the motions, rad or m.
-    kept
-        Number of kept instants; a joint's factors have fewer rows where instants were unusable for it.
-    """
+    """Hold the equations of a study over chosen columns of a model."""
 
     plan: ColumnPlan
+    """The model and its columns."""
     blocks: tuple[Block, ...]
     columns_of: tuple[Indices, ...]
+    """Per joint, the positions in `plan.columns` that its factors run over."""
     memory: tuple[LaggedProducts, ...]
+    """Per joint, the lagged products of its rows."""
     positions: JointSeries
+    """A sample of the positions along the motions, rad or m."""
     kept: int
+    """Number of kept instants; a joint's factors have fewer rows where instants were unusable for it."""
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""

@@ -46,35 +46,24 @@ class Joint:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """Place one moving body.
-
-    Attributes
-    ----------
-    name
-        The body's name.
-    kind
-        Revolute (about its z axis) or prismatic (along it).
-    antecedent
-        Number of the link that carries it, 0 for the base.
-    joint
-        Number of the joint coordinate that moves it, counted from 1.
-    rotation, translation
-        Pose of its frame on the antecedent at zero coordinate (m).
-    ratio, offset
-        Its own angle or stroke is ``ratio * q[joint] + offset``; 1 and 0 unless it mimics another joint.
-    row
-        The modified DH row its placement was computed from; None where the placement itself was given.
-    """
+    """Place one moving body."""
 
     name: str
+    """The body's name."""
     kind: JointKind
+    """Revolute (about its z axis) or prismatic (along it)."""
     antecedent: int
+    """Number of the link that carries it, 0 for the base."""
     joint: int
+    """Number of the joint coordinate that moves it, counted from 1."""
     rotation: Rotation
     translation: Vector3
+    """Rotation and translation (m): the pose of its frame on the antecedent at zero coordinate."""
     ratio: float = 1.0
     offset: float = 0.0
+    """Its own angle or stroke is ``ratio * q[joint] + offset``; 1 and 0 unless it mimics another joint."""
     row: ModifiedDHRow | None = None
+    """The modified DH row its placement was computed from; None where the placement itself was given."""
 
 
 @dataclass(frozen=True)

@@ -21,16 +21,6 @@ class ModifiedDHRow:
     T = Rot(z, gamma) Trans(z, b) Rot(x, alpha) Trans(x, d) Rot(z, theta) Trans(z, r). A revolute joint adds
     its coordinate to theta, a prismatic joint adds it to r.
 
-    Attributes
-    ----------
-    alpha, d
-        Angle (rad) about x and distance (m) along x from the antecedent's z axis to this one.
-    r, theta
-        Distance (m) along z and angle (rad) about z from the common normal to this frame.
-    gamma, b
-        Angle (rad) about and distance (m) along the antecedent's z axis to the common normal; zero in a plain
-        chain.
-
     Examples
     --------
     >>> ModifiedDHRow(alpha=0.0, d=0.5, r=0.25).placement()[1]
@@ -39,10 +29,14 @@ class ModifiedDHRow:
 
     alpha: float
     d: float
+    """Angle (rad) about x and distance (m) along x from the antecedent's z axis to this one."""
     r: float
     theta: float = 0.0
+    """Distance (m) along z and angle (rad) about z from the common normal to this frame."""
     gamma: float = 0.0
     b: float = 0.0
+    """Angle (rad) about and distance (m) along the antecedent's z axis to the common normal; zero in a plain
+    chain."""
 
     def placement(self) -> tuple[Rotation, Vector3]:
         """Give rotation and translation (m) of the frame on its antecedent at zero coordinate."""

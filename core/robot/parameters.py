@@ -15,19 +15,6 @@ INERTIAL_UNITS = dict(zip(INERTIAL_SYMBOLS, ("kg m2",) * 6 + ("kg m",) * 3 + ("k
 class Parameter:
     """Name one scalar of the model.
 
-    Attributes
-    ----------
-    symbol
-        The field's letters, e.g. ``ZZ`` or ``FV``.
-    number
-        Joint or link number, counted from 1.
-    joint
-        The joint the parameter is reported under, counted from 1.
-    unit
-        SI unit as text.
-    lower
-        Physical lower bound, or None where any sign is possible.
-
     Examples
     --------
     >>> Parameter("ZZ", 3, 3, "kg m2").name
@@ -35,10 +22,15 @@ class Parameter:
     """
 
     symbol: str
+    """The field's letters, e.g. ``ZZ`` or ``FV``."""
     number: int
+    """Joint or link number, counted from 1."""
     joint: int
+    """The joint the parameter is reported under, counted from 1."""
     unit: str
+    """SI unit as text."""
     lower: float | None = None
+    """Physical lower bound, or None where any sign is possible."""
 
     @property
     def name(self) -> str:

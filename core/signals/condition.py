@@ -24,20 +24,14 @@ TILE_KEPT = 512
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Hold a log, its recipe and the factors that turn its effort channel into joint torque.
-
-    Attributes
-    ----------
-    effort_scale
-        Per joint: 1 for logged torque, torque constant times gear ratio for logged current.
-    blocks
-        Number of contiguous blocks the log is divided into for hold-out and bootstrap.
-    """
+    """Hold a log, its recipe and the factors that turn its effort channel into joint torque."""
 
     log: JointLog
     recipe: Recipe
     effort_scale: JointVector
+    """Per joint: 1 for logged torque, torque constant times gear ratio for logged current."""
     blocks: int
+    """Number of contiguous blocks the log is divided into for hold-out and bootstrap."""
     segments: tuple[Segment, ...] = field(repr=False)
 
     @cached_property

@@ -17,18 +17,12 @@ _ROWS = 32
 
 @dataclass(frozen=True, eq=False)
 class ParallelFilter:
-    """Low-pass and decimate rows of samples.
-
-    Attributes
-    ----------
-    response
-        Symmetric kernel of odd length.
-    decimation
-        Keep every n-th sample.
-    """
+    """Low-pass and decimate rows of samples."""
 
     response: Samples
+    """Symmetric kernel of odd length."""
     decimation: int
+    """Keep every n-th sample."""
 
     @property
     def reach(self) -> int:

@@ -97,17 +97,7 @@ class FilterOptions:
 
 @dataclass(frozen=True, eq=False)
 class Recipe:
-    """Fix every number of the chain for one log.
-
-    Attributes
-    ----------
-    motion_band_hz
-        Frequency below which the joints' velocities hold 99.5 % of their power, the largest over the joints.
-    rms_speed, still_speed
-        Speed per joint, and the speed below which it counts as standing (rad/s or m/s).
-    reason
-        Why these cut-offs, in one sentence.
-    """
+    """Fix every number of the chain for one log."""
 
     median_order: int
     position_cutoff_hz: float
@@ -115,9 +105,13 @@ class Recipe:
     order: int
     decimation: int
     motion_band_hz: float
+    """Frequency below which the joints' velocities hold 99.5 % of their power, the largest over the
+    joints."""
     rms_speed: JointVector
     still_speed: JointVector
+    """Speed per joint, and the speed below which it counts as standing (rad/s or m/s)."""
     reason: str
+    """Why these cut-offs, in one sentence."""
 
 
 def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:

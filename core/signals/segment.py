@@ -32,25 +32,18 @@ UNUSABLE_SHARE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Segment:
-    """Give conditioned stretches of one gap-free part of a log.
-
-    Attributes
-    ----------
-    start
-        Its first row in the log.
-    begin_time, rate_hz, samples
-        Its uniform clock: first instant in s, mean rate, number of instants.
-    stamps
-        The real stamps in s where they stray from that clock, else None.
-    """
+    """Give conditioned stretches of one gap-free part of a log."""
 
     log: JointLog
     recipe: Recipe
     start: int
+    """Its first row in the log."""
     begin_time: float
     rate_hz: float
     samples: int
+    """Its uniform clock: first instant in s, mean rate, number of instants."""
     stamps: Samples | None
+    """The real stamps in s where they stray from that clock, else None."""
 
     @cached_property
     def kept(self) -> int:

@@ -10,21 +10,15 @@ from ..arrays import Indices, JointSeries, Samples
 
 @dataclass(frozen=True, eq=False)
 class MotionState:
-    """Carry position (rad or m), velocity (per s) and acceleration (per s2) of all joints.
-
-    Attributes
-    ----------
-    time
-        The instants, s, on the log's own clock; None where only the configuration matters.
-    temperature
-        Temperature of every joint, degC; None where none was logged.
-    """
+    """Carry position (rad or m), velocity (per s) and acceleration (per s2) of all joints."""
 
     position: JointSeries
     velocity: JointSeries
     acceleration: JointSeries
     time: Samples | None = None
+    """The instants, s, on the log's own clock; None where only the configuration matters."""
     temperature: JointSeries | None = None
+    """Temperature of every joint, degC; None where none was logged."""
 
     def at(self, rows: slice | Indices) -> "MotionState":
         """Take some rows of the motion."""

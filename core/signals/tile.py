@@ -9,32 +9,22 @@ from .state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Tile:
-    """Carry a stretch of motion at the log's rate, with the kept instants of the parallel filter inside it.
-
-    Attributes
-    ----------
-    state
-        Position, velocity, acceleration at the log's rate, the filter's reach included.
-    torque
-        Joint torque at the same instants, N m or N.
-    first, time
-        Sample at which the first kept instant lies, and the kept instants in s.
-    usable
-        Which kept instants may be used for which joint.
-    block
-        Number of the log's block that the tile belongs to.
-    follows
-        Whether its first kept instant comes right after the last one of the tile before, with no gap between.
-    """
+    """Carry a stretch of motion at the log's rate, with the parallel filter's kept instants inside it."""
 
     state: MotionState
+    """Position, velocity, acceleration at the log's rate, the filter's reach included."""
     torque: JointSeries
+    """Joint torque at the same instants, N m or N."""
     parallel: ParallelFilter
     first: int
     time: Instants
+    """Sample at which the first kept instant lies, and the kept instants in s."""
     usable: InstantMask
+    """Which kept instants may be used for which joint."""
     block: int
+    """Number of the log's block that the tile belongs to."""
     follows: bool
+    """Whether its first kept instant comes right after the last of the tile before, without a gap."""
 
     def filtered(self, series: Series) -> KeptSeries:
         """Apply the parallel filter to rows of samples and keep the tile's instants."""

@@ -21,18 +21,12 @@ from .inverse import bodies_of
 
 @dataclass(frozen=True, eq=False)
 class Phases:
-    """Hold a robot's bodies over time, as the kernels need them.
-
-    Attributes
-    ----------
-    begins
-        Rising instants, s, from each of which on other bodies are there; the first is minus infinity.
-    bodies
-        As many.
-    """
+    """Hold a robot's bodies over time, as the kernels need them."""
 
     begins: np.ndarray
+    """Rising instants, s, from each of which on other bodies are there; the first is minus infinity."""
     bodies: tuple[Bodies, ...]
+    """As many."""
 
     def at(self, time: Samples) -> np.ndarray:
         """Give the number of the phase at every instant (s)."""

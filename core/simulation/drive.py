@@ -9,39 +9,26 @@ from .stage import States
 
 @dataclass(frozen=True, eq=False)
 class Feedback:
-    """Pull joints towards a reference.
-
-    Attributes
-    ----------
-    stiffness, damping
-        Gains per joint, N m/rad and N m s/rad (N/m, N s/m).
-    position, velocity
-        The reference at the drive's instants: (instants, joints, states).
-    """
+    """Pull joints towards a reference."""
 
     stiffness: np.ndarray
     damping: np.ndarray
+    """Gains per joint, N m/rad and N m s/rad (N/m, N s/m)."""
     position: np.ndarray
     velocity: np.ndarray
+    """The reference at the drive's instants: (instants, joints, states)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """Drive many states at once.
-
-    Attributes
-    ----------
-    step
-        Time between two instants, s.
-    torque
-        N m or N at the instants: (instants, joints, states); linear in between.
-    feedback
-        What corrects it; None where nothing does.
-    """
+    """Drive many states at once."""
 
     step: float
+    """Time between two instants, s."""
     torque: np.ndarray
+    """N m or N at the instants: (instants, joints, states); linear in between."""
     feedback: Feedback | None = None
+    """What corrects it; None where nothing does."""
 
     @property
     def steps(self) -> int:

@@ -39,18 +39,13 @@ class Stride:
 
 @dataclass(frozen=True, eq=False)
 class Integrator:
-    """Integrate a driven mechanism, with steps no longer than `longest_step` (s).
-
-    Attributes
-    ----------
-    drag
-        Damping per joint, N m s/rad, that is taken implicitly and given back as it stands: where terms
-        without a compiled form damp so strongly, the scheme stays stable, and its order whatever they do.
-    """
+    """Integrate a driven mechanism, with steps no longer than `longest_step` (s)."""
 
     mechanism: Mechanism
     drive: Drive
     drag: np.ndarray
+    """Damping per joint, N m s/rad, that is taken implicitly and given back as it stands: where terms without
+    a compiled form damp so strongly, the scheme stays stable, and its order whatever they do."""
     longest_step: float = LONGEST_STEP
 
     def advance(self, states: States, number: int) -> States:

@@ -36,37 +36,26 @@ Parts = list[tuple[Term, Weights]]
 
 @dataclass(frozen=True, eq=False)
 class Mechanism:
-    """Hold a model with numbers, sorted for simulation; build it with `mechanism_of`.
-
-    Attributes
-    ----------
-    model, parameters
-        The model and its standard parameters.
-    inertia, damping
-        What rotors and couplings add to the mass matrix (kg m2), and viscous friction (N m s/rad), joints x
-        joints.
-    offset
-        Constant torque per joint, N m.
-    weights, levels
-        One row per friction that can hold: the speed it acts on is `weights @ velocity`, its level in N m.
-    others
-        All other terms of the state.
-    remembered
-        Terms whose torque depends on the motion before the instant.
-    channel
-        Terms that are logged as torque and move nothing.
-    """
+    """Hold a model with numbers, sorted for simulation; build it with `mechanism_of`."""
 
     model: DynamicModel
     parameters: Parameters
+    """The model and its standard parameters."""
     inertia: np.ndarray
     damping: np.ndarray
+    """What rotors and couplings add to the mass matrix (kg m2), and viscous friction (N m s/rad), joints x
+    joints."""
     offset: np.ndarray
+    """Constant torque per joint, N m."""
     weights: np.ndarray
     levels: np.ndarray
+    """One row per friction that can hold: the speed it acts on is `weights @ velocity`, its level in N m."""
     others: Share
+    """All other terms of the state."""
     remembered: Share
+    """Terms whose torque depends on the motion before the instant."""
     channel: Share
+    """Terms that are logged as torque and move nothing."""
 
     @property
     def robot(self) -> RobotModel:

@@ -53,24 +53,17 @@ class MultiStepOptions:
 
 @dataclass(frozen=True, eq=False)
 class MultiStep:
-    """Hold predicted minus measured motion of every window, (windows, horizons, joints).
-
-    Attributes
-    ----------
-    keys, begins
-        Log and block, and start in s, of every window.
-    position, velocity
-        Errors in rad (m) and per s.
-    still
-        The error in position of keeping the first velocity: what no model at all would give.
-    """
+    """Hold predicted minus measured motion of every window, (windows, horizons, joints)."""
 
     horizons: tuple[float, ...]
     keys: tuple[BlockKey, ...]
     begins: np.ndarray
+    """Log and block, and start in s, of every window."""
     position: np.ndarray
     velocity: np.ndarray
+    """Errors in rad (m) and per s."""
     still: np.ndarray
+    """The error in position of keeping the first velocity: what no model at all would give."""
 
     @property
     def position_rms(self) -> Matrix:

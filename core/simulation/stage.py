@@ -23,26 +23,18 @@ SLIGHTLY = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class States:
-    """Hold states side by side; tables are (joints, states), `direction` (frictions, states).
-
-    Attributes
-    ----------
-    acceleration
-        The last one known, for terms that depend on it.
-    direction
-        Way in which each friction slides, 1 or -1; 0 at rest.
-    time
-        Of every state, s.
-    temperature
-        Of every joint, degC; None where none was logged.
-    """
+    """Hold states side by side; tables are (joints, states), `direction` (frictions, states)."""
 
     position: np.ndarray
     velocity: np.ndarray
     acceleration: np.ndarray
+    """The last one known, for terms that depend on it."""
     direction: np.ndarray
+    """Way in which each friction slides, 1 or -1; 0 at rest."""
     time: np.ndarray
+    """Of every state, s."""
     temperature: np.ndarray | None = None
+    """Of every joint, degC; None where none was logged."""
 
     @classmethod
     def starting(cls, mechanism: Mechanism, state: MotionState) -> Self:

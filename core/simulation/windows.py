@@ -18,50 +18,34 @@ from ..signals.tile import Tile
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Hold unbroken measured motion within one block of one log, at the log's rate.
-
-    Attributes
-    ----------
-    key
-        Log and block number, from 0.
-    step
-        Time between samples, s.
-    every
-        Samples between two kept instants; the first sample is one.
-    around, inside
-        The motion together with what the filters reached on either side, and where in it the stretch lies.
-    """
+    """Hold unbroken measured motion within one block of one log, at the log's rate."""
 
     key: BlockKey
+    """Log and block number, from 0."""
     step: float
+    """Time between samples, s."""
     every: int
+    """Samples between two kept instants; the first sample is one."""
     time: Samples
     state: MotionState
     torque: JointSeries
     around: MotionState
     inside: slice
+    """The motion together with what the filters reached on either side, and where in it the stretch lies."""
 
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """Hold windows of equal length side by side, (instants, joints, windows), all of one clock.
-
-    Attributes
-    ----------
-    step
-        Time between instants, s.
-    begins
-        Where each window begins, s.
-    keys
-        Log and block of each window.
-    start
-        The measured state each window begins with, one row per window.
-    """
+    """Hold windows of equal length side by side, (instants, joints, windows), all of one clock."""
 
     step: float
+    """Time between instants, s."""
     begins: Samples
+    """Where each window begins, s."""
     keys: tuple[BlockKey, ...]
+    """Log and block of each window."""
     start: MotionState
+    """The measured state each window begins with, one row per window."""
     position: np.ndarray
     velocity: np.ndarray
     torque: np.ndarray

@@ -14,21 +14,14 @@ from ..errors import OptionError
 
 @dataclass(frozen=True)
 class HoldOut:
-    """Ask for held-out data.
-
-    Attributes
-    ----------
-    fraction
-        Share of each log's blocks that is held out; 0 for none.
-    blocks
-        Number of blocks each log is divided into.
-    logs
-        Numbers of logs, from 1, that are held out whole; then `fraction` does not apply.
-    """
+    """Ask for held-out data."""
 
     fraction: float = 0.2
+    """Share of each log's blocks that is held out; 0 for none."""
     blocks: int = 20
+    """Number of blocks each log is divided into."""
     logs: tuple[int, ...] = ()
+    """Numbers of logs, from 1, that are held out whole; then `fraction` does not apply."""
 
     def __post_init__(self) -> None:
         """Refuse hold-outs that leave nothing to fit or nothing to divide."""

@@ -21,18 +21,12 @@ _reserved: list[socket.socket] = []
 
 @dataclass(frozen=True)
 class Limits:
-    """Say what a computation may use.
-
-    Attributes
-    ----------
-    memory_bytes
-        Most memory it may write to, beside what its code needs.
-    cpus
-        CPUs that it computes on.
-    """
+    """Say what a computation may use."""
 
     memory_bytes: int = 4 * 1024**3
+    """Most memory it may write to, beside what its code needs."""
     cpus: int = 1
+    """CPUs that it computes on."""
 
     def hold(self) -> None:
         """Hold this process to the limits from now on."""

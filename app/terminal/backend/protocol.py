@@ -28,26 +28,18 @@ WHOLE = FromUrdf()
 
 @dataclass(frozen=True)
 class Study:
-    """Create a job.
-
-    Attributes
-    ----------
-    kind
-        Name of a kind of job.
-    robot
-        What `Backend.robot` takes.
-    mapping
-        Of all logs; None for the default names.
-    part
-        Of the robot, where it is a URDF.
-    """
+    """Create a job."""
 
     kind: str
+    """Name of a kind of job."""
     robot: str
+    """What `Backend.robot` takes."""
     logs: tuple[Path, ...]
     mapping: Mapping[str, object] | None = None
+    """Of all logs; None for the default names."""
     options: Mapping[str, object] = field(default_factory=dict)
     part: FromUrdf = WHOLE
+    """Of the robot, where it is a URDF."""
 
 
 def require_whole(given: str, part: FromUrdf) -> None:

@@ -19,20 +19,14 @@ UNBOUNDED = 100_000
 
 @dataclass(frozen=True)
 class Column:
-    """Hold one column.
-
-    Attributes
-    ----------
-    is_text
-        Set to the left, as words are.
-    spare
-        0 for a column that is always shown; of the others the highest is left out first.
-    """
+    """Hold one column."""
 
     heading: str
     cells: Sequence[str]
     is_text: bool = False
+    """Set to the left, as words are."""
     spare: int = 0
+    """0 for a column that is always shown; of the others the highest is left out first."""
 
     @property
     def narrowest(self) -> int:

@@ -11,23 +11,17 @@ from ..thresholds.checks import ALTERNATIVES
 
 @dataclass(frozen=True)
 class Imitation:
-    """State that a cause may be another one, by which property the two differ and which experiment shows it.
-
-    Attributes
-    ----------
-    mutual
-        Whether the other one may be this one, too.
-    share
-        A lead of less than this share of a finding's likelihood ratio decides nothing: the columns of a real
-        robot are not exact, and their error grows with the effect.
-    """
+    """State that a cause may be another one, how the two differ, and which experiment shows it."""
 
     cause: str
     other: str
     why: str
     experiment: str
     mutual: bool = True
+    """Whether the other one may be this one, too."""
     share: float = ALTERNATIVES.similar_share
+    """A lead of less than this share of a finding's likelihood ratio decides nothing: the columns of a real
+    robot are not exact, and their error grows with the effect."""
 
 
 IMITATIONS: tuple[Imitation, ...] = (

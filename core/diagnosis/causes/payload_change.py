@@ -33,15 +33,11 @@ class PayloadChange(OwnJointCause):
 
     A body that was there throughout shows only against a reference: otherwise it is identified as part of the
     last link.
-
-    Attributes
-    ----------
-    throughout
-        Whether the body was there from before the log's begin to its end, on any link; if not, it came or
-        went at an instant that is scanned, on a link that carries no other.
     """
 
     throughout: bool = False
+    """Whether the body was there from before the log's begin to its end, on any link; if not, it came or went
+    at an instant that is scanned, on a link that carries no other."""
 
     id = "payload_change"
     title = "Payload attached or removed"

@@ -42,13 +42,7 @@ class Quantity:
 
 @dataclass(frozen=True, eq=False)
 class FittedCause:
-    """Hold the estimates of one candidate: linear parameters with covariance, scalars with deviations.
-
-    Attributes
-    ----------
-    slides
-        Whether the joint is prismatic.
-    """
+    """Hold the estimates of one candidate: linear parameters with covariance, scalars with deviations."""
 
     site: Site
     values: Vector
@@ -56,6 +50,7 @@ class FittedCause:
     scalars: Scalars
     deviations: Scalars
     slides: bool = False
+    """Whether the joint is prismatic."""
 
     def unit(self, turning: str) -> str:
         """Give the unit of a number of the joint, from its unit on a revolute joint."""
@@ -64,27 +59,18 @@ class FittedCause:
 
 @runtime_checkable
 class Cause(Protocol):
-    """Define one physical hypothesis about what a simulation lacks.
-
-    Attributes
-    ----------
-    id
-        Its name in results; published, never changed.
-    title
-        Its name in words, for a heading.
-    experiment
-        The motion that would show it where the present one does not.
-    coordinate
-        The abscissa of its figure: ``velocity, position, load, time, travel`` ...
-    traits
-        How the search treats it.
-    """
+    """Define one physical hypothesis about what a simulation lacks."""
 
     id: ClassVar[str]
+    """Its name in results; published, never changed."""
     title: ClassVar[str]
+    """Its name in words, for a heading."""
     experiment: ClassVar[str]
+    """The motion that would show it where the present one does not."""
     coordinate: ClassVar[str]
+    """The abscissa of its figure: ``velocity, position, load, time, travel`` ..."""
     traits: ClassVar[SearchTraits]
+    """How the search treats it."""
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:

@@ -32,38 +32,27 @@ Corruption = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeri
 
 @dataclass(frozen=True, eq=False)
 class SampleFinding:
-    """Hold the result of a sample check.
-
-    Attributes
-    ----------
-    statistic, p_value
-        The test statistic, and the probability that it is reached by chance.
-    residual_share
-        Per joint, the share of the residual's mean square that the fault accounts for.
-    """
+    """Hold the result of a sample check."""
 
     site: Site
     quantities: tuple[Quantity, ...]
     statement: str
     statistic: float
     p_value: float
+    """The test statistic, and the probability that it is reached by chance."""
     residual_share: JointVector
+    """Per joint, the share of the residual's mean square that the fault accounts for."""
 
 
 @runtime_checkable
 class SampleCheck(Protocol):
-    """Define a candidate fault of the samples; the attributes are those of `Cause`.
-
-    Attributes
-    ----------
-    beyond_repair
-        Why no log can be corrected for it, in a sentence.
-    """
+    """Define a candidate fault of the samples; the attributes are those of `Cause`."""
 
     id: ClassVar[str]
     title: ClassVar[str]
     experiment: ClassVar[str]
     beyond_repair: ClassVar[str]
+    """Why no log can be corrected for it, in a sentence."""
 
     @property
     def units(self) -> tuple[tuple[str, str], ...]:

@@ -19,16 +19,11 @@ from .shared.text import by_name, number_text
 
 @dataclass(frozen=True)
 class TorqueGain(OwnJointCause, CorrectsLog):
-    """Candidate cause: a wrong torque constant.
-
-    Attributes
-    ----------
-    together
-        Whether all channels have the same gain error, which shows only against a reference: without one it
-        equals bodies and friction that are larger by that share.
-    """
+    """Candidate cause: a wrong torque constant."""
 
     together: bool = False
+    """Whether all channels have the same gain error, which shows only against a reference: without one it
+    equals bodies and friction that are larger by that share."""
 
     id = "torque_gain"
     title = "Torque gain error"

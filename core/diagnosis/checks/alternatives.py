@@ -30,31 +30,22 @@ from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Hold the comparison of a finding with its alternatives.
-
-    Attributes
-    ----------
-    place, member
-        What is judged, and its place in the hypothesis.
-    statistic
-        Its likelihood ratio statistic.
-    bic_gain
-        Its BIC difference.
-    margin
-        Its BIC difference less that of the best alternative: another cause, or the same one elsewhere.
-    over_unnamed
-        The same over the best unnamed pattern on its joints; infinite where none explains anything.
-    """
+    """Hold the comparison of a finding with its alternatives."""
 
     place: int
     member: Candidate
+    """Place in the hypothesis of what is judged, and what it is."""
     statistic: float
+    """Its likelihood ratio statistic."""
     bic_gain: float
+    """Its BIC difference."""
     margin: float
+    """Its BIC difference less that of the best alternative: another cause, or the same one elsewhere."""
     ambiguous: tuple[Alternative, ...]
     refuted: tuple[Alternative, ...]
     without: Hypothesis
     over_unnamed: float = np.inf
+    """The same over the best unnamed pattern on its joints; infinite where none explains anything."""
 
 
 def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparison]]:

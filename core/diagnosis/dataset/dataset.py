@@ -45,48 +45,34 @@ BATCH = 64
 
 @dataclass(frozen=True, eq=False)
 class Dataset:
-    """Hold the rows of a diagnosis.
-
-    Attributes
-    ----------
-    robot
-        The robot as described.
-    time, log, block
-        Per row: instant in s, number of the log and of its block, from 0.
-    torque
-        Filtered torque, rows x joints.
-    usable
-        Rows that may be used per joint, and those of them clear of reversals (`clear`).
-    held_out
-        Held-out rows, which no fit uses.
-    state
-        The motion at the rows.
-    sticking
-        Per joint, nuisance columns: any friction while the joint is practically at rest.
-    band_hz
-        Cut-off of the parallel filter; `motion_band_hz` that of the motion.
-    position_share
-        Per joint, the share of the white residual's mean square that noise of the positions has.
-    position_torque
-        One draw of the torque error that such noise causes: rows x joints, N m or N.
-    """
+    """Hold the rows of a diagnosis."""
 
     robot: RobotModel
+    """The robot as described."""
     motions: tuple[Motion, ...]
     stretches: tuple[Stretch, ...]
     time: Samples
     log: Indices
     block: Indices
+    """Per row: instant in s, number of the log and of its block, from 0."""
     torque: JointSeries
+    """Filtered torque, rows x joints."""
     usable: JointMask
+    """Rows that may be used per joint, and those of them clear of reversals (`clear`)."""
     clear: JointMask
     held_out: np.ndarray
+    """Held-out rows, which no fit uses."""
     state: MotionState
+    """The motion at the rows."""
     sticking: tuple[csr_array, ...]
+    """Per joint, nuisance columns: any friction while the joint is practically at rest."""
     band_hz: float
+    """Cut-off of the parallel filter; `motion_band_hz` that of the motion."""
     motion_band_hz: float
     position_share: JointVector
+    """Per joint, the share of the white residual's mean square that noise of the positions has."""
     position_torque: JointSeries
+    """One draw of the torque error that such noise causes: rows x joints, N m or N."""
 
     @property
     def joints(self) -> int:

@@ -11,20 +11,14 @@ from ...signals.state import MotionState
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Carry one contiguous stretch of motion with the parallel filter at its thinned rate.
-
-    Attributes
-    ----------
-    state
-        The motion at the thinned rate, the filter's reach included.
-    first, rows
-        Where the first kept instant lies in `state`, and which rows of the look the kept instants are.
-    """
+    """Carry one contiguous stretch of motion with the parallel filter at its thinned rate."""
 
     state: MotionState
+    """The motion at the thinned rate, the filter's reach included."""
     parallel: ParallelFilter
     first: int
     rows: slice
+    """Where the first kept instant lies in `state`, and which rows of the data set the kept instants are."""
 
     @property
     def kept(self) -> int:

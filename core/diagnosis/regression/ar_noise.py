@@ -19,18 +19,12 @@ from ..thresholds.regression import NOISE
 
 @dataclass(frozen=True, eq=False)
 class ARNoise:
-    """Hold the best linear predictors of a stationary residual from its past.
-
-    Attributes
-    ----------
-    predictors
-        Coefficients for 0, 1, ... p past values, latest first.
-    deviations
-        Standard deviation of the innovation of each predictor, N m.
-    """
+    """Hold the best linear predictors of a stationary residual from its past."""
 
     predictors: tuple[Weights, ...]
+    """Coefficients for 0, 1, ... p past values, latest first."""
     deviations: Vector
+    """Standard deviation of the innovation of each predictor, N m."""
 
     @property
     def order(self) -> int:

@@ -31,34 +31,23 @@ STEPS, EXACT = 5, 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Hold a generalised least-squares fit.
-
-    Attributes
-    ----------
-    joints
-        The prewhitened rows per joint.
-    left
-        Their residual, white.
-    values
-        Coefficient of every column.
-    factor
-        Lower Cholesky factor of the columns' Gram matrix, scaled by `scale`.
-    by_joint
-        Log-likelihood of every joint's rows, noise model included.
-    prior
-        Normal prior of the first columns' coefficients; None for none.
-    plain
-        The ordinary fit from whose residual noise is estimated; None where it is estimated from this one's.
-    """
+    """Hold a generalised least-squares fit."""
 
     joints: tuple[Prewhitened, ...]
+    """The prewhitened rows per joint."""
     left: tuple[Weights, ...]
+    """Their residual, white."""
     values: Vector
+    """Coefficient of every column."""
     factor: SquareMatrix
+    """Lower Cholesky factor of the columns' Gram matrix, scaled by `scale`."""
     scale: Vector
     by_joint: JointVector
+    """Log-likelihood of every joint's rows, noise model included."""
     prior: GaussianPrior | None = None
+    """Normal prior of the first columns' coefficients; None for none."""
     plain: "Fit | None" = None
+    """The ordinary fit from whose residual noise is estimated; None where it is estimated from this one's."""
 
     @cached_property
     def log_likelihood(self) -> float:

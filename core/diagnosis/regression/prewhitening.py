@@ -20,29 +20,20 @@ ROUNDING = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Prewhitened:
-    """Hold one joint's prewhitened rows: columns and torque in units of the noise.
-
-    Attributes
-    ----------
-    whitening
-        What makes columns over the joint's rows white.
-    acting
-        Which columns are not all zero on the joint, in rising order: the others are left out below.
-    columns, inside
-        White columns, and what the nuisance columns span of them (see `Nuisance.in_span`).
-    gram
-        Products of the columns with each other, less what nuisance columns span.
-    torque
-        White torque, less what nuisance columns span of it.
-    """
+    """Hold one joint's prewhitened rows: columns and torque in units of the noise."""
 
     noise: ARNoise
     whitening: csr_array
+    """What makes columns over the joint's rows white."""
     acting: Indices
+    """Which columns are not all zero on the joint, in rising order: the others are left out below."""
     columns: EquationRows
     inside: EquationRows
+    """White columns, and what the nuisance columns span of them (see `Nuisance.in_span`)."""
     gram: SquareMatrix
+    """Products of the columns with each other, less what nuisance columns span."""
     torque: Vector
+    """White torque, less what nuisance columns span of it."""
     log_deviations: float
     nuisance: Nuisance
 

@@ -16,23 +16,16 @@ Columns = Mapping[int, EquationRows]
 
 @dataclass(frozen=True, eq=False)
 class JointRows:
-    """Hold the rows of one joint that a fit may use.
-
-    Attributes
-    ----------
-    rows, place
-        Which rows of the look, and their places within runs.
-    columns, torque
-        What is fitted to what.
-    nuisance
-        Nuisance columns: friction while the joint sticks.
-    """
+    """Hold the rows of one joint that a fit may use."""
 
     rows: Indices
     place: Indices
+    """Which rows of the data set, and their places within runs."""
     columns: Matrix
     torque: Vector
+    """What is fitted, and what it is fitted to."""
     nuisance: Nuisance
+    """Nuisance columns: friction while the joint sticks."""
 
     def residual(self, values: Weights) -> Vector:
         """Give the residual of the columns, on the complement of the nuisance columns."""

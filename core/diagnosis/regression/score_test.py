@@ -21,25 +21,17 @@ from .rows import Columns, JointRows
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Hold the score test of one candidate.
-
-    Attributes
-    ----------
-    statistic
-        Score statistic at this noise model: the predicted likelihood ratio statistic.
-    freedom
-        Number of directions of its linear parameters that the rows determine.
-    values, covariance
-        What its linear parameters would be.
-    clear_share
-        The largest share of a column's square that neither fitted nor free columns span.
-    """
+    """Hold the score test of one candidate."""
 
     statistic: float
+    """Score statistic at this noise model: the predicted likelihood ratio statistic."""
     freedom: int
+    """Number of directions of its linear parameters that the rows determine."""
     values: Weights
     covariance: EquationRows
+    """What its linear parameters would be, and their covariance."""
     clear_share: float
+    """The largest share of a column's square that neither fitted nor free columns span."""
 
 
 class Panel:

@@ -34,28 +34,21 @@ _RIDGE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Dependence:
-    """Show how one joint's residual depends on one coordinate.
-
-    Attributes
-    ----------
-    coordinate, joint, unit
-        What it is shown over, whose residual it is (counted from 1), and the coordinate's unit.
-    centre, mean, standard_error, count
-        Per bin: median of the coordinate, mean residual and its standard error (N m or N), rows.
-    statistic, degrees_of_freedom, p_value
-        Chi-square of the bins' means about their common value, and how likely chance exceeds it.
-    """
+    """Show how one joint's residual depends on one coordinate."""
 
     coordinate: str
     joint: int
     unit: str
+    """What it is shown over, whose residual it is (counted from 1), and the coordinate's unit."""
     centre: Vector
     mean: Vector
     standard_error: Vector
     count: Indices
+    """Per bin: median of the coordinate, mean residual and its standard error (N m or N), rows."""
     statistic: float
     degrees_of_freedom: int
     p_value: float
+    """Chi-square of the bins' means about their common value, and how likely chance exceeds it."""
 
 
 @dataclass(frozen=True, eq=False)

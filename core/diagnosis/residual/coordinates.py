@@ -22,19 +22,13 @@ OTHER_VELOCITY = "velocity_of_joint_"
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """Give one coordinate at every row of a look.
-
-    Attributes
-    ----------
-    joint
-        The joint whose residual is looked at, counted from 1.
-    unit
-        Unit of the values; ``m`` stands for ``rad`` where the joint that moves slides.
-    """
+    """Give one coordinate at every row of a look."""
 
     name: str
     joint: int
+    """The joint whose residual is looked at, counted from 1."""
     unit: str
+    """Unit of the values; ``m`` stands for ``rad`` where the joint that moves slides."""
     values: Samples
 
 

@@ -26,28 +26,20 @@ _BELOW_NYQUIST, _POINTS = 0.499, 4096
 
 @dataclass(frozen=True, eq=False)
 class NoiseFloor:
-    """Hold the noise per joint in the look's band, N m (N) RMS, by every way that was open.
-
-    Attributes
-    ----------
-    rms, source
-        The value to use, and which way it came from: repeats before the high band; NaN and ``none`` where
-        neither was open.
-    from_high_band, from_repeats
-        The values of both ways; NaN where a way was not open.
-    tilt
-        Power density of the high band's lower half over its upper half: 1 for white noise, above where noise
-        grows towards low frequencies, NaN where there is no high band.
-    period
-        Period of the motion, s; None where it does not repeat.
-    """
+    """Hold the noise per joint in the look's band, N m (N) RMS, by every way that was open."""
 
     rms: JointVector
     source: tuple[FloorSource, ...]
+    """The value to use, and which way it came from: repeats before the high band; NaN and ``none`` where
+    neither was open."""
     from_high_band: JointVector
     from_repeats: JointVector
+    """The values of both ways; NaN where a way was not open."""
     tilt: JointVector
+    """Power density of the high band's lower half over its upper half: 1 for white noise, above where noise
+    grows towards low frequencies, NaN where there is no high band."""
     period: float | None
+    """Period of the motion, s; None where it does not repeat."""
 
 
 def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:

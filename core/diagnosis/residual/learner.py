@@ -43,29 +43,20 @@ class Place:
 
 @dataclass(frozen=True, eq=False)
 class Predictable:
-    """Hold what a generic learner could predict of one joint's residual on unseen blocks.
-
-    Attributes
-    ----------
-    joint
-        Counted from 1.
-    share, interval
-        Share of the residual's mean square, with its 95 % interval; at least 0. Something is predictable
-        where the interval's lower end lies above 0. NaN where the joint moves too little to judge.
-    rms
-        RMS of the residual that was judged, N m or N.
-    places
-        Where the predictable part is largest, the largest first; empty where nothing is predictable.
-    prediction
-        The prediction at the look's rows, N m or N; NaN where a row was left out.
-    """
+    """Hold what a generic learner could predict of one joint's residual on unseen blocks."""
 
     joint: int
+    """Counted from 1."""
     share: float
     interval: tuple[float, float]
+    """Share of the residual's mean square, with its 95 % interval; at least 0. Something is predictable where
+    the interval's lower end lies above 0. NaN where the joint moves too little to judge."""
     rms: float
+    """RMS of the residual that was judged, N m or N."""
     places: tuple[Place, ...]
+    """Where the predictable part is largest, the largest first; empty where nothing is predictable."""
     prediction: Vector
+    """The prediction at the look's rows, N m or N; NaN where a row was left out."""
 
 
 def predictable_share(

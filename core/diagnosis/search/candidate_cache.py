@@ -17,18 +17,12 @@ from .hypothesis import Candidate
 
 @dataclass(frozen=True, eq=False)
 class CandidateCache:
-    """Hold the candidates that act all the time, with columns that may be of an earlier operating point.
-
-    Attributes
-    ----------
-    whole
-        The operating point of candidates of several joints or of none.
-    joints
-        Per joint, the operating point of candidates of that joint alone.
-    """
+    """Hold the candidates that act all the time, with columns that may be of an earlier operating point."""
 
     whole: Candidates
+    """The operating point of candidates of several joints or of none."""
     joints: tuple[Candidates, ...]
+    """Per joint, the operating point of candidates of that joint alone."""
 
     @cached_property
     def candidates(self) -> tuple[Candidate, ...]:

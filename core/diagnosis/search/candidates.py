@@ -20,32 +20,23 @@ from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Hold the candidates at one operating point.
-
-    Attributes
-    ----------
-    dataset, left
-        The data set; and the same with what is not explained so far in place of the torque.
-    columns
-        The filtered columns of candidates that depend on the operating point.
-    scans
-        Per hypothesis, the scan of all candidates on top of it.
-    less
-        The last hypothesis whose members were removed in turn, and the smaller hypotheses.
-    trials
-        For each of these, the hypotheses with a candidate in the removed member's place.
-    """
+    """Hold the candidates at one operating point."""
 
     causes: tuple[Cause, ...]
     dataset: Dataset
     left: Dataset
+    """The data set; and the same with what is not explained so far in place of the torque."""
     operating_point: Prediction
     columns: dict[ColumnKey, Columns] = field(default_factory=dict)
+    """The filtered columns of candidates that depend on the operating point."""
     scans: WeakKeyDictionary[Hypothesis, list[ScoredCandidate]] = field(default_factory=WeakKeyDictionary)
+    """Per hypothesis, the scan of all candidates on top of it."""
     less: WeakKeyDictionary[Hypothesis, tuple[Hypothesis, ...]] = field(default_factory=WeakKeyDictionary)
+    """The last hypothesis whose members were removed in turn, and the smaller hypotheses."""
     trials: WeakKeyDictionary[Hypothesis, dict[ColumnKey, Hypothesis]] = field(
         default_factory=WeakKeyDictionary
     )
+    """For each of these, the hypotheses with a candidate in the removed member's place."""
     _known: dict[tuple[Cause, Site], tuple[Candidate, ...]] = field(default_factory=dict)
 
     @property

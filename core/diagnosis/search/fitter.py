@@ -41,34 +41,23 @@ class FitRows:
 
 @dataclass(frozen=True, eq=False)
 class HypothesisFitter:
-    """Fit hypotheses at one operating point.
-
-    Attributes
-    ----------
-    dataset, rows
-        The data set and its rows per joint; a fit uses those that are usable and not held out.
-    plan
-        The model's base columns.
-    causes
-        The candidate causes.
-    prior
-        Prior of the base parameters; None where the rows alone determine them.
-    at
-        The candidates, with their columns, at the operating point.
-    ordinary_noise
-        Whether noise is estimated from the residual of ordinary least squares.
-    earlier
-        The candidate cache of an earlier operating point, if one was made.
-    """
+    """Fit hypotheses at one operating point."""
 
     dataset: Dataset
     rows: FitRows
+    """The data set and its rows per joint; a fit uses those that are usable and not held out."""
     plan: ColumnPlan
+    """The model's base columns."""
     causes: tuple[Cause, ...]
+    """The candidate causes."""
     prior: GaussianPrior | None
+    """Prior of the base parameters; None where the rows alone determine them."""
     at: Candidates
+    """The candidates, with their columns, at the operating point."""
     ordinary_noise: bool = False
+    """Whether noise is estimated from the residual of ordinary least squares."""
     earlier: CandidateCache | None = None
+    """The candidate cache of an earlier operating point, if one was made."""
     _fixed_columns: dict[ColumnKey, Columns] = field(default_factory=dict)
     _panels: WeakKeyDictionary[CandidateCache, Panel] = field(default_factory=WeakKeyDictionary)
 

@@ -21,23 +21,17 @@ ColumnKey = tuple[str, Site, tuple[tuple[str, float], ...]]
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """Hold one cause at one site with values of its scalars.
-
-    Attributes
-    ----------
-    trials
-        How many grid points its kind was given: what its p-value is corrected for.
-    deviations, slopes
-        Standard deviations of the scalars, as far as they were refined, and by how much the linear parameters
-        change with them.
-    """
+    """Hold one cause at one site with values of its scalars."""
 
     cause: Cause
     site: Site
     scalars: Scalars
     trials: float
+    """How many grid points its kind was given: what its p-value is corrected for."""
     deviations: Scalars = field(default_factory=dict)
     slopes: Mapping[str, Vector] = field(default_factory=dict)
+    """Standard deviations of the scalars, as far as they were refined, and by how much the linear parameters
+    change with them."""
 
     @property
     def key(self) -> tuple[str, Site]:

@@ -28,26 +28,18 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class SearchState:
-    """Hold the state of a search.
-
-    Attributes
-    ----------
-    fitter
-        The fitter at the operating point of the chosen hypothesis.
-    none, chosen
-        The empty hypothesis, and the one that the search has come to.
-    steps, through
-        The decisions so far, and the sets of causes that the search came through.
-    excluded
-        Kinds that were dropped on the way.
-    """
+    """Hold the state of a search."""
 
     fitter: HypothesisFitter
+    """The fitter at the operating point of the chosen hypothesis."""
     none: Hypothesis
     chosen: Hypothesis
+    """The empty hypothesis, and the one that the search has come to."""
     steps: tuple[Step, ...] = ()
     through: frozenset[Keys] = frozenset()
+    """The decisions so far, and the sets of causes that the search came through."""
     excluded: Excluded = field(default_factory=dict)
+    """Kinds that were dropped on the way."""
 
     @property
     def keys(self) -> Keys:

@@ -60,15 +60,10 @@ class OneJointTerm:
 
 @dataclass(frozen=True, eq=False)
 class AllJointsTerm:
-    """Give columns that act on every joint.
-
-    Attributes
-    ----------
-    joint
-        The joint under which the effect is reported, from 1; 0 for the robot as a whole.
-    """
+    """Give columns that act on every joint."""
 
     joint: int
+    """The joint under which the effect is reported, from 1; 0 for the robot as a whole."""
     symbols: ClassVar[tuple[Symbol, ...]] = ()
     kind: ClassVar[str] = ""
     remembers: ClassVar[bool] = False

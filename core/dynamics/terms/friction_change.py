@@ -18,15 +18,10 @@ from .effect import OneJointTerm, Symbol
 
 @dataclass(frozen=True, eq=False)
 class FrictionChange(OneJointTerm):
-    """Model a change of viscous and Coulomb friction and of the offset.
-
-    Attributes
-    ----------
-    width
-        Width over which the sign of velocity is smoothed, rad/s or m/s; 0 for the plain sign.
-    """
+    """Model a change of viscous and Coulomb friction and of the offset."""
 
     width: float = 0.0
+    """Width over which the sign of velocity is smoothed, rad/s or m/s; 0 for the plain sign."""
     symbols: ClassVar[tuple[Symbol, ...]] = (
         ("delta_viscous", "N m s/rad", None),
         ("delta_coulomb", "N m", None),

@@ -25,23 +25,16 @@ from .effect import AllJointsTerm, Symbol, rates, step_of
 
 @dataclass(frozen=True, eq=False)
 class Elasticity(AllJointsTerm):
-    """Model joint elasticity.
-
-    Attributes
-    ----------
-    band_hz
-        Bandwidth at which loads are smoothed before differentiation.
-    resonance_hz, damping_ratio
-        Of the link's inertia on the spring: below it the link follows the load without lag.
-    motor_inertia
-        Rotor inertia that the operating point's load contains, kg m2 (kg).
-    """
+    """Model joint elasticity."""
 
     believed: Prediction
     band_hz: float
+    """Bandwidth at which loads are smoothed before differentiation."""
     resonance_hz: float
     damping_ratio: float
+    """Those of the link's inertia on the spring: below it the link follows the load without lag."""
     motor_inertia: float = 0.0
+    """Rotor inertia that the operating point's load contains, kg m2 (kg)."""
     symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
     kind: ClassVar[str] = "joint_elasticity"
     remembers: ClassVar[bool] = True

@@ -26,18 +26,13 @@ Numbers = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False)
 class Trace(OneJointTerm):
-    """Model one pattern (`PATTERNS`) with its numbers.
-
-    Attributes
-    ----------
-    pattern
-        ``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
-        angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
-        ``swing``: deflection and rate of an oscillator at f Hz, driven by the own acceleration. ``levels``:
-        plus or minus one, with a change of sign at each of the instants, s.
-    """
+    """Model one pattern (`PATTERNS`) with its numbers."""
 
     pattern: str
+    """``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
+    angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
+    ``swing``: deflection and rate of an oscillator at f Hz, driven by the own acceleration. ``levels``: plus
+    or minus one, with a change of sign at each of the instants, s."""
     numbers: Numbers
     kind: ClassVar[str] = "unlisted"
     remembers: ClassVar[bool] = True

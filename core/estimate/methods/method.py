@@ -47,16 +47,11 @@ class FitData(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """Hold equations whose optimum is the next estimate.
-
-    Attributes
-    ----------
-    data
-        The data with rows weighted as in the equations: precision and bootstrap are taken from them.
-    """
+    """Hold equations whose optimum is the next estimate."""
 
     system: System
     data: FitData
+    """The data with rows weighted as in the equations: precision and bootstrap are taken from them."""
 
 
 @runtime_checkable

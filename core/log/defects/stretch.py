@@ -31,22 +31,15 @@ SAMPLED_ROWS = 200_000
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Carry consecutive samples, one row per joint.
-
-    Attributes
-    ----------
-    first
-        Row number of the first sample.
-    context
-        How many leading samples the stretch before gave already.
-    channels
-        By name, one row per joint.
-    """
+    """Carry consecutive samples, one row per joint."""
 
     first: int
+    """Row number of the first sample."""
     context: int
+    """How many leading samples the stretch before gave already."""
     time: Samples
     channels: dict[str, Series]
+    """By name, one row per joint."""
 
     @property
     def position(self) -> Series:
@@ -75,27 +68,20 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Facts:
-    """Carry what is known of the whole log when the finders state their defects.
-
-    Attributes
-    ----------
-    step
-        Median step of the stamps, s.
-    position_lsb
-        Resolution of each joint's position, 0 where none shows.
-    units
-        SI unit of each channel, joint by joint.
-    """
+    """Carry what is known of the whole log when the finders state their defects."""
 
     samples: int
     start: float
     duration: float
     step: float
+    """Median step of the stamps, s."""
     low: dict[str, JointVector]
     high: dict[str, JointVector]
     deviation: dict[str, JointVector]
     position_lsb: JointVector
+    """Resolution of each joint's position, 0 where none shows."""
     units: Mapping[str, Sequence[str]]
+    """SI unit of each channel, joint by joint."""
 
     def travels(self, joint: int) -> bool:
         """Tell whether a joint (from 0) is moved at all, rather than held against its load."""

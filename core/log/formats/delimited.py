@@ -38,19 +38,14 @@ _BAD_CELL = re.compile(r"column #(?P<column>\d+).*?invalid value '(?P<found>[^']
 
 @dataclass(frozen=True)
 class DelimitedTable:
-    """Give the columns of a text table; only those that are asked for are converted.
-
-    Attributes
-    ----------
-    skip
-        Physical lines before the first row of data.
-    """
+    """Give the columns of a text table; only those that are asked for are converted."""
 
     path: Path
     names: tuple[str, ...]
     delimiter: str
     decimal: str
     skip: int
+    """Physical lines before the first row of data."""
 
     def batches(self, names: Sequence[str]) -> Iterator[Series]:
         """Read the named columns in blocks of a few megabytes."""

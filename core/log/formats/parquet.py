@@ -29,21 +29,15 @@ MAX_FOOTER_ITEMS = 1 << 20
 
 @dataclass(frozen=True)
 class ParquetTable:
-    """Give the columns of a Parquet file.
-
-    Attributes
-    ----------
-    numeric
-        Whether each column is made of real numbers.
-    group_starts
-        First row of each row group.
-    """
+    """Give the columns of a Parquet file."""
 
     path: Path
     names: tuple[str, ...]
     numeric: tuple[bool, ...]
+    """Whether each column is made of real numbers."""
     samples: int
     group_starts: tuple[int, ...]
+    """First row of each row group."""
 
     def batches(self, names: Sequence[str], *, first_group: int = 0) -> Iterator[Series]:
         """Decode the named columns from the given row group on."""

@@ -45,15 +45,10 @@ class Table(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class MemoryTable:
-    """Give columns that are already in memory, as NPZ and MAT files leave them.
-
-    Attributes
-    ----------
-    columns
-        One-dimensional arrays by name; None where a column is not made of numbers.
-    """
+    """Give columns that are already in memory, as NPZ and MAT files leave them."""
 
     columns: Mapping[str, np.ndarray | None]
+    """One-dimensional arrays by name; None where a column is not made of numbers."""
 
     @property
     def names(self) -> tuple[str, ...]:

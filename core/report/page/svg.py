@@ -20,22 +20,16 @@ Values = Sequence[float]
 
 @dataclass(frozen=True)
 class Frame:
-    """Place a plot in a picture, and convert data to pixels.
-
-    Attributes
-    ----------
-    left, top, width, height
-        The whole plot with its labels, pixels.
-    x, y
-        Lowest and highest value shown on either axis.
-    """
+    """Place a plot in a picture, and convert data to pixels."""
 
     left: float
     top: float
     width: float
     height: float
+    """The whole plot with its labels, pixels."""
     x: tuple[float, float]
     y: tuple[float, float]
+    """Lowest and highest value shown on either axis."""
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         """Give the pixels of a point, kept within the frame."""

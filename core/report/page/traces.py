@@ -26,28 +26,19 @@ _TOGETHER = 8
 
 @dataclass(frozen=True)
 class JointTraces:
-    """Hold the decimated traces of one joint in one log.
-
-    Attributes
-    ----------
-    log, joint
-        Counted from 1.
-    time
-        s.
-    signals
-        Named as in the file of traces, each as long as `time`.
-    units
-        Of the signals, by name.
-    held_out
-        Held-out spans of time, s.
-    """
+    """Hold the decimated traces of one joint in one log."""
 
     log: int
     joint: int
+    """Numbers of the log and of the joint, counted from 1."""
     time: Sequence[float]
+    """S."""
     signals: Mapping[str, Trace]
+    """Named as in the file of traces, each as long as `time`."""
     units: Mapping[str, str]
+    """Of the signals, by name."""
     held_out: Sequence[tuple[float, float]] = ()
+    """Held-out spans of time, s."""
 
 
 def traces_section(traces: Sequence[JointTraces], names: Sequence[str]) -> Markup:

@@ -29,53 +29,36 @@ Spans = list[tuple[float, float]]
 
 @dataclass(frozen=True)
 class View:
-    """Select signals and a range of time.
-
-    Attributes
-    ----------
-    log, joint
-        Counted from 1.
-    signals
-        Names of `layout.SIGNALS`.
-    begin, end
-        Stretch of the log's clock, s; None for its own ends.
-    points
-        The most points per trace.
-    """
+    """Select signals and a range of time."""
 
     log: int
     joint: int
+    """Numbers of the log and of the joint, counted from 1."""
     signals: tuple[str, ...]
+    """Names of `layout.SIGNALS`."""
     begin: float | None = None
     end: float | None = None
+    """Stretch of the log's clock, s; None for its own ends."""
     points: int = 2000
+    """The most points per trace."""
 
 
 @dataclass(frozen=True, eq=False)
 class Traces:
-    """Hold decimated traces on one time axis.
-
-    Attributes
-    ----------
-    extent
-        First and last kept instant of the whole log, s.
-    time, values
-        Instants, and one column per signal; NaN at gaps.
-    units
-        Of each signal.
-    rows_per_stretch
-        How many rows became two points; 1 where every row is there.
-    held_out, left_out
-        Spans that no fit has seen, and spans that do not count for this joint.
-    """
+    """Hold decimated traces on one time axis."""
 
     extent: tuple[float, float]
+    """First and last kept instant of the whole log, s."""
     time: Instants
     values: InstantSeries
+    """Instants, and one column per signal; NaN at gaps."""
     units: tuple[str, ...]
+    """Of each signal."""
     rows_per_stretch: int
+    """How many rows became two points; 1 where every row is there."""
     held_out: Spans
     left_out: Spans
+    """Spans that no fit has seen, and spans that do not count for this joint."""
 
 
 def read_traces(path: Path, view: View) -> Traces:

@@ -60,16 +60,11 @@ class Density:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """Hold the residual of one joint over coordinates and frequency.
-
-    Attributes
-    ----------
-    unit, samples
-        Of the residual, and the number of rows that count.
-    """
+    """Hold the residual of one joint over coordinates and frequency."""
 
     unit: str
     samples: int
+    """Unit of the residual, and the number of rows that count."""
     over: tuple[OverCoordinate, ...]
     densities: tuple[Density, ...]
 
