@@ -49,8 +49,8 @@ def plain(value: object) -> object:
     if isinstance(value, str):
         return value if len(value) <= LONGEST_TEXT else value[:LONGEST_TEXT] + " ..."
     if isinstance(value, Mapping):
-        return {str(name): plain(one) for name, one in value.items()}
+        return {str(name): plain(entry) for name, entry in value.items()}
     if isinstance(value, Sequence | set | frozenset):
-        return [plain(one) for one in list(value)[:LONGEST_LIST]]
+        return [plain(entry) for entry in list(value)[:LONGEST_LIST]]
     listed = getattr(value, "tolist", None)  # numpy arrays and scalars
     return plain(str(value)) if listed is None else plain(listed())

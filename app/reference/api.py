@@ -34,16 +34,16 @@ def guide(contract: Node) -> str:
     """Write the document in Markdown."""
     asked = "".join(_chapter(contract, tag) for tag in contract["tags"])
     schemas = contract["components"]["schemas"]
-    documents = "".join(_document(name, one) for name, one in schemas.items() if one.get("properties"))
+    documents = "".join(_document(name, kind) for name, kind in schemas.items() if kind.get("properties"))
     return f"{OPENING}{asked}\n## Documents\n{documents}"
 
 
 def _chapter(contract: Node, tag: Node) -> str:
     text = "".join(
-        _request(method, path, one)
+        _request(method, path, operation)
         for path, methods in contract["paths"].items()
-        for method, one in methods.items()
-        if tag["name"] in one.get("tags", [])
+        for method, operation in methods.items()
+        if tag["name"] in operation.get("tags", [])
     )
     return f"\n## {tag['name'].capitalize()}\n\n{tag['description']}\n{text}"
 
@@ -61,25 +61,25 @@ def _request(method: str, path: str, asked: Node) -> str:
     return "".join(parts)
 
 
-def _parameter(one: Node) -> str:
-    needed = " (needed)" if one["required"] and one["in"] != "path" else ""
-    kind = _type(one["schema"])
-    return f"| `{one['name']}` | {one['in']} | {kind}{needed} | {_cell(one.get('description', ''))} |\n"
+def _parameter(parameter: Node) -> str:
+    needed = " (needed)" if parameter["required"] and parameter["in"] != "path" else ""
+    kind, words = _type(parameter["schema"]), _cell(parameter.get("description", ""))
+    return f"| `{parameter['name']}` | {parameter['in']} | {kind}{needed} | {words} |\n"
 
 
 def _body(body: Node) -> str:
     if not body:
         return ""
     rows = "".join(
-        f"| `{media}` | {_type(one.get('schema', {}))} |\n" for media, one in body["content"].items()
+        f"| `{media}` | {_type(content.get('schema', {}))} |\n" for media, content in body["content"].items()
     )
     return f"\n| body | holds |\n|---|---|\n{rows}"
 
 
 def _answers(answers: Node) -> str:
-    good = {status: one for status, one in answers.items() if status < "400"}
+    good = {status: answer for status, answer in answers.items() if status < "400"}
     rows = "".join(
-        f"| {status} | {_cell(one['description'])} | {_content(one)} |\n" for status, one in good.items()
+        f"| {status} | {_cell(kind['description'])} | {_content(kind)} |\n" for status, kind in good.items()
     )
     problems = ", ".join(status for status in answers if status not in good)
     text = f"\n[Problems](problems.md): {problems}.\n" if problems else ""
@@ -89,16 +89,16 @@ def _answers(answers: Node) -> str:
 def _content(answer: Node) -> str:
     kinds = answer.get("content", {})
     return ", ".join(
-        f"{_type(one['schema'])} as `{media}`" if "$ref" in one.get("schema", {}) else f"`{media}`"
-        for media, one in kinds.items()
+        f"{_type(content['schema'])} as `{media}`" if "$ref" in content.get("schema", {}) else f"`{media}`"
+        for media, content in kinds.items()
     )
 
 
 def _document(name: str, schema: Node) -> str:
     needed = set(schema.get("required", ()))
     rows = "".join(
-        f"| `{field}` | {_type(one)} | {'yes' if field in needed else _default(one)} | {_meaning(one)} |\n"
-        for field, one in schema["properties"].items()
+        f"| `{field}` | {_type(kind)} | {'yes' if field in needed else _default(kind)} | {_meaning(kind)} |\n"
+        for field, kind in schema["properties"].items()
     )
     text = _paragraph(schema.get("description", ""))
     return f"\n### {name}\n\n{text}\n\n| field | type | always there | meaning |\n|---|---|---|---|\n{rows}"
@@ -110,18 +110,18 @@ def _default(schema: Node) -> str:
 
 def _meaning(schema: Node) -> str:
     bounds = [
-        words.format(one[bound])
-        for one in _variants(schema)
+        words.format(variant[bound])
+        for variant in _variants(schema)
         for bound, words in _BOUNDS.items()
-        if bound in one
+        if bound in variant
     ]
     return "; ".join([part for part in (_cell(schema.get("description", "")), *bounds) if part])
 
 
 def _variants(schema: Node) -> Iterator[Node]:
     yield schema
-    for one in schema.get("anyOf", ()):
-        yield from _variants(one)
+    for variant in schema.get("anyOf", ()):
+        yield from _variants(variant)
 
 
 def _type(schema: Node) -> str:
@@ -130,9 +130,9 @@ def _type(schema: Node) -> str:
         name = schema["$ref"].rsplit("/", 1)[-1]
         return "any" if name == "JsonValue" else f"[{name}](#{name.lower()})"
     if "anyOf" in schema:
-        return " or ".join(dict.fromkeys(_type(one) for one in schema["anyOf"]))
+        return " or ".join(dict.fromkeys(_type(variant) for variant in schema["anyOf"]))
     if "enum" in schema or "const" in schema:
-        return ", ".join(f"`{one}`" for one in schema.get("enum", [schema.get("const")]))
+        return ", ".join(f"`{value}`" for value in schema.get("enum", [schema.get("const")]))
     if schema.get("type") == "array":
         return f"list of {_type(schema.get('items', {}))}"
     return _object(schema) if schema.get("type") == "object" else str(schema.get("type", "any"))

@@ -139,11 +139,11 @@ class Database:
     def _gathered(self) -> tuple[list[_Unit], bool]:
         """Wait for one unit and take what else waits; tell whether more may come."""
         units = []
-        one = self._waiting.get()
-        while one is not None:
-            units.append(one)
+        unit = self._waiting.get()
+        while unit is not None:
+            units.append(unit)
             try:
-                one = self._waiting.get_nowait() if len(units) < MOST_TOGETHER else _no_more()
+                unit = self._waiting.get_nowait() if len(units) < MOST_TOGETHER else _no_more()
             except Empty:
                 return units, True
         return units, False

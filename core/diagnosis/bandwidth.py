@@ -80,18 +80,17 @@ def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSe
     place = places(~dataset.starts)
     torque = disturbance(dataset, _frictionless(operating_point), spoil)
     shares = []
-    for joint, one in enumerate(noise):
-        white = one.whitened(torque[:, [joint]], place)[dataset.usable[:, joint]]
+    for joint, model in enumerate(noise):
+        white = model.whitened(torque[:, [joint]], place)[dataset.usable[:, joint]]
         shares.append(float(np.sum(white**2)) / max(len(white), 1))
     return torque, np.array(shares)
 
 
 def _frictionless(operating_point: Prediction) -> Prediction:
     """Leave out what jumps with the sign of velocity: there rows stand for themselves."""
-    kept = np.array(
-        [one.symbol in {*INERTIAL_SYMBOLS, "IA", "IAM"} for one in operating_point.model.parameters],
-        dtype=bool,
-    )
+    parameters = operating_point.model.parameters
+    inertial = {*INERTIAL_SYMBOLS, "IA", "IAM"}
+    kept = np.array([parameter.symbol in inertial for parameter in parameters], dtype=bool)
     return Prediction(
         operating_point.model, np.where(kept, operating_point.standard, 0.0), operating_point.newton_euler
     )
@@ -104,7 +103,7 @@ def position_noise(dataset: Dataset, *, over_stamps: bool) -> JointVector:
     """
     found = []
     for motion in dataset.motions:
-        start, stop = max(motion.log.segments, key=lambda one: one[1] - one[0])
+        start, stop = max(motion.log.segments, key=lambda segment: segment[1] - segment[0])
         rows = motion.log.source.rows(start, min(stop, start + _SAMPLES))
         time = rows.time if over_stamps else np.arange(len(rows.time), dtype=float)
         beyond = beyond_cubics(time, rows.position)

@@ -34,11 +34,11 @@ def _diagnosis(found: Extension) -> dict[str, object]:
     listed = repairs(diagnosis)
     return {
         "verdict": diagnosis.verdict,
-        "findings": [finding_row(one) for one in diagnosis.findings],
-        "not_identifiable": [not_identifiable_row(one) for one in diagnosis.not_identifiable],
+        "findings": [finding_row(finding) for finding in diagnosis.findings],
+        "not_identifiable": [not_identifiable_row(cause) for cause in diagnosis.not_identifiable],
         "unexplained": unexplained(diagnosis, least=VERDICT.unexplained_share),
         "reference": None if found.compared is None else _reference(found.compared, found.before),
-        "gain": [_gain(one) for one in found.gains],
+        "gain": [_gain(gain) for gain in found.gains],
         "before": _side(found.before if found.compared is None else found.compared),
         "after": {"validation": [], "base_parameters": []}
         if found.after is None

@@ -15,24 +15,24 @@ def finding_row(finding: Finding) -> dict[str, object]:
         "confidence": finding.confidence,
         "p_value": finding.p_value,
         "cure": finding.cure,
-        "parameters": [_quantity(one) for one in finding.quantities],
+        "parameters": [_quantity(quantity) for quantity in finding.quantities],
         "explained_residual_fraction": finding.explained_fraction,
         "evidence": finding.evidence,
-        "ambiguous_with": [_alternative(one) for one in finding.ambiguous_with],
-        "refuted": [_alternative(one) for one in finding.refuted if _concerns(one, finding)],
+        "ambiguous_with": [_alternative(other) for other in finding.ambiguous_with],
+        "refuted": [_alternative(other) for other in finding.refuted if _concerns(other, finding)],
         "gain": None if finding.gain is None else _gain(finding.gain),
         "curve": None if finding.curve is None else _curve(finding.curve),
     }
 
 
-def not_identifiable_row(one: NotIdentifiable) -> dict[str, object]:
+def not_identifiable_row(cause: NotIdentifiable) -> dict[str, object]:
     """Write a cause that the motion could not have shown."""
     return {
-        "cause": one.cause,
-        "title": title_of(one.cause),
-        "joints": one.joints,
-        "why": one.why,
-        "separating_experiment": one.separating_experiment,
+        "cause": cause.cause,
+        "title": title_of(cause.cause),
+        "joints": cause.joints,
+        "why": cause.why,
+        "separating_experiment": cause.separating_experiment,
     }
 
 
@@ -63,26 +63,26 @@ def _concerns(alternative: Alternative, finding: Finding) -> bool:
     return not alternative.joints or bool(set(alternative.joints) & set(finding.joints))
 
 
-def _quantity(one: Quantity) -> dict[str, object]:
+def _quantity(quantity: Quantity) -> dict[str, object]:
     return {
-        "name": one.name,
-        "joint": one.joint,
-        "unit": one.unit,
-        "value": one.value,
-        "standard_deviation": one.standard_deviation,
-        "relative_deviation_percent": percent_of(one.standard_deviation, one.value),
+        "name": quantity.name,
+        "joint": quantity.joint,
+        "unit": quantity.unit,
+        "value": quantity.value,
+        "standard_deviation": quantity.standard_deviation,
+        "relative_deviation_percent": percent_of(quantity.standard_deviation, quantity.value),
     }
 
 
-def _alternative(one: Alternative) -> dict[str, object]:
-    joints: Site = one.joints
+def _alternative(alternative: Alternative) -> dict[str, object]:
+    joints: Site = alternative.joints
     return {
-        "cause": one.cause,
-        "title": title_of(one.cause),
+        "cause": alternative.cause,
+        "title": title_of(alternative.cause),
         "joints": joints,
-        "statistic": one.statistic,
-        "why": one.why,
-        "separating_experiment": one.separating_experiment,
+        "statistic": alternative.statistic,
+        "why": alternative.why,
+        "separating_experiment": alternative.separating_experiment,
     }
 
 

@@ -111,7 +111,7 @@ class IdentifiedRobot:
         """List the coupled motors of the model."""
         values = self.values
         return tuple(
-            CoupledMotor(one, *(values[f"{symbol}{one.number}"] for symbol in ("IAM", "FVM", "FCM")))
-            for one in self.robot.couplings
-            if f"IAM{one.number}" in values
+            CoupledMotor(motor, *(values[f"{symbol}{motor.number}"] for symbol in ("IAM", "FVM", "FCM")))
+            for motor in self.robot.couplings
+            if f"IAM{motor.number}" in values
         )

@@ -20,13 +20,13 @@ def unexplained(diagnosis: Diagnosis, *, least: float) -> dict[str, object]:
         Lower end of the predictable share's interval above which a joint is listed under `joints`.
     """
     predictable, floor, unnamed = diagnosis.predictable, diagnosis.atlas.floor, diagnosis.unnamed_pattern
-    predicted = {one.joint for one in predictable if one.interval[0] > least}
+    predicted = {joint.joint for joint in predictable if joint.interval[0] > least}
     return {
         "joints": sorted(predicted | ({unnamed.joint} if unnamed else set())),
         "pattern": unnamed and _pattern(unnamed),
         "predictable_residual_fraction": list(map(attrgetter("share"), predictable)),
         "interval_95": list(map(attrgetter("interval"), predictable)),
-        "at_rest_fraction": [None if np.isnan(one) else float(one) for one in diagnosis.at_rest],
+        "at_rest_fraction": [None if np.isnan(share) else float(share) for share in diagnosis.at_rest],
         "rms_residual": list(map(attrgetter("rms"), predictable)),
         "places": list(map(attrgetter("places"), predictable)),
         "noise_floor": floor.rms,
@@ -49,18 +49,18 @@ def dependence_rows(atlas: Atlas) -> list[dict[str, object]]:
     """Tabulate the residual over every coordinate of every joint."""
     return [
         {
-            "coordinate": one.coordinate,
-            "joint": one.joint,
-            "unit": one.unit,
-            "centre": _short(one.centre),
-            "mean": _short(one.mean),
-            "standard_error": _short(one.standard_error),
-            "count": one.count,
-            "statistic": one.statistic,
-            "degrees_of_freedom": one.degrees_of_freedom,
-            "p_value": one.p_value,
+            "coordinate": dependence.coordinate,
+            "joint": dependence.joint,
+            "unit": dependence.unit,
+            "centre": _short(dependence.centre),
+            "mean": _short(dependence.mean),
+            "standard_error": _short(dependence.standard_error),
+            "count": dependence.count,
+            "statistic": dependence.statistic,
+            "degrees_of_freedom": dependence.degrees_of_freedom,
+            "p_value": dependence.p_value,
         }
-        for one in atlas.dependences
+        for dependence in atlas.dependences
     ]
 
 
@@ -68,12 +68,12 @@ def spectrum_rows(atlas: Atlas) -> list[dict[str, object]]:
     """Tabulate power densities of residual and noise floor, (N m)^2/Hz, over frequency."""
     return [
         {
-            "joint": one.joint,
-            "frequency_hz": _short(one.frequency_hz),
-            "density": _short(one.density),
-            "floor": _short(one.floor),
+            "joint": spectrum.joint,
+            "frequency_hz": _short(spectrum.frequency_hz),
+            "density": _short(spectrum.density),
+            "floor": _short(spectrum.floor),
         }
-        for one in atlas.spectra
+        for spectrum in atlas.spectra
     ]
 
 

@@ -18,6 +18,6 @@ def read_repairs(document: Mapping[str, Any]) -> tuple[Repair, ...]:
     """Read the repairs that the result document of a diagnosis lists; none where it is of another kind."""
     listed = (document.get("diagnosis") or {}).get("repairs", ())
     return tuple(
-        Repair(one["cause"], tuple(one["joints"]), one["mends"], one["what"], one["numbers"])
-        for one in listed
+        Repair(entry["cause"], tuple(entry["joints"]), entry["mends"], entry["what"], entry["numbers"])
+        for entry in listed
     )

@@ -115,7 +115,7 @@ def _advance(
     speed = link.ratio * state.velocity[:, link.joint - 1, None] * _Z
     speed_rate = link.ratio * state.acceleration[:, link.joint - 1, None] * _Z
     carried = acceleration + np.cross(spin_rate, shift) + np.cross(spin, np.cross(spin, shift))
-    spin, spin_rate, carried = (np.einsum("sij,si->sj", rotation, one) for one in (spin, spin_rate, carried))
+    spin, spin_rate, carried = (np.einsum("sij,si->sj", rotation, v) for v in (spin, spin_rate, carried))
     if link.kind == "revolute":
         return spin + speed, spin_rate + speed_rate + np.cross(spin, speed), carried
     return spin, spin_rate, carried + speed_rate + 2.0 * np.cross(spin, speed)

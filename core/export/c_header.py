@@ -58,7 +58,7 @@ def c_name(text: str) -> str:
 
 
 def _comment(sentences: Iterable[str]) -> str:
-    lines = [line for one in sentences for line in textwrap.wrap(one, WIDTH)]
+    lines = [line for sentence in sentences for line in textwrap.wrap(sentence, WIDTH)]
     return "/* " + "\n   ".join(lines).replace("*/", "* /").replace("/*", "/ *") + " */"
 
 
@@ -81,7 +81,7 @@ def _joints(identified: IdentifiedRobot) -> list[str]:
     drives = [identified.of_joints(symbol) for symbol in ("IA", "FV", "FC", "OFF")]
     widths = _widths(identified, Coulomb, count)
     return [
-        f"{_text(joint.name)}, " + ", ".join(repr(float(one)) for one in numbers)
+        f"{_text(joint.name)}, " + ", ".join(repr(float(number)) for number in numbers)
         for joint, numbers in zip(identified.robot.joints, zip(*drives, widths, strict=True), strict=True)
     ]
 
@@ -123,7 +123,7 @@ def _array(kind: str, name: str, rows: Iterable[str]) -> str:
 
 
 def _row(values: np.ndarray) -> str:
-    return "{" + ", ".join(repr(float(one) + 0.0) for one in values) + "}"
+    return "{" + ", ".join(repr(float(value) + 0.0) for value in values) + "}"
 
 
 def _text(value: str) -> str:

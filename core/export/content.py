@@ -45,7 +45,7 @@ def content(identified: IdentifiedRobot) -> dict[str, object]:
             *smoothing(identified),
         ],
         "robot": robot.name,
-        "gravity": [float(one) for one in robot.gravity],
+        "gravity": [float(value) for value in robot.gravity],
         "links": [_link(number, link, values) for number, link in enumerate(robot.links, start=1)],
         "joints": [
             {"number": number, "name": joint.name}
@@ -74,7 +74,7 @@ def content(identified: IdentifiedRobot) -> dict[str, object]:
             }
             for parameter, known in zip(identified.model.parameters, identified.identifiable, strict=True)
         ],
-        "base_parameters": [vars(one) for one in identified.base],
+        "base_parameters": [vars(parameter) for parameter in identified.base],
     }
 
 
@@ -86,8 +86,8 @@ def _link(number: int, link: Link, values: Mapping[str, float]) -> Row:
         "kind": link.kind,
         "antecedent": link.antecedent,
         "joint": link.joint,
-        "rotation": [[float(one) for one in line] for line in link.rotation],
-        "translation": [float(one) for one in link.translation],
+        "rotation": [[float(value) for value in line] for line in link.rotation],
+        "translation": [float(value) for value in link.translation],
         "ratio": link.ratio,
         "offset": link.offset,
     } | {symbol: values[name] for name, symbol in symbols.items() if name in values}

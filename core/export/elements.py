@@ -25,7 +25,7 @@ def text_of(value: object) -> str:
     '0.1 0.0 1e-05'
     """
     if isinstance(value, np.ndarray):
-        return " ".join(text_of(one) for one in value.ravel())
+        return " ".join(text_of(entry) for entry in value.ravel())
     if isinstance(value, float | np.floating):
         return repr(float(value) + 0.0)  # a zero without a sign
     return str(value)
@@ -34,8 +34,8 @@ def text_of(value: object) -> str:
 def comment(parent: ET.Element, sentences: Iterable[str]) -> None:
     """Add a comment of wrapped sentences, one paragraph each; two hyphens, which XML forbids, are parted."""
     paragraphs = (
-        textwrap.fill(one, WIDTH, initial_indent="  ", subsequent_indent="    ", break_long_words=False)
-        for one in sentences
+        textwrap.fill(sentence, WIDTH, initial_indent="  ", subsequent_indent="    ", break_long_words=False)
+        for sentence in sentences
     )
     text = "\n".join(paragraphs).replace("--", "- -").replace("--", "- -")
     parent.append(ET.Comment(f"\n{text}\n"))

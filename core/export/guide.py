@@ -59,7 +59,7 @@ def guide() -> str:
     )
     units = "".join(_unit(channel, unit) for channel in CHANNELS.values() for unit in channel.quantity.units)
     profiles = "".join(_profile(name) for name in PROFILES)
-    files = "".join(f"| `{name}` | `{one.media_type}` | {one.title} |\n" for name, one in FORMATS.items())
+    files = "".join(f"| `{name}` | `{own.media_type}` | {own.title} |\n" for name, own in FORMATS.items())
     return f"{OPENING}{forms}{UNITS_OPENING}{units}{PROFILES_OPENING}{profiles}{FILES_OPENING}{files}"
 
 

@@ -30,7 +30,7 @@ def write_matlab(identified: IdentifiedRobot) -> bytes:
 
 
 def _texts(value: object) -> list[str]:
-    return [str(one) for one in value] if isinstance(value, list) else []
+    return [str(entry) for entry in value] if isinstance(value, list) else []
 
 
 def _value(value: object) -> object:
@@ -46,8 +46,8 @@ def _value(value: object) -> object:
 
 def _struct_array(rows: list[Row]) -> np.ndarray:
     found = np.empty(len(rows), dtype=[(name, object) for name in rows[0]])
-    for place, row in enumerate(rows):
-        found[place] = tuple(_number(_value(one)) for one in row.values())
+    for index, row in enumerate(rows):
+        found[index] = tuple(_number(_value(entry)) for entry in row.values())
     return found
 
 

@@ -108,9 +108,9 @@ def _write_mimics(root: ET.Element, placed: Sequence[Mover]) -> None:
     if not followers:
         return
     equality = child(root, "equality")
-    for name, one in followers:
-        polynomial = np.array([one.offset, one.ratio, 0.0, 0.0, 0.0])
-        child(equality, "joint", joint1=name, joint2=one.master, polycoef=polynomial)
+    for name, follower in followers:
+        polynomial = np.array([follower.offset, follower.ratio, 0.0, 0.0, 0.0])
+        child(equality, "joint", joint1=name, joint2=follower.master, polycoef=polynomial)
 
 
 def _write_actuators(root: ET.Element, placed: Sequence[Mover], identified: IdentifiedRobot) -> None:

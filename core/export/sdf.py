@@ -147,9 +147,9 @@ def _write_joint(model: ET.Element, mover: Mover, parent: str, drive: Vector3 | 
         child(joint, "drake:rotor_inertia").text = text_of(drive[2])
         child(joint, "drake:gear_ratio").text = text_of(1.0)
     if mover.following is not None:
-        one = mover.following
-        mimic = child(axis, "mimic", joint=one.master)
-        child(mimic, "multiplier").text = text_of(one.ratio)
-        child(mimic, "offset").text = text_of(one.offset)
+        follower = mover.following
+        mimic = child(axis, "mimic", joint=follower.master)
+        child(mimic, "multiplier").text = text_of(follower.ratio)
+        child(mimic, "offset").text = text_of(follower.offset)
         child(mimic, "reference").text = text_of(0.0)
-        child(joint, "drake:mimic", joint=one.master, multiplier=one.ratio, offset=one.offset)
+        child(joint, "drake:mimic", joint=follower.master, multiplier=follower.ratio, offset=follower.offset)

@@ -112,6 +112,6 @@ def _write_joint(root: ET.Element, mover: Mover, parent: str) -> ET.Element:
         velocity=UNLIMITED if limits.velocity is None else limits.velocity,
     )
     if mover.following is not None:
-        one = mover.following
-        child(joint, "mimic", joint=one.master, multiplier=one.ratio, offset=one.offset)
+        follower = mover.following
+        child(joint, "mimic", joint=follower.master, multiplier=follower.ratio, offset=follower.offset)
     return joint

@@ -140,7 +140,7 @@ def _header(identified: IdentifiedRobot) -> str:
 
 def _inner(part: ET.Element) -> str:
     """Write what an element holds."""
-    return "\n  " + "".join(ET.tostring(one, encoding="unicode") for one in part).strip() + "\n  "
+    return "\n  " + "".join(ET.tostring(child, encoding="unicode") for child in part).strip() + "\n  "
 
 
 def _remark(sentence: str) -> str:

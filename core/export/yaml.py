@@ -18,10 +18,10 @@ WIDTH = 110
 
 def write_yaml(identified: IdentifiedRobot) -> str:
     """Write the parameters as YAML, with what they are in a comment."""
-    lines = [f"# {line}" for one in caveats(identified) for line in textwrap.wrap(one, WIDTH)]
+    lines = [f"# {line}" for caveat in caveats(identified) for line in textwrap.wrap(caveat, WIDTH)]
     for name, value in content(identified).items():
         if isinstance(value, list) and value and not isinstance(value[0], float):
-            lines += [f"{name}:", *(f"  - {_flow(one)}" for one in value)]
+            lines += [f"{name}:", *(f"  - {_flow(entry)}" for entry in value)]
         else:
             lines.append(f"{name}: {_flow(value)}")
     return "\n".join(lines) + "\n"
@@ -36,7 +36,7 @@ def _flow(value: object) -> str:
     '{"name": "OFF1", "value": 1.0e-05, "joints": [1, 2]}'
     """
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f'"{name}": {_flow(one)}' for name, one in value.items()) + "}"
+        return "{" + ", ".join(f'"{name}": {_flow(entry)}' for name, entry in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(map(_flow, value)) + "]"
     if isinstance(value, float):

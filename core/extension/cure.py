@@ -22,10 +22,10 @@ def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
 
 
 def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
-    for one in diagnosis.findings:
-        if one.member is not None and enters(one):
-            member, at = one.member, diagnosis.operating_point
-            yield one, member.cause.term(diagnosis.dataset, at, member.site, member.scalars)
+    for finding in diagnosis.findings:
+        if finding.member is not None and enters(finding):
+            member, at = finding.member, diagnosis.operating_point
+            yield finding, member.cause.term(diagnosis.dataset, at, member.site, member.scalars)
 
 
 def enters(finding: Finding) -> bool:
@@ -36,9 +36,9 @@ def enters(finding: Finding) -> bool:
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:
     """Give, by name, what counts as one unit of deviation of the parameters that enter the model."""
     return {
-        f"{one.name}{one.joint}": 10.0 * abs(one.value)
+        f"{quantity.name}{quantity.joint}": 10.0 * abs(quantity.value)
         for finding in diagnosis.findings
-        for one in finding.quantities
+        for quantity in finding.quantities
     }
 
 
@@ -56,17 +56,17 @@ def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
 
 def all_proven(diagnosis: Diagnosis) -> Diagnosis:
     """Give the diagnosis with every finding verified, so that all of them enter."""
-    return replace(diagnosis, findings=tuple(replace(one, proven=True) for one in diagnosis.findings))
+    return replace(diagnosis, findings=tuple(replace(finding, proven=True) for finding in diagnosis.findings))
 
 
 def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
     """Give the places of an extended model's base parameters in the model with all findings."""
     places = list(range(len(base.kept)))
-    members = (one for one in diagnosis.findings if one.member is not None)
+    members = (finding for finding in diagnosis.findings if finding.member is not None)
     stop = len(places)
-    for one, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
+    for finding, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
         start, stop = stop, stop + len(term.parameters(base.model.robot))
-        if enters(one):
+        if enters(finding):
             places += range(start, stop)
     return np.array(places)
 
@@ -74,8 +74,8 @@ def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
 def taken_along(diagnosis: Diagnosis) -> str:
     """Say which findings are inputs to a simulation of the extended model, and how; nothing where none is."""
     joined = list(_joining(diagnosis))
-    past = [_called(one) for one, term in joined if term.remembers and not term.channel]
-    channel = [_called(one) for one, term in joined if term.channel]
+    past = [_called(finding) for finding, term in joined if term.remembers and not term.channel]
+    channel = [_called(finding) for finding, term in joined if term.channel]
     parts = [f"the torque of {' and '.join(past)} is the one along the measured motion"] if past else []
     if channel:
         parts.append(

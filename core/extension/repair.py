@@ -46,10 +46,10 @@ def repairs(diagnosis: Diagnosis) -> tuple[Repair, ...]:
 
 def repaired_robot(robot: RobotModel, repairs: Iterable[Repair]) -> RobotModel:
     """Correct a robot's description by all repairs that are of it."""
-    for one in repairs:
-        cause: object = BY_ID.get(one.cause)
-        if one.mends == "robot" and isinstance(cause, CorrectsRobot):
-            robot = cause.corrected_robot(robot, one.joints, one.numbers)
+    for repair in repairs:
+        cause: object = BY_ID.get(repair.cause)
+        if repair.mends == "robot" and isinstance(cause, CorrectsRobot):
+            robot = cause.corrected_robot(robot, repair.joints, repair.numbers)
     return robot
 
 

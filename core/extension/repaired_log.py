@@ -48,7 +48,7 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
     corrections = _in_order(repairs)
     if not corrections:
         return log
-    reach = sum(int(np.ceil(cause.reach(one.numbers) * log.rate_hz)) for one, cause in corrections)
+    reach = sum(int(np.ceil(cause.reach(repair.numbers) * log.rate_hz)) for repair, cause in corrections)
     source = RepairedSource(log, effort_scale(log, robot), corrections, reach)
     inner = tuple((start + reach, stop - reach) for start, stop in log.segments if stop - start > 2 * reach)
     if not inner:
@@ -66,10 +66,11 @@ def _in_order(repairs: Iterable[Repair]) -> tuple[tuple[Repair, CorrectsLog], ..
     The catalogue has a channel's scale before its zero and both before their lateness: the last goes first.
     """
     causes: Mapping[str, object] = BY_ID
-    place = {name: -number for number, name in enumerate(BY_ID)}
-    chosen = sorted((one for one in repairs if one.mends == "log"), key=lambda one: place.get(one.cause, 0))
-    known = [(one, causes.get(one.cause)) for one in chosen]
-    return tuple((one, cause) for one, cause in known if isinstance(cause, CorrectsLog))
+    rank = {name: -number for number, name in enumerate(BY_ID)}
+    chosen = [repair for repair in repairs if repair.mends == "log"]
+    chosen.sort(key=lambda repair: rank.get(repair.cause, 0))
+    known = [(repair, causes.get(repair.cause)) for repair in chosen]
+    return tuple((repair, cause) for repair, cause in known if isinstance(cause, CorrectsLog))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +93,7 @@ class RepairedSource:
         """Read and correct the rows from start up to, not including, stop."""
         low, high = max(0, start - self.reach - NEIGHBOURS), min(self.samples, stop + self.reach + NEIGHBOURS)
         read = self.log.source.rows(low, high)
-        borders = {border - low for one in self.log.segments for border in one if low < border < high}
+        borders = {border - low for segment in self.log.segments for border in segment if low < border < high}
         cuts = sorted({0, high - low} | borders)
         parts = [self._mended(rows_at(read, slice(*cut))) for cut in pairwise(cuts)]
         return rows_at(_joined(parts), slice(start - low, stop - low))
@@ -103,8 +104,8 @@ class RepairedSource:
         if np.count_nonzero(fresh) < FEWEST:
             return rows
         corrected = self._with_torque(rows_at(rows, fresh))
-        for one, cause in self.corrections:
-            corrected = cause.corrected_rows(corrected, one.joints, one.numbers)
+        for repair, cause in self.corrections:
+            corrected = cause.corrected_rows(corrected, repair.joints, repair.numbers)
         held = rows_at(self._with_channel(corrected, rows), np.cumsum(fresh) - 1)
         return replace(held, time=rows.time)
 
@@ -121,5 +122,5 @@ class RepairedSource:
 
 
 def _joined(parts: list[LogRows]) -> LogRows:
-    channels = {one.name: [getattr(part, one.name) for part in parts] for one in fields(LogRows)}
-    return LogRows(**{name: np.concatenate(one) for name, one in channels.items() if one[0] is not None})
+    channels = {field.name: [getattr(part, field.name) for part in parts] for field in fields(LogRows)}
+    return LogRows(**{name: np.concatenate(own) for name, own in channels.items() if own[0] is not None})

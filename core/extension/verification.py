@@ -54,15 +54,15 @@ def verify(
 
 def _shown(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:
     """Give the evidence per joint that is predicted better; none where the others lose as much."""
-    if sum(one.improvement_percent for one in found) <= 0.0:
+    if sum(gain.improvement_percent for gain in found) <= 0.0:
         return ()
     return tuple(
         Evidence(
-            f"Reduction of the error of joint {one.joint} on held-out motion, in percent, when the robot is "
-            f"identified with it; 95 % interval {one.interval_95[0]:.1f} to {one.interval_95[1]:.1f}",
+            f"Reduction of the error of joint {gain.joint} on held-out motion, in percent, when the robot is "
+            f"identified with it; 95 % interval {gain.interval_95[0]:.1f} to {gain.interval_95[1]:.1f}",
             "gain identified",
-            one.improvement_percent,
+            gain.improvement_percent,
         )
-        for one in found
-        if one.joint in finding.joints and one.interval_95 is not None and one.interval_95[0] > 0.0
+        for gain in found
+        if gain.joint in finding.joints and gain.interval_95 is not None and gain.interval_95[0] > 0.0
     )

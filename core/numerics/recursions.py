@@ -111,8 +111,8 @@ def _new_of(row, known, columns, weights) -> np.ndarray:
     """Give what is new in one row of columns, of which so many rows before it are not zero."""
     new = np.zeros(columns.shape[1])
     for lag in range(known + 1):
-        for one in range(len(new)):
-            new[one] += weights[lag] * columns[row - lag, one]
+        for column in range(len(new)):
+            new[column] += weights[lag] * columns[row - lag, column]
     return new
 
 
@@ -123,17 +123,17 @@ def _add_row(row, known, rows, sums, products) -> None:
     right, squares, grams, cross = sums
     white = _new_of(row, known, columns, weights[min(place[row], len(weights) - 1)])
     width = len(white)
-    for one in range(width):
-        right[one] += left[row] * white[one]
-        squares[one] += white[one] * white[one]
+    for tested in range(width):
+        right[tested] += left[row] * white[tested]
+        squares[tested] += white[tested] * white[tested]
         for other in range(width):
-            grams[one, other] += white[one] * white[other]
+            grams[tested, other] += white[tested] * white[other]
     for column in range(fitted.shape[1]):
-        for one in range(width):
-            cross[column, one] += fitted[row, column] * white[one]
+        for tested in range(width):
+            cross[column, tested] += fitted[row, column] * white[tested]
     for at in range(begins[row], begins[row + 1]):
-        for one in range(width):
-            products[loose[at], one] += sizes[at] * white[one]
+        for tested in range(width):
+            products[loose[at], tested] += sizes[at] * white[tested]
 
 
 @njit(**_PART)
@@ -141,11 +141,11 @@ def _solve(products, factor, low, high) -> None:
     """Turn products with some loose columns into products with orthonormal ones that span the same."""
     width = products.shape[1]
     for column in range(low, high):
-        for one in range(width):
-            products[column, one] /= factor[column, 0]
+        for tested in range(width):
+            products[column, tested] /= factor[column, 0]
         for beyond in range(1, min(factor.shape[1], high - column)):
-            for one in range(width):
-                products[column + beyond, one] -= factor[column, beyond] * products[column, one]
+            for tested in range(width):
+                products[column + beyond, tested] -= factor[column, beyond] * products[column, tested]
 
 
 @njit(**_PART)
@@ -154,23 +154,23 @@ def _take_spanned(sums, products, inside, low, high) -> None:
     _, _, grams, cross = sums
     width = products.shape[1]
     for column in range(low, high):
-        for one in range(width):
+        for tested in range(width):
             for other in range(width):
-                grams[one, other] -= products[column, one] * products[column, other]
+                grams[tested, other] -= products[column, tested] * products[column, other]
         for fitted in range(inside.shape[1]):
-            for one in range(width):
-                cross[fitted, one] -= inside[column, fitted] * products[column, one]
+            for tested in range(width):
+                cross[fitted, tested] -= inside[column, fitted] * products[column, tested]
 
 
 @njit(**_PART)
 def _copy_sums(sums, own) -> None:
     """Write sums over rows into a table's places for them; numba compiles loops sooner than slices."""
-    for one in range(len(sums[0])):
-        own[0][one], own[1][one] = sums[0][one], sums[1][one]
+    for tested in range(len(sums[0])):
+        own[0][tested], own[1][tested] = sums[0][tested], sums[1][tested]
         for other in range(len(sums[0])):
-            own[2][one, other] = sums[2][one, other]
+            own[2][tested, other] = sums[2][tested, other]
         for fitted in range(len(sums[3])):
-            own[3][fitted, one] = sums[3][fitted, one]
+            own[3][fitted, tested] = sums[3][fitted, tested]
 
 
 @njit(**_PART)
@@ -249,8 +249,8 @@ def sum_begun(rows, factor, inside, first, products) -> None:  # pragma: no cove
         own = (products[0][number], products[1][number], products[2][number], products[3][number])
         _copy_sums(sums, own)
         for column in range(low, high):
-            for one in range(width):
-                parts[column, one] = seen[column, one]
+            for tested in range(width):
+                parts[column, tested] = seen[column, tested]
         for row in range(begin, summed):
             _add_row(row, min(rows[1][row], most, row - begin), rows, own, parts)
         _solve(parts, factor, low, high)

@@ -73,7 +73,7 @@ def condition(
         )
     recipe = choose_recipe(log, options or FilterOptions())
     segments = tuple(
-        segment for segment in (gap_free(log, recipe, *one) for one in log.segments) if segment is not None
+        segment for segment in (gap_free(log, recipe, *span) for span in log.segments) if segment is not None
     )
     if not segments:
         raise LogError(

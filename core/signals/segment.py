@@ -160,9 +160,9 @@ class Segment:
     def _silent(self) -> np.ndarray:
         """Mark the joints whose torque was not measured, though other joints' was."""
         silent = np.zeros(self.log.joints, dtype=bool)
-        for one in self.log.defects:
-            if one.kind == "missing_torque" and one.joint is not None:
-                silent[one.joint - 1] = True
+        for defect in self.log.defects:
+            if defect.kind == "missing_torque" and defect.joint is not None:
+                silent[defect.joint - 1] = True
         return silent
 
 

@@ -43,7 +43,7 @@ def check_different(names: Sequence[str], hashes: Sequence[str]) -> None:
     LogError
         If two logs hold the same bytes.
     """
-    known = [one for one in hashes if one]
+    known = [digest for digest in hashes if digest]
     if len(set(known)) < len(known):
         raise LogError(
             "the same log is given more than once, and would count as independent data",

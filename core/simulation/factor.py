@@ -25,10 +25,10 @@ def less(out, row, table, other, factor, count) -> None:
 
 
 @njit(**INLINE)
-def less_product(out, row, one, left, other, right, count) -> None:
+def less_product(out, row, table, left, other, right, count) -> None:
     """Subtract the product of two rows."""
     for s in range(count):
-        out[row, s] -= one[left, s] * other[right, s]
+        out[row, s] -= table[left, s] * other[right, s]
 
 
 @njit(**INLINE)

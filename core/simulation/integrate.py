@@ -155,7 +155,7 @@ class Integrator:
     def _cut(self, before: States, stride: Stride, share: np.ndarray) -> States:
         """Step up to the first reversal and put what reverses there to rest."""
         at, slope = self._heun(before, replace(stride, to_go=share * stride.to_go))
-        begin, end = (np.abs(self.mechanism.weights @ one.velocity) for one in (before, at))
+        begin, end = (np.abs(self.mechanism.weights @ state.velocity) for state in (before, at))
         moving = before.direction != 0.0
         scale = begin + np.abs(self.mechanism.weights @ slope) * (self.drive.step * stride.to_go)
         nearest = np.where(moving, end / np.maximum(scale, np.finfo(float).tiny), np.inf)
@@ -190,7 +190,7 @@ def _check(states: States) -> None:
     speed = np.abs(states.velocity)
     if speed.max(initial=0.0) <= FASTEST:  # nan is not
         return
-    joint, lane = (int(one) for one in np.argwhere(~(speed <= FASTEST))[0])
+    joint, lane = (int(number) for number in np.argwhere(~(speed <= FASTEST))[0])
     singular = np.isnan(speed[joint, lane])
     raise SolverError(
         "the simulated robot cannot be accelerated: its mass matrix is not positive definite"

@@ -22,7 +22,7 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
         Ten inertial parameters per link about its frame's origin (kg m2, kg m, kg).
     """
     torque = np.empty((len(robot.joints), len(state.position)))
-    motion = (columns(one) for one in (state.position, state.velocity, state.acceleration))
+    motion = (columns(series) for series in (state.position, state.velocity, state.acceleration))
     forward.torques(bodies_of(robot, links), *motion, torque)
     return np.ascontiguousarray(torque.T)
 

@@ -86,7 +86,7 @@ class Mechanism:
     def torque(self, state: MotionState) -> JointSeries:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""
         moved = np.empty((self.joints, len(state.position)))
-        tables = (columns(one) for one in (state.position, state.velocity, state.acceleration))
+        tables = (columns(series) for series in (state.position, state.velocity, state.acceleration))
         parts = self.model.split(self.parameters)
         links = sum(
             (values.reshape(-1, 10) for term, values in parts if isinstance(term, RigidBody)),
@@ -184,6 +184,6 @@ def _check_levels(levels: np.ndarray) -> None:
     if (levels < 0.0).any():
         raise OptionError(
             "a negative Coulomb friction cannot be simulated: it would drive a joint at rest both ways",
-            evidence={"levels": [float(one) for one in levels]},
+            evidence={"levels": [float(level) for level in levels]},
             remedy="estimate with the semidefinite programme, which keeps friction physical",
         )

@@ -37,7 +37,7 @@ class MultiStepOptions:
 
     def __post_init__(self) -> None:
         """Refuse horizons that are none."""
-        rising = all(one < other for one, other in zip(self.horizons, self.horizons[1:], strict=False))
+        rising = all(early < late for early, late in zip(self.horizons, self.horizons[1:], strict=False))
         good = self.horizons and self.horizons[0] > 0.0 and rising and self.horizons[-1] <= 10.0
         if not good or self.every <= 0.0 or not 1e-6 <= self.longest_step <= 0.1:
             raise OptionError(
@@ -118,7 +118,7 @@ def predict_motion(
             found.append(_errors(mechanism, group, slice(start, start + _AT_ONCE), asked))
             if progress is not None:
                 progress(min(1.0, (start + _AT_ONCE) / len(group.keys)))
-    position, velocity, still = (np.concatenate([one[place] for one in found]) for place in range(3))
+    position, velocity, still = (np.concatenate([part[place] for part in found]) for place in range(3))
     return MultiStep(asked.horizons, tuple(keys), np.concatenate(begins), position, velocity, still)
 
 
@@ -140,7 +140,7 @@ class Comparison:
     def total_gain_percent(self) -> JointVector:
         """Give the same per joint over all horizons, each weighed by its inverse square."""
         weights = np.array(self.before.horizons) ** -2.0
-        old, new = (np.sqrt(weights @ one.position_rms**2) for one in (self.before, self.after))
+        old, new = (np.sqrt(weights @ errors.position_rms**2) for errors in (self.before, self.after))
         return np.asarray(100.0 * np.divide(old - new, old, out=np.zeros_like(old), where=old > 0.0))
 
 
@@ -164,7 +164,7 @@ def _errors(
 ) -> tuple[np.ndarray, ...]:
     lanes = np.arange(len(group.keys))[part]
     torque, position, velocity = (
-        np.take(one, lanes, axis=2) for one in (group.torque, group.position, group.velocity)
+        np.take(series, lanes, axis=2) for series in (group.torque, group.position, group.velocity)
     )
     start = States.starting(mechanism, group.start).chosen(lanes)
     drive = Drive(group.step, torque)
@@ -172,7 +172,7 @@ def _errors(
     at = np.rint(np.array(asked.horizons) / group.step).astype(int)
     kept = position[0] + (at * group.step)[:, None, None] * velocity[0]
     errors = (moved.position[at] - position[at], moved.velocity[at] - velocity[at], kept - position[at])
-    return tuple(one.transpose(2, 0, 1) for one in errors)
+    return tuple(error.transpose(2, 0, 1) for error in errors)
 
 
 def _rms(errors: np.ndarray) -> Matrix:

@@ -112,7 +112,7 @@ def fitted_gains(
         if rank < 2 or (found < 0.0).any():
             raise OptionError(
                 "the joint's gains cannot be fitted",
-                evidence={"joint": joint + 1, "rank": int(rank), "fitted": [float(one) for one in found]},
+                evidence={"joint": joint + 1, "rank": int(rank), "fitted": [float(gain) for gain in found]},
                 remedy="declare the gains, or give the reference that the controller tracked",
             )
         pairs.append(found)
@@ -145,7 +145,7 @@ def replay(
             remedy="choose blocks that the logs have",
         )
     if gains is None:
-        positions = np.vstack([one.state.position[:: one.every] for one in measured])
+        positions = np.vstack([stretch.state.position[:: stretch.every] for stretch in measured])
         gains = default_gains(mechanism, positions, asked.bandwidth_hz)
     blocks: list[Replayed] = []
     while len(blocks) < len(measured):
@@ -213,5 +213,5 @@ def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> 
 
 
 def _padded(series: list[JointSeries], longest: int) -> np.ndarray:
-    padded = [np.pad(one, ((0, longest - len(one)), (0, 0)), mode="edge") for one in series]
+    padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0)), mode="edge") for rows in series]
     return np.ascontiguousarray(np.stack(padded, axis=2))

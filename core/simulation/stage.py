@@ -197,8 +197,8 @@ def drag_of(mechanism: Mechanism, states: States) -> np.ndarray:
     if not mechanism.others.names:
         return np.zeros(mechanism.joints)
     step = SLIGHTLY * np.where(states.velocity < 0.0, -1.0, 1.0)
-    one, two = (_evaluated(mechanism, states, states.velocity + count * step) for count in (1.0, 2.0))
-    return np.asarray(np.maximum((two - one) / step, 0.0).max(axis=1, initial=0.0))
+    slower, faster = (_evaluated(mechanism, states, states.velocity + count * step) for count in (1.0, 2.0))
+    return np.asarray(np.maximum((faster - slower) / step, 0.0).max(axis=1, initial=0.0))
 
 
 def _evaluated(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:

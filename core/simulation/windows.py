@@ -131,7 +131,7 @@ def _usable_part(key: BlockKey, run: list[Tile]) -> Iterator[Stretch]:
         return
     around, torque = _together(run)
     # in between, only ends of a log could be unusable
-    first, last = (run[0].first + every * int(one) for one in np.flatnonzero(usable)[[0, -1]])
+    first, last = (run[0].first + every * int(index) for index in np.flatnonzero(usable)[[0, -1]])
     torque = torque[first : last + 1]
     # what the filters spoil at a log's ends is no motion
     begin = 0 if usable[0] else first
@@ -163,8 +163,8 @@ def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Win
         return None
     rows = begins[None, :] + np.arange(length + 1)[:, None]
     position, velocity, torque = (
-        np.ascontiguousarray(one[rows].transpose(0, 2, 1))
-        for one in (stretch.state.position, stretch.state.velocity, drive(stretch))
+        np.ascontiguousarray(series[rows].transpose(0, 2, 1))
+        for series in (stretch.state.position, stretch.state.velocity, drive(stretch))
     )
     keys = (stretch.key,) * len(begins)
     start = stretch.state.at(begins)
@@ -173,11 +173,11 @@ def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Win
 
 def _beside(pile: list[Windows]) -> Windows:
     """Put windows of one clock side by side."""
-    begins = np.concatenate([one.begins for one in pile])
-    start = concatenate_states([one.start for one in pile])
+    begins = np.concatenate([windows.begins for windows in pile])
+    start = concatenate_states([windows.start for windows in pile])
     position, velocity, torque = (
-        np.concatenate([getattr(one, name) for one in pile], axis=2)
+        np.concatenate([getattr(windows, name) for windows in pile], axis=2)
         for name in ("position", "velocity", "torque")
     )
-    keys = tuple(key for one in pile for key in one.keys)
+    keys = tuple(key for windows in pile for key in windows.keys)
     return Windows(pile[0].step, begins, keys, start, position, velocity, torque)

@@ -40,7 +40,8 @@ def print_diagnosis(console: Console, result: Document) -> None:
 
 def headline(result: Document) -> str:
     """Give the result in one sentence."""
-    found, name = len({one["cause"] for one in result["diagnosis"]["findings"]}), result["robot"]["name"]
+    findings, name = result["diagnosis"]["findings"], result["robot"]["name"]
+    found = len({finding["cause"] for finding in findings})
     if not found:
         return f"No cause of simulation error found for {name} in this log."
     return f"{found} cause{'s' if found > 1 else ''} of simulation error found for {name}."
@@ -89,7 +90,7 @@ def gain_columns(result: Document) -> list[Column]:
         effort_column(result, "before", rows, "rms_residual_before", spare=2),
         effort_column(result, "after", rows, "rms_residual_after", spare=1),
         Column("torque improvement, %", [percent(row["improvement_percent"]) for row in rows]),
-        Column("95 %", ["" if one is None else f"{one[0]:.1f} to {one[1]:.1f}" for one in ends], spare=3),
+        Column("95 %", ["" if span is None else f"{span[0]:.1f} to {span[1]:.1f}" for span in ends], spare=3),
         Column("motion improvement, %", [percent(moved[row["joint"] - 1]) if moved else "" for row in rows]),
     ]
 
@@ -106,7 +107,7 @@ def evaluation_note(result: Document) -> str:
     simulated = result["diagnosis"]["simulation"]
     if not simulated["before"]:
         return f"torque up to {bands} Hz; motion not compared: {simulated['note']}"
-    times = ", ".join(f"{1000.0 * one:.0f}" for one in simulated["before"]["horizons_s"])
+    times = ", ".join(f"{1000.0 * horizon:.0f}" for horizon in simulated["before"]["horizons_s"])
     return f"torque up to {bands} Hz; simulated motion over {times} ms"
 
 

@@ -59,7 +59,7 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
             "joints": log.joints,
             "segments": log.segments,
             "ignored_columns": log.ignored_columns,
-            "reach": [{"channel": one.channel, "low": one.low, "high": one.high} for one in seen.reach],
+            "reach": [{"channel": span.channel, "low": span.low, "high": span.high} for span in seen.reach],
         }
     if seen.refusal is not None:
         told["problem"] = {
@@ -72,9 +72,9 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
 
 def _reach_lines(reach: Sequence[Reach]) -> Iterator[str]:
     if reach:
-        yield "  joint " + "".join(f"{_heading(one.channel):>26}" for one in reach)
+        yield "  joint " + "".join(f"{_heading(span.channel):>26}" for span in reach)
         for joint in range(len(reach[0].low)):
-            cells = (f"{one.low[joint]:.4g} .. {one.high[joint]:.4g}" for one in reach)
+            cells = (f"{span.low[joint]:.4g} .. {span.high[joint]:.4g}" for span in reach)
             yield f"  {joint + 1:>5} " + "".join(f"{cell:>26}" for cell in cells)
 
 

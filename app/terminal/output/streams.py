@@ -76,9 +76,9 @@ def _console(*, error: bool) -> "Console":
 
 def _shown(value: object) -> str:
     if isinstance(value, Mapping):
-        parts = [f"{name}: {_shown(one)}" for name, one in value.items()]
+        parts = [f"{name}: {_shown(entry)}" for name, entry in value.items()]
         more = len(parts) - MOST_PARTS
         return "; ".join(parts[:MOST_PARTS] + ([f"and {more} more"] if more > 0 else [])) or "none"
     if isinstance(value, list | tuple):
-        return ", ".join(_shown(one) for one in value) or "none"
+        return ", ".join(_shown(entry) for entry in value) or "none"
     return str(value)

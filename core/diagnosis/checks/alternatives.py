@@ -123,7 +123,7 @@ def _refuted_unseen(there: Gain, here: Gain) -> bool:
 def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
     """Give a member's BIC difference less that of the best unnamed pattern in its place, on its joints."""
     joints = own.member.site or range(1, fitter.dataset.joints + 1)
-    here = tuple(one for one in unnamed if one.site[0] in joints)
+    here = tuple(pattern for pattern in unnamed if pattern.site[0] in joints)
     unnamed_pattern = best_unnamed_pattern(fitter, own.without, here)
     return np.inf if unnamed_pattern is None else own.bic_gain - bic_gain(own.without, unnamed_pattern)
 
@@ -182,12 +182,13 @@ def _undecided_below(member: Candidate, other: Candidate, own_ratio: float) -> f
 
 def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
     """Give the statistic that position noise may give two candidates: none where one is unlike it."""
-    if not all(one.cause.traits.like_position_noise for one in both):
+    if not all(candidate.cause.traits.like_position_noise for candidate in both):
         return 0.0
     torque, worth = fitter.dataset.position_torque, []
     for rows, part, made in zip(fitter.rows.fitted, own.fit.joints, torque.T, strict=True):
         worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.place) ** 2)))
-    return min(max(worth[joint - 1] for joint in one.site or range(1, len(worth) + 1)) for one in both)
+    every = range(1, len(worth) + 1)
+    return min(max(worth[joint - 1] for joint in candidate.site or every) for candidate in both)
 
 
 def _undecided(

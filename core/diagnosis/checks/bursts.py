@@ -16,7 +16,7 @@ from ..thresholds.checks import UNNAMED
 
 def burst(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
     """Give the largest burst of a residual (rows x joints), N m or N; None where there is none."""
-    found = [one for joint in range(dataset.joints) for one in _stretches(dataset, residual, joint)]
+    found = [span for joint in range(dataset.joints) for span in _stretches(dataset, residual, joint)]
     ratio, joint, begin = max(found, default=(0.0, 0, 0.0))
     if ratio < UNNAMED.burst_ratio:
         return None

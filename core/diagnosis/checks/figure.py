@@ -40,7 +40,7 @@ def curve(
     """
     member = chosen.members[place]
     torque = {joint: part @ chosen.fit.values[chosen.columns_of(place)] for joint, part in columns.items()}
-    joint = max(torque, key=lambda one: _share(torque[one], left[0][:, one], dataset.usable[:, one]))
+    joint = max(torque, key=lambda index: _share(torque[index], left[0][:, index], dataset.usable[:, index]))
     name = STAND_IN.get(member.cause.coordinate, member.cause.coordinate)
     if name == "other_velocity":
         name = _of_other(joint, member.site)
@@ -72,7 +72,7 @@ def curve(
 
 def _of_other(joint: int, site: Site) -> str:
     """Name the velocity of the other joint of a pair."""
-    others = [one for one in site if one != joint + 1]
+    others = [other for other in site if other != joint + 1]
     return f"velocity_of_joint_{others[0]}" if others else "velocity"
 
 

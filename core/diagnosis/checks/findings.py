@@ -116,7 +116,7 @@ def _over_unnamed(own: Comparison) -> tuple[Evidence, ...]:
 
 def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
     """Give the share of the residual's mean square that a finding explains on the joint it helps most."""
-    sums = [(one**2 * mask).sum(axis=0)[list(joints)] for one in left]
+    sums = [(series**2 * mask).sum(axis=0)[list(joints)] for series in left]
     return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
 
 

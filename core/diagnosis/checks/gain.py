@@ -30,7 +30,7 @@ def gain(
         return None
     scale = np.maximum(old.sum(axis=0) / counts, 1e-300)
     own = list(joints)
-    sums = np.array([[(one[rows][:, own] / scale[own]).sum() for one in (old, new)] for rows in groups])
+    sums = np.array([[(square[rows][:, own] / scale[own]).sum() for square in (old, new)] for rows in groups])
     totals = resampled_sums(sums, DRAWS, SEED)
     improvements = 100.0 * (1.0 - np.sqrt(totals[:, 1] / np.maximum(totals[:, 0], 1e-300)))
     low, high = interval_95(improvements)

@@ -30,7 +30,7 @@ def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
         missed = (part.torque - part.columns @ found.fit.values)[:, None]
         left = prewhitened_residual(part, fitted.noise, missed)[:, 0]
         known = fitted.left(found.fit.values)
-        new, old = (_powers(fitter.dataset, *one) for one in ((part.rows, left), (seen.rows, known)))
+        new, old = (_powers(fitter.dataset, *pair) for pair in ((part.rows, left), (seen.rows, known)))
         if (
             len(new)
             and len(old)
@@ -69,7 +69,7 @@ def with_other_holdout(dataset: Dataset) -> Dataset | None:
         shift = max(len(blocks) // (2 * len(held)), 1)
         others = blocks[(np.searchsorted(blocks, held) + shift) % len(blocks)]
         held_out |= own & np.isin(dataset.block, others)
-    now, then = (np.count_nonzero(dataset.clear[one], axis=0) for one in (dataset.held_out, held_out))
+    now, then = (np.count_nonzero(dataset.clear[rows], axis=0) for rows in (dataset.held_out, held_out))
     return replace(dataset, held_out=held_out) if np.all(then >= HOLDOUT.as_many * now) else None
 
 

@@ -28,7 +28,7 @@ SLOWEST, QUICKEST = 0.15, 1.0
 STEP = 0.5
 """Between two rates, in repetitions over the log; they are looked at again `FINER` times as finely."""
 FINER = 8
-SWINGS = tuple(float(one) for one in np.geomspace(0.7, 4.0, 12))
+SWINGS = tuple(float(rate) for rate in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
 _NAMES = tuple(PATTERNS)
 
@@ -79,14 +79,14 @@ class UnnamedPatternCause(OwnJointCause):
 
 @cache
 def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], ...]:
-    others = [one for one in range(1, joints + 1) if one != own]
+    others = [joint for joint in range(1, joints + 1) if joint != own]
     out: list[tuple[str, Numbers]] = [
-        ("speeds", (float(one), float(other)))
-        for one, other in combinations_with_replacement(range(1, joints + 1), 2)
+        ("speeds", (float(joint), float(other)))
+        for joint, other in combinations_with_replacement(range(1, joints + 1), 2)
     ]
     out += [
-        ("angle", (float(one), wave, float(factor)))
-        for one, wave, factor in product(others, WAVES, range(len(FACTORS)))
+        ("angle", (float(joint), wave, float(factor)))
+        for joint, wave, factor in product(others, WAVES, range(len(FACTORS)))
     ]
     out += [
         ("clock", (float(rate),)) for rate in np.arange(max(SLOWEST, 2.0 / seconds), QUICKEST, STEP / seconds)
@@ -120,7 +120,7 @@ def _read(scalars: Scalars) -> tuple[str, Numbers]:
 
 def _words(pattern: str, numbers: Numbers) -> str:
     if pattern == "speeds":
-        first, second = (int(one) for one in numbers)
+        first, second = (int(joint) for joint in numbers)
         return (
             f"the square of joint {first}'s speed"
             if first == second

@@ -222,7 +222,7 @@ def _options(log: JointLog, width: float) -> FilterOptions:
     band = choose_recipe(log, FilterOptions()).motion_band_hz
     cutoff = min(width * band, log.rate_hz / BAND.rate)
     thin = thinning(log.rate_hz, cutoff)
-    spiky = any((one.kind, one.channel) == ("outliers", "position") for one in log.defects)
+    spiky = any((defect.kind, defect.channel) == ("outliers", "position") for defect in log.defects)
     return FilterOptions(
         median_order=FilterOptions.median_order if spiky else 1,
         cutoff_hz=cutoff,
@@ -240,7 +240,7 @@ def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Ite
             yield index, onset_rows(term, robot, stretch)
             continue
         batch[index] = term.series(robot, stretch.state)
-        if sum(len(one) for one in batch.values()) >= BATCH:
+        if sum(len(series) for series in batch.values()) >= BATCH:
             yield from _filtered_together(batch, stretch)
             batch.clear()
     if batch:
@@ -248,6 +248,6 @@ def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Ite
 
 
 def _filtered_together(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
-    ends = np.cumsum([len(one) for one in batch.values()])[:-1]
+    ends = np.cumsum([len(series) for series in batch.values()])[:-1]
     filtered = stretch.filtered(np.vstack(list(batch.values())))
     yield from zip(batch, np.split(filtered, ends), strict=True)

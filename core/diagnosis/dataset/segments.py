@@ -83,7 +83,7 @@ def _piece(
 
 def _spikeless(log: JointLog, torque: JointSeries) -> JointSeries:
     """Give torque without the spikes of those joints whose channel is known to have some."""
-    own = [one.joint - 1 for one in log.defects if _spiky(one) and one.joint is not None]
+    own = [defect.joint - 1 for defect in log.defects if _spiky(defect) and defect.joint is not None]
     torque = torque.copy()
     torque[:, own] = without_spikes(torque[:, own])
     return torque

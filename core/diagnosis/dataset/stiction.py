@@ -36,7 +36,7 @@ def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_a
     band = band_hz * step_of(stretch.state)
     longest = int(ROWS.most_shapes / (ROWS.shapes * band))
     runs = [_cut(_runs(marks[:, joint]), longest) for joint in range(marks.shape[1])]
-    return tuple(_columns(stretch, one, band) for one in runs)
+    return tuple(_columns(stretch, spans, band) for spans in runs)
 
 
 def _columns(stretch: Stretch, runs: list[tuple[int, int]], band: float) -> csr_array:
@@ -86,7 +86,7 @@ def _cut(runs: list[tuple[int, int]], longest: int) -> list[tuple[int, int]]:
     [(0, 3), (5, 8), (8, 11)]
     """
     edges = [np.linspace(begin, end, 1 + -(-(end - begin) // longest)).astype(int) for begin, end in runs]
-    return [(int(begin), int(end)) for one in edges for begin, end in pairwise(one)]
+    return [(int(begin), int(end)) for cuts in edges for begin, end in pairwise(cuts)]
 
 
 def _polynomials(begin: int, end: int, band: float) -> Series:

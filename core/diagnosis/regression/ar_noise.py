@@ -68,7 +68,7 @@ class ARNoise:
 
     def departure(self, other: "ARNoise", residual: Vector, place: Indices) -> float:
         """Give the Kullback-Leibler divergence of another noise from this one, for rows like a residual's."""
-        own, theirs = (one.innovations(residual, place) for one in (self, other))
+        own, theirs = (noise.innovations(residual, place) for noise in (self, other))
         ratio = float(theirs @ theirs) / max(float(own @ own), 1e-300)
         scale = other.log_deviations(place) - self.log_deviations(place)
         return scale + 0.5 * len(place) * (ratio - 1.0)

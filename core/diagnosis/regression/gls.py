@@ -109,7 +109,7 @@ def _ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit
 
 
 def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[ARNoise, ...]:
-    return tuple(fit_ar_noise(one, rows.place, order=0) for one, rows in zip(sized, joints, strict=True))
+    return tuple(fit_ar_noise(left, rows.place, order=0) for left, rows in zip(sized, joints, strict=True))
 
 
 def _size(joints: tuple[JointRows, ...]) -> int:
@@ -121,7 +121,7 @@ def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
 
 
 def _prewhitened(joints: tuple[JointRows, ...], noise: tuple[ARNoise, ...]) -> tuple[Prewhitened, ...]:
-    return tuple(whitened(rows, one) for rows, one in zip(joints, noise, strict=True))
+    return tuple(whitened(rows, model) for rows, model in zip(joints, noise, strict=True))
 
 
 def refit(
@@ -174,7 +174,7 @@ def _reestimated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[i
 
 def degrees_of_freedom(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     """Count a fit's degrees of freedom on one joint's rows: nuisance columns and a share of the others."""
-    total = sum(len(one.rows) for one in joints)
+    total = sum(len(joint.rows) for joint in joints)
     return float(rows.nuisance.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
 
 
@@ -197,20 +197,20 @@ def _solved(
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor, _ = cho_factor(scaled, lower=True)
     values = np.zeros(len(gram))
-    left = tuple(one.torque for one in joints)
+    left = tuple(part.torque for part in joints)
     for _ in range(STEPS):
         slope = np.zeros(size)
-        for one, rest in zip(joints, left, strict=True):
-            slope[one.acting] += one.columns.T @ rest
+        for part, rest in zip(joints, left, strict=True):
+            slope[part.acting] += part.columns.T @ rest
         if prior is not None:
             slope += prior.slope(values)
         step = _solution(factor, scale, slope)
         if float(slope @ step) < EXACT:
             break
         values = values + step
-        left = tuple(one.left(values) for one in joints)
+        left = tuple(part.left(values) for part in joints)
     by_joint = np.array(
-        [-0.5 * float(rest @ rest) - one.log_deviations for one, rest in zip(joints, left, strict=True)]
+        [-0.5 * float(rest @ rest) - part.log_deviations for part, rest in zip(joints, left, strict=True)]
     )
     return Fit(joints, left, values, factor, scale, by_joint, prior, plain)
 

@@ -52,11 +52,11 @@ def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray
 
 def extended(joints: tuple[JointRows, ...], columns: Sequence[Columns]) -> tuple[JointRows, ...]:
     """Append further columns, given over all rows of the data set."""
-    widths = [next(iter(one.values())).shape[1] for one in columns]
+    widths = [next(iter(own.values())).shape[1] for own in columns]
     out = []
     for joint, rows in enumerate(joints):
         parts = [rows.columns]
-        for one, width in zip(columns, widths, strict=True):
-            parts.append(one[joint][rows.rows] if joint in one else np.zeros((len(rows.rows), width)))
+        for own, width in zip(columns, widths, strict=True):
+            parts.append(own[joint][rows.rows] if joint in own else np.zeros((len(rows.rows), width)))
         out.append(replace(rows, columns=np.hstack(parts)))
     return tuple(out)

@@ -46,8 +46,8 @@ class Panel:
     """
 
     def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
-        widths = [next(iter(one.values())).shape[1] for one in candidates]
-        places = [[index for index, one in enumerate(widths) if one == width] for width in set(widths)]
+        widths = [next(iter(columns.values())).shape[1] for columns in candidates]
+        places = [[index for index, own in enumerate(widths) if own == width] for width in set(widths)]
         self._groups = [
             (alike, _Alike(joints, [candidates[index] for index in alike], widths[alike[0]]))
             for alike in places
@@ -56,9 +56,9 @@ class Panel:
     def scores(self, found: Fit) -> list[Score]:
         """Score the candidates on top of a fit."""
         out = {
-            index: one
+            index: score
             for places, alike in self._groups
-            for index, one in zip(places, alike.scores(found), strict=True)
+            for index, score in zip(places, alike.scores(found), strict=True)
         }
         return [out[index] for index in range(len(out))]
 
@@ -69,7 +69,7 @@ class _Alike:
     def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns], width: int) -> None:
         self._count, self._width = len(candidates), width
         self._present = [
-            np.array([index for index, one in enumerate(candidates) if joint in one], dtype=int)
+            np.array([index for index, columns in enumerate(candidates) if joint in columns], dtype=int)
             for joint in range(len(joints))
         ]
         self._columns = [
@@ -131,12 +131,12 @@ def _scores_from(
     cross = np.zeros((count, size, width))
     right, squares = np.zeros((count, width)), np.zeros((count, width))
     grams = np.zeros((count, width, width))
-    for (joint, one), first in zip(columns.items(), begins, strict=True):
+    for (joint, series), first in zip(columns.items(), begins, strict=True):
         rows, own = joints[joint], found.joints[joint]
         loose, acting = own.nuisance.columns, len(own.acting)
         shapes = (width,), (width,), (width, width), (acting, width)
         sums = tuple(np.empty((count, *shape)) for shape in shapes)
-        equations = (one[rows.rows], rows.place, own.noise.weights, found.left[joint])
+        equations = (series[rows.rows], rows.place, own.noise.weights, found.left[joint])
         fitted, inside, factor = (
             np.ascontiguousarray(table) for table in (own.columns, own.inside, own.nuisance.factor.T)
         )

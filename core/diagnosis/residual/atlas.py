@@ -59,10 +59,6 @@ class Atlas:
     spectra: tuple[ResidualSpectrum, ...]
     floor: NoiseFloor
 
-    def over(self, name: str, joint: int) -> Dependence | None:
-        """Give one dependence by coordinate and joint (from 1); None where the joint does not have it."""
-        return next((one for one in self.dependences if (one.coordinate, one.joint) == (name, joint)), None)
-
 
 def atlas(
     dataset: Dataset, residual: JointSeries, operating_point: Prediction, noise: Sequence[ARNoise]
@@ -127,7 +123,7 @@ def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNois
         coordinate=name,
         joint=joint,
         unit=unit,
-        centre=np.array([np.median(binned.values[label == one]) for one in range(len(count))]),
+        centre=np.array([np.median(binned.values[label == number]) for number in range(len(count))]),
         mean=mean,
         standard_error=np.sqrt(np.diag(covariance)),
         count=count,

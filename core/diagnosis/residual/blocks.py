@@ -56,7 +56,7 @@ def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Sha
     judged = np.flatnonzero(np.isfinite(prediction))
     guess, truth = prediction[judged], residual[judged]
     _, place = np.unique(block[judged], return_inverse=True)
-    both, own, power = (np.bincount(place, one) for one in (guess * truth, guess**2, truth**2))
+    both, own, power = (np.bincount(place, series) for series in (guess * truth, guess**2, truth**2))
     if len(both) < 2 or power.sum() <= 0.0:
         return Share(0.0, (0.0, 0.0), np.where(np.isfinite(prediction), 0.0, np.nan))
     others = own.sum() - own

@@ -56,8 +56,8 @@ def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
     repeated = np.full(dataset.joints, np.nan) if found is None else _from_repeats(dataset, residual, found)
     use = np.isfinite(repeated)
     source: tuple[FloorSource, ...] = tuple(
-        "repeats" if one else ("high_band" if np.isfinite(other) else "none")
-        for one, other in zip(use, high, strict=True)
+        "repeats" if repeat else ("high_band" if np.isfinite(density) else "none")
+        for repeat, density in zip(use, high, strict=True)
     )
     return NoiseFloor(
         rms=np.where(use, repeated, high),

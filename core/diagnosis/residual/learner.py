@@ -157,7 +157,7 @@ def _own(dataset: Dataset, operating_point: Prediction, joint: int) -> Matrix:
     names = ("load", "torque", "travel", "temperature")
     series = [coordinate_series(dataset, operating_point, name) for name in names]
     direction = np.sign(dataset.state.velocity[:, joint])
-    return np.column_stack([direction, *(one[:, joint] for one in series if one is not None)])
+    return np.column_stack([direction, *(values[:, joint] for values in series if values is not None)])
 
 
 def _predictable(
@@ -175,7 +175,7 @@ def _predictable(
         share=judged.share,
         interval=judged.interval,
         rms=float(np.sqrt(np.mean(residual[rows] ** 2))) if len(rows) else 0.0,
-        places=tuple(sorted(places, key=lambda one: -one.rms)),
+        places=tuple(sorted(places, key=lambda place: -place.rms)),
         prediction=judged.prediction,
     )
 

@@ -31,7 +31,7 @@ class Repeats:
 
 def repeats(dataset: Dataset) -> Repeats | None:
     """Find the shortest period of the longest stretch; None where the motion does not repeat."""
-    stretch = max(dataset.stretches, key=lambda one: one.rows.stop - one.rows.start)
+    stretch = max(dataset.stretches, key=lambda stretch: stretch.rows.stop - stretch.rows.start)
     position = dataset.state.position[stretch.rows]
     if len(position) < _TAPS_OF_A_LOG * _TAPS:
         return None
@@ -122,7 +122,7 @@ def _valleys(mismatch: Vector) -> list[int]:
     inner = np.arange(max(int(risen[0]), 1), last - 1)
     here, left, right = mismatch[inner], mismatch[inner - 1], mismatch[inner + 1]
     low = (here < left) & (here <= right) & (here < FLOOR.valley)
-    return [int(one) for one in inner[low]]
+    return [int(lag) for lag in inner[low]]
 
 
 def _refined(position: JointSeries, slope: JointSeries, lag: float) -> float:

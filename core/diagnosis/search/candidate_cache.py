@@ -39,9 +39,9 @@ class CandidateCache:
         Approximate: columns of derivatives may change by a larger share than the torque does, and so may
         what a candidate of one joint adds on the others.
         """
-        changed = {one: ~(one.change(now) <= SEARCH.cached_change) for one in self._points}
+        changed = {point: ~(point.change(now) <= SEARCH.cached_change) for point in self._points}
         whole = now if changed[self.whole].any() else self.whole
-        joints = tuple(now if changed[one][joint] else one for joint, one in enumerate(self.joints))
+        joints = tuple(now if changed[point][joint] else point for joint, point in enumerate(self.joints))
         return self if (whole, joints) == (self.whole, self.joints) else CandidateCache(whole, joints)
 
     def columns(self, built: Callable[[Sequence[Candidate], Candidates], Sequence[Columns]]) -> list[Columns]:

@@ -68,11 +68,11 @@ class Candidates:
         """Give all causes of one id at one site: against a reference some come in two forms."""
         name, site = key
         causes = (
-            one
-            for one in self.causes
-            if one.id == name and site in one.sites(self.dataset, self.operating_point)
+            cause
+            for cause in self.causes
+            if cause.id == name and site in cause.sites(self.dataset, self.operating_point)
         )
-        return tuple(candidate for one in causes for candidate in self.of(one, site))
+        return tuple(candidate for cause in causes for candidate in self.of(cause, site))
 
     def change(self, other: "Candidates") -> JointVector:
         """Give the RMS difference of another prediction, as a share of each joint's torque."""
@@ -80,7 +80,7 @@ class Candidates:
         if other is self:
             return change
         for stretch in self.dataset.stretches:
-            own, theirs = (one.operating_point.scaled(stretch.state) for one in (self, other))
+            own, theirs = (point.operating_point.scaled(stretch.state) for point in (self, other))
             square += np.sum(own**2, axis=0)
             change += np.sum((theirs - own) ** 2, axis=0)
         return np.asarray(np.sqrt(change / np.maximum(square, 1e-300)))
@@ -99,9 +99,9 @@ def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Pr
     """
     for joins in (_loads, _acts_inside, _scales):
         terms = []
-        for index, one in enumerate(found.members):
-            term = one.cause.term(dataset, operating_point, one.site, one.scalars)
-            if joins(term) and not one.cause.traits.self_consistent:
+        for index, member in enumerate(found.members):
+            term = member.cause.term(dataset, operating_point, member.site, member.scalars)
+            if joins(term) and not member.cause.traits.self_consistent:
                 terms.append((term, found.fit.values[found.columns_of(index)]))
         operating_point = replace(operating_point, joined=(*operating_point.joined, *terms))
     return operating_point

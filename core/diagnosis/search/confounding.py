@@ -70,7 +70,7 @@ def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
     """Tell whether one member acts hardly ever except while another does, on the joints of the other."""
     together = alone = 0
     for part in whole.fit.joints:
-        acts, other = (part.of(whole.columns_of(one)).any(axis=1) for one in (index, place))
+        acts, other = (part.of(whole.columns_of(member)).any(axis=1) for member in (index, place))
         if other.any():
             together += int((acts & other).sum())
             alone += int((acts & ~other).sum())

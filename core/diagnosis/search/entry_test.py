@@ -39,13 +39,12 @@ def best_entry(
         BIC gain that it has to exceed.
     """
     scans = _admissible_scans(fitter, now, excluded_kinds)
-    tried = scans[:most] + [one for one in scans[most:] if one.candidate.cause.traits.transient]
+    tried = scans[:most] + [scored for scored in scans[most:] if scored.candidate.cause.traits.transient]
     reach = zip(tried, predicted_likelihood_ratios(fitter, now, tried), strict=True)
-    ranked = sorted(
-        ((one, ENTRY.raised * brings + ENTRY.besides) for one, brings in reach), key=lambda pair: -pair[1]
-    )
+    bounds = ((scored, ENTRY.raised * brings + ENTRY.besides) for scored, brings in reach)
+    ranked = sorted(bounds, key=lambda pair: -pair[1])
     found: Hypothesis | None = None
-    left: Ranked = [(one, most) for one, most in ranked if most > least]
+    left: Ranked = [(scored, most) for scored, most in ranked if most > least]
     while left and found is None:
         likely, left = _significant(fitter, now, left, least, len(scans))
         found = _best_on_holdout(fitter, now, likely, excluded_kinds, least)
@@ -75,15 +74,15 @@ def _significant(
     likely: list[Hypothesis] = []
     left: list[tuple[ScoredCandidate, float]] = []
     best = least
-    for one, most in ranked:
+    for scored, most in ranked:
         if most <= best:
-            left.append((one, most))
+            left.append((scored, most))
             continue
-        trial = with_candidate(fitter, now, one)
+        trial = with_candidate(fitter, now, scored)
         gains = bic_gain(now, trial)
         if trial.possible and gains > least and _passes_entry_test(fitter, now, trial, kinds):
             likely.append(trial)
-            best = best if one.candidate.cause.traits.transient else max(best, gains)
+            best = best if scored.candidate.cause.traits.transient else max(best, gains)
     return sorted(likely, key=lambda trial: -bic_gain(now, trial)), left
 
 
@@ -135,7 +134,7 @@ def _is_independent(
     fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, kinds: int, index: int
 ) -> bool:
     """Tell whether a member is as significant as a first one has to be, and independent of the others."""
-    member, others = trial.members[index], [set(one.site) for one in now.members]
+    member, others = trial.members[index], [set(other.site) for other in now.members]
     if not others or not member.site or _acts_rarely(trial, index):
         return False
     if not all(others) or not set().union(*others).isdisjoint(member.site):
@@ -201,7 +200,7 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:
-    rows = min((len(one.torque) for one in trial.fit.joints if len(one.torque)), default=1)
+    rows = min((len(joint.torque) for joint in trial.fit.joints if len(joint.torque)), default=1)
     return likelihood_ratio(now, trial) / rows
 
 

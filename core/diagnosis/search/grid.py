@@ -28,5 +28,5 @@ def _mirrored(here: float, other: float) -> float:
 def between(low: float, high: float) -> list[float]:
     """Give points between two: in equal ratios where both are positive."""
     if low > 0.0:
-        return [float(one) for one in np.geomspace(low, high, FINER + 2)[1:-1]]
-    return [float(one) for one in np.linspace(low, high, FINER + 2)[1:-1]]
+        return [float(point) for point in np.geomspace(low, high, FINER + 2)[1:-1]]
+    return [float(point) for point in np.linspace(low, high, FINER + 2)[1:-1]]

@@ -36,8 +36,8 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
     squares = []
     for part in (fitter.rows.held_out, fitter.rows.fitted):
         total = 0.0
-        for joint, one in columns.items():
-            torque = (one[part[joint].rows] @ values)[:, None]
+        for joint, own in columns.items():
+            torque = (own[part[joint].rows] @ values)[:, None]
             total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
         squares.append(total)
     return squares[0] / max(squares[1], 1e-300)
@@ -46,13 +46,12 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
 def _ratio_on(
     fitter: HypothesisFitter, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, share: float
 ) -> float:
-    rows = [extended(joints, fitter.columns(one.members)) for one in (now, trial)]
+    rows = [extended(joints, fitter.columns(under.members)) for under in (now, trial)]
     squares = np.zeros(2)
     for parts, joint in zip(zip(*rows, strict=True), trial.fit.joints, strict=True):
-        left = [
-            part.torque - part.columns @ one.fit.values for part, one in zip(parts, (now, trial), strict=True)
-        ]
+        fits = zip(parts, (now.fit, trial.fit), strict=True)
+        left = [part.torque - part.columns @ fit.values for part, fit in fits]
         squares += np.sum(prewhitened_residual(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
     if fitter.prior:
-        squares += [share * fitter.prior.departure(one.fit.values) for one in (now, trial)]
+        squares += [share * fitter.prior.departure(under.fit.values) for under in (now, trial)]
     return float(squares[0] - squares[1])

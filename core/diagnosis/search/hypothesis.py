@@ -123,7 +123,7 @@ class Hypothesis:
     @property
     def by_key(self) -> Mapping[tuple[str, Site], int]:
         """Find members by kind."""
-        return {one.key: index for index, one in enumerate(self.members)}
+        return {member.key: index for index, member in enumerate(self.members)}
 
 
 def allowed(candidate: Candidate, judged: Score) -> bool:
@@ -135,8 +135,8 @@ def allowed(candidate: Candidate, judged: Score) -> bool:
 def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[ScoredCandidate]:
     """Give the best scalars of each kind, the smallest p-value first."""
     kinds: dict[object, list[int]] = {}
-    for place, one in enumerate(asked):
-        kinds.setdefault(one.key, []).append(place)
+    for place, candidate in enumerate(asked):
+        kinds.setdefault(candidate.key, []).append(place)
     best = []
     for places in kinds.values():
         ranked = sorted(places, key=lambda place: -found[place].statistic)
@@ -147,4 +147,4 @@ def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Sc
                 asked[likeliest], judged.statistic, judged.freedom, judged.values, judged.clear_share
             )
         )
-    return sorted(best, key=lambda one: one.log_p)
+    return sorted(best, key=lambda scored: scored.log_p)

@@ -31,7 +31,7 @@ def bounded_likelihood_ratio(now: Hypothesis, trial: Hypothesis, index: int = -1
     for part in trial.fit.joints:
         rows = part.of(own).any(axis=1) if event else slice(None)
         old, new = (
-            np.minimum(part.left(one)[rows] ** 2, ENTRY.row_limit) for one in (before, trial.fit.values)
+            np.minimum(part.left(values)[rows] ** 2, ENTRY.row_limit) for values in (before, trial.fit.values)
         )
         total += float(np.sum(old - new))
     return total
@@ -68,6 +68,6 @@ def wald_statistic(hypothesis: Hypothesis, index: int) -> float:
 
 def bic_gain(now: Hypothesis, trial: Hypothesis, index: int = -1) -> float:
     """Give the BIC difference: the likelihood ratio statistic less the penalty of a member's parameters."""
-    rows = max(len(one.torque) for one in trial.fit.joints)
+    rows = max(len(joint.torque) for joint in trial.fit.joints)
     freedom = trial.freedom(index) + trial.members[index].searched
     return likelihood_ratio(now, trial) - freedom * float(np.log(rows))

@@ -27,10 +27,10 @@ def predicted_likelihood_ratios(
 ) -> list[float]:
     """Predict the likelihood ratio statistic of each candidate of a scan."""
     rows = extended(fitter.rows.fitted, fitter.columns(now.members))
-    columns = fitter.columns([one.candidate for one in scans])
+    columns = fitter.columns([scored.candidate for scored in scans])
     effects = (
-        {joint: own[rows[joint].rows] @ one.values for joint, own in kind.items()}
-        for one, kind in zip(scans, columns, strict=True)
+        {joint: own[rows[joint].rows] @ scored.values for joint, own in kind.items()}
+        for scored, kind in zip(scans, columns, strict=True)
     )
     return [_statistic(rows, now.fit, effect) for effect in effects]
 
@@ -41,7 +41,7 @@ def _statistic(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float
     A fit under ordinary noise estimates it from the residual of the ordinary fit, which has its own values.
     """
     seen = now.plain or now
-    values, seen_values = (one.values - _bias_by(one, effect) for one in (now, seen))
+    values, seen_values = (fit.values - _bias_by(fit, effect) for fit in (now, seen))
     total = 0.0 if now.prior is None else -0.5 * now.prior.departure(values)
     for joint, (rows, part) in enumerate(zip(joints, now.joints, strict=True)):
         without = replace(rows, torque=rows.torque - effect.get(joint, 0.0))
@@ -58,8 +58,8 @@ def _statistic(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float
 def _bias_by(found: Fit, effect: Effect) -> Weights:
     """Give the bias of the fitted coefficients by an effect that is not among the columns."""
     slope = np.zeros(len(found.values))
-    for joint, one in effect.items():
+    for joint, torque in effect.items():
         part = found.joints[joint]
-        white = (part.whitening @ one)[:, None]
+        white = (part.whitening @ torque)[:, None]
         slope[part.acting] += (part.columns.T @ white - part.inside.T @ part.nuisance.in_span(white))[:, 0]
     return found.solve(slope[:, None])[:, 0]

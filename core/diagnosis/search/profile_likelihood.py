@@ -56,7 +56,7 @@ def with_deviations(fitter: HypothesisFitter, under: Hypothesis, candidate: Cand
             points, _ = _grid(fitter, candidate, name)
             trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
             found = fitter.score(under, trials)
-            seen = {trial.scalars[name]: one.statistic for trial, one in zip(trials, found, strict=True)}
+            seen = {trial.scalars[name]: score.statistic for trial, score in zip(trials, found, strict=True)}
             candidate = _with_deviation(fitter, under, candidate, name, seen)
     return candidate
 
@@ -95,7 +95,7 @@ def _refined(
         values = between(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
         found = fitter.score(under, trials)
-        ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
+        ranks = [(allowed(trial, score), score.statistic) for trial, score in zip(trials, found, strict=True)]
         best = ranks.index(max(ranks))
         here = trials[best].scalars[name]
         seen |= {trial.scalars[name]: rank[1] for trial, rank in zip(trials, ranks, strict=True)}
@@ -116,10 +116,10 @@ def _at_likeliest_onset(
         return candidate
     time, rows = fitter.dataset.time, np.arange(1, len(fitter.dataset.time))
     throughout, some = _at(candidate, name, -np.inf), candidate.cause.traits.onset[name]
-    worth = np.array([one.statistic for one in fitter.score_onsets(under, throughout, some, rows)])
+    worth = np.array([score.statistic for score in fitter.score_onsets(under, throughout, some, rows)])
     trials = [candidate, *(_at(candidate, name, instant) for instant in _peaks(time[rows], worth))]
     found = fitter.score(under, trials)
-    ranks = [(allowed(trial, one), one.statistic) for trial, one in zip(trials, found, strict=True)]
+    ranks = [(allowed(trial, score), score.statistic) for trial, score in zip(trials, found, strict=True)]
     return trials[ranks.index(max(ranks))]
 
 
@@ -160,7 +160,7 @@ def _around_onset(
     """Score a refined instant and others before and after it."""
     values = (candidate.scalars[name] + AROUND).tolist()
     found = fitter.score(under, [_at(candidate, name, value) for value in values])
-    return {value: one.statistic for value, one in zip(values, found, strict=True)}
+    return {value: score.statistic for value, score in zip(values, found, strict=True)}
 
 
 def _grid(
@@ -172,7 +172,7 @@ def _grid(
     """
     here = candidate.scalars[name]
     # The operating point may have changed since it was chosen, and the grid with it.
-    scanned = [one.scalars.get(name, here) for one in fitter.at.of(candidate.cause, candidate.site)]
+    scanned = [known.scalars.get(name, here) for known in fitter.at.of(candidate.cause, candidate.site)]
     points = sorted({*scanned} or {here})
     return points, (neighbours(points, points[0])[0], neighbours(points, points[-1])[1])
 
@@ -188,7 +188,7 @@ def _deviation_and_slope(
         if _drop(low, middle, high) > REFINEMENT.drop or here - 2.0 * step <= 0.0 < here:
             break
         wider = _scores_beside(fitter, under, candidate, name, 2.0 * step)
-        if min(one.clear_share for one in wider) <= 0.0:
+        if min(score.clear_share for score in wider) <= 0.0:
             break
         step, (low, middle, high) = 2.0 * step, wider
     slope = (high.values - low.values) / (2.0 * step)

@@ -106,9 +106,9 @@ class LogOfTraces:
     @cached_property
     def groups(self) -> tuple[int, ...]:
         """List the groups of rows that are this log's; none holds rows of two."""
-        place = self.file.schema_arrow.get_field_index(LOG)
+        column = self.file.schema_arrow.get_field_index(LOG)
         every = range(self.file.metadata.num_row_groups)
-        return tuple(one for one in every if self._log_of(one, place) == self.number)
+        return tuple(group for group in every if self._log_of(group, column) == self.number)
 
     @cached_property
     def starts(self) -> list[int]:
@@ -150,8 +150,8 @@ class LogOfTraces:
         inner = read.slice(start - self.starts[first], stop - start)
         return np.column_stack([inner.column(name).to_numpy().astype(float) for name in names])
 
-    def _log_of(self, group: int, place: int) -> int:
-        return int(self.file.metadata.row_group(group).column(place).statistics.min)
+    def _log_of(self, group: int, column: int) -> int:
+        return int(self.file.metadata.row_group(group).column(column).statistics.min)
 
 
 def stretches(time: Samples) -> list[tuple[int, int]]:

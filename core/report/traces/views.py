@@ -81,9 +81,9 @@ def read_views(path: Path, *, log: int, joint: int) -> Views:
     """
     with pq.ParquetFile(path) as file:
         rows = LogOfTraces(file, log)
-        signals = [one for one in rows.known(joint) if one in RESIDUALS]
+        signals = [signal for signal in rows.known(joint) if signal in RESIDUALS]
         used = rows.column(column(USED, joint))
-        residual = {one: rows.column(column(one, joint)).astype(float) for one in signals}
+        residual = {signal: rows.column(column(signal, joint)).astype(float) for signal in signals}
         if used.sum() < 2 * FEWEST_IN_BIN:
             raise ExcitationError(
                 f"too few instants count for joint {joint}",
@@ -107,8 +107,8 @@ def _over(name: str, unit: str, values: Samples, residual: dict[str, Samples], u
     curves = []
     for signal, left in residual.items():
         binned = [left[used][part] for part in parts]
-        low, high = np.array([np.quantile(one, BAND) for one in binned]).T
-        curves.append(Curve(signal, np.array([one.mean() for one in binned]), low, high))
+        low, high = np.array([np.quantile(values, BAND) for values in binned]).T
+        curves.append(Curve(signal, np.array([values.mean() for values in binned]), low, high))
     centre = np.array([np.median(values[part]) for part in parts], dtype=float)
     return OverCoordinate(name, unit, centre, tuple(curves))
 

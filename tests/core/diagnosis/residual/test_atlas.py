@@ -8,6 +8,11 @@ from tests.core.diagnosis.residual.worlds import NOISES, on_joint, world
 from veritorque.core.diagnosis.residual.atlas import BINS, atlas
 
 
+def dependence(found, coordinate, joint):
+    """Give one dependence of an atlas by coordinate and joint, from 1."""
+    return next(own for own in found.dependences if (own.coordinate, own.joint) == (coordinate, joint))
+
+
 @pytest.mark.parametrize("kind", NOISES)
 def test_noise_depends_on_no_coordinate_whatever_its_colour(kind):
     here = world()
@@ -45,7 +50,8 @@ def test_the_bins_show_the_function_that_was_put_in():
     position = here.dataset.state.position[:, 1]
     disturbance = on_joint(here, 2, np.cos(17.0 * position))
     residual, noise = here.left(disturbance + 0.2 * here.noise("white", seed=23))
-    shown = atlas(here.dataset, residual, here.operating_point, noise).over("position", 2)
+    found = atlas(here.dataset, residual, here.operating_point, noise)
+    shown = dependence(found, "position", 2)
     assert np.corrcoef(shown.mean, np.cos(17.0 * shown.centre))[0, 1] > 0.9
     assert shown.count.sum() == here.dataset.clear[:, 1].sum()
     assert len(shown.mean) == BINS == shown.degrees_of_freedom + 1
@@ -70,7 +76,8 @@ def test_the_standard_errors_are_the_scatter_of_the_bins(kind):
 def test_rows_near_reversals_do_not_count():
     here = world()
     residual, noise = here.left(here.noise("white", seed=24))
-    away = atlas(here.dataset, residual, here.operating_point, noise).over("travel", 1)
+    found = atlas(here.dataset, residual, here.operating_point, noise)
+    away = dependence(found, "travel", 1)
     assert away.count.sum() == here.dataset.clear[:, 0].sum() < here.dataset.usable[:, 0].sum()
 
 
