@@ -74,9 +74,9 @@ _FILES_ONLY = struct.pack("=Q", ALL_FILE_ACCESS)
 
 
 def _permit(rules: int, path: str, access: int) -> None:
-    place = os.open(path, os.O_PATH | os.O_CLOEXEC)
-    _call(ADD_RULE, rules, PATH_BENEATH, struct.pack("=Qi", access, place), 0)
-    os.close(place)
+    descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
+    _call(ADD_RULE, rules, PATH_BENEATH, struct.pack("=Qi", access, descriptor), 0)
+    os.close(descriptor)
 
 
 def _call(number: int, *arguments: int | bytes | None) -> int:

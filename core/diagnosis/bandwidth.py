@@ -17,7 +17,7 @@ from ..dynamics.prediction import Prediction
 from ..robot.parameters import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
 from .dataset.dataset import Dataset
-from .regression.ar_noise import ARNoise, places
+from .regression.ar_noise import ARNoise, run_indices
 from .thresholds.dataset import BAND
 
 _SAMPLES = 65536
@@ -77,11 +77,11 @@ def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSe
         del velocity
         return size * rng.normal(size=position.shape)
 
-    place = places(~dataset.starts)
+    run_index = run_indices(~dataset.starts)
     torque = disturbance(dataset, _frictionless(operating_point), spoil)
     shares = []
     for joint, model in enumerate(noise):
-        white = model.whitened(torque[:, [joint]], place)[dataset.usable[:, joint]]
+        white = model.whitened(torque[:, [joint]], run_index)[dataset.usable[:, joint]]
         shares.append(float(np.sum(white**2)) / max(len(white), 1))
     return torque, np.array(shares)
 

@@ -70,7 +70,7 @@ def written_factor(rows: Matrix) -> list[list[float]]:
     >>> written_factor(np.array([[2.0, 1.0], [0.0, 3.0]]))
     [[2.0, 1.0], [3.0]]
     """
-    return [[float(entry) for entry in row[place:]] for place, row in enumerate(rows)]
+    return [[float(entry) for entry in row[index:]] for index, row in enumerate(rows)]
 
 
 def read_factor(written: list[list[float]], size: int) -> Matrix:
@@ -83,8 +83,8 @@ def read_factor(written: list[list[float]], size: int) -> Matrix:
            [0., 3.]])
     """
     rows = np.zeros((len(written), size))
-    for place, row in enumerate(written):
-        rows[place, place:] = row
+    for index, row in enumerate(written):
+        rows[index, index:] = row
     return rows
 
 

@@ -83,7 +83,7 @@ def _place(prediction: Prediction, predictions: list[Prediction]) -> int:
         for term, _ in prediction.joined:  # what it is built on comes before it
             term_fields(term, predictions)
         predictions.append(prediction)
-    return next(place for place, known in enumerate(predictions) if known is prediction)
+    return next(index for index, known in enumerate(predictions) if known is prediction)
 
 
 def _plain(value: object, predictions: list[Prediction]) -> object:

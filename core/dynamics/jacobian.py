@@ -27,22 +27,22 @@ def jacobian(robot: RobotModel, link: int, position: JointSeries) -> Jacobian:
         In the axes of the base.
     """
     samples = len(position)
-    rotation, place = np.tile(np.eye(3), (samples, 1, 1)), np.zeros((samples, 3))
+    rotation, point = np.tile(np.eye(3), (samples, 1, 1)), np.zeros((samples, 3))
     chain = [robot.links[index] for index in robot.supports[link - 1]]
-    axes, places = [], []
+    axes, points = [], []
     for carrier in chain:
-        place = place + rotation @ carrier.translation
+        point = point + rotation @ carrier.translation
         rotation = rotation @ carrier.rotation
         coordinate = carrier.ratio * position[:, carrier.joint - 1] + carrier.offset
         if carrier.kind == "prismatic":
-            place = place + coordinate[:, None] * rotation[:, :, 2]
+            point = point + coordinate[:, None] * rotation[:, :, 2]
         axes.append(rotation[:, :, 2])
-        places.append(place)
+        points.append(point)
         if carrier.kind == "revolute":
             rotation = rotation @ _rotations(coordinate)
     out = np.zeros((samples, 6, position.shape[1]))
-    for carrier, axis, origin in zip(chain, axes, places, strict=True):
-        out[:, :, carrier.joint - 1] += carrier.ratio * _column(carrier, axis, place - origin)
+    for carrier, axis, origin in zip(chain, axes, points, strict=True):
+        out[:, :, carrier.joint - 1] += carrier.ratio * _column(carrier, axis, point - origin)
     return out
 
 

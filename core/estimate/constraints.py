@@ -109,12 +109,12 @@ class Prior:
 
 
 def link_columns(model: DynamicModel) -> tuple[tuple[int, ...], ...]:
-    """Give the places of every modelled link's ten parameters in `model.parameters`."""
-    place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
+    """Give the indices of every modelled link's ten parameters in `model.parameters`."""
+    column_of = {parameter.name: column for column, parameter in enumerate(model.parameters)}
     return tuple(
-        tuple(place[f"{symbol}{number}"] for symbol in INERTIAL_SYMBOLS)
+        tuple(column_of[f"{symbol}{number}"] for symbol in INERTIAL_SYMBOLS)
         for number in range(1, len(model.robot.links) + 1)
-        if f"M{number}" in place
+        if f"M{number}" in column_of
     )
 
 

@@ -64,13 +64,13 @@ class ObservedProblem:
 
     @cached_property
     def fitted(self) -> tuple[int, ...]:
-        """Give the places of the fitted blocks."""
+        """Give the indices of the fitted blocks."""
         return self.observation.parts(self.problem.held_out)[0]
 
     @property
     def block_factors(self) -> tuple[tuple[Factor, ...], ...]:
         """Give the joints' factors of every fitted block."""
-        return tuple(self.observation.blocks[place].factors for place in self.fitted)
+        return tuple(self.observation.blocks[index].factors for index in self.fitted)
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:

@@ -51,7 +51,7 @@ class _Candidate:
         )
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
-        return tuple(self.term.entries(robot)[place] for place in self._places(robot))
+        return tuple(self.term.entries(robot)[index] for index in self._places(robot))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         return self.term.series(robot, state)[self._places(robot)]
@@ -59,8 +59,8 @@ class _Candidate:
     def _places(self, robot: RobotModel) -> list[int]:
         symbols = [parameter.symbol for parameter in self.term.parameters(robot)]
         return [
-            place
-            for place, (_, column) in enumerate(self.term.entries(robot))
+            index
+            for index, (_, column) in enumerate(self.term.entries(robot))
             if symbols[column] in DIRECTIONAL
         ]
 
@@ -134,7 +134,7 @@ def scan_plan(model: DynamicModel, kept: tuple[int, ...]) -> ColumnPlan:
 
 def _residual(factor: Factor, columns: Indices, names: list[str], number: int | None) -> float:
     """Solve one joint's equations alone, with its plain sign columns or those of one candidate instead."""
-    wanted = [place for place, column in enumerate(columns) if _belongs(names[column], number)]
+    wanted = [index for index, column in enumerate(columns) if _belongs(names[column], number)]
     kept = factor.triangle[:, wanted]
     scale = np.linalg.norm(kept, axis=0)
     scale[scale == 0.0] = 1.0

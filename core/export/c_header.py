@@ -92,13 +92,13 @@ def _motors(identified: IdentifiedRobot, name: str) -> str:
         return ""
     weights, rows = [], []
     widths = _widths(identified, GearCoupling, len(motors))
-    for place, (motor, width) in enumerate(zip(motors, widths, strict=True)):
+    for index, (motor, width) in enumerate(zip(motors, widths, strict=True)):
         whole = np.zeros(len(identified.robot.joints))
         whole[[joint - 1 for joint in motor.coupling.joints]] = motor.coupling.weights
-        weights.append(f"static const double {name}_weights_{place}[] = {_row(whole)};")
+        weights.append(f"static const double {name}_weights_{index}[] = {_row(whole)};")
         numbers = (motor.rotor_inertia, motor.viscous, motor.coulomb, float(width))
         listed = ", ".join(map(repr, numbers))
-        rows.append(f"{_text(motor.coupling.name)}, {name}_weights_{place}, {listed}")
+        rows.append(f"{_text(motor.coupling.name)}, {name}_weights_{index}, {listed}")
     return "\n".join([*weights, _array("veritorque_motor", f"{name}_motors", rows)])
 
 

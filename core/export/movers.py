@@ -98,7 +98,7 @@ def _owner(robot: RobotModel, number: int) -> int:
             evidence={"joint": joint, "ratios": [link.ratio for _, link in moved]},
             remedy="describe the joint by its own coordinate, and scale the log instead",
         )
-    index, _ = min(turned, key=lambda place: (place[1].ratio, place[1].offset) != (1.0, 0.0))
+    index, _ = min(turned, key=lambda pair: (pair[1].ratio, pair[1].offset) != (1.0, 0.0))
     return index
 
 

@@ -121,8 +121,8 @@ def _write_inertial(link: ET.Element, body: LinkParameters) -> None:
     child(inertial, "mass").text = text_of(mass)
     table = child(inertial, "inertia")
     axes = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    for name, place in axes.items():
-        child(table, name).text = text_of(inertia[place])
+    for name, entry in axes.items():
+        child(table, name).text = text_of(inertia[entry])
 
 
 def _write_joint(model: ET.Element, mover: Mover, parent: str, drive: Vector3 | None) -> None:

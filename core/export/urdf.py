@@ -76,7 +76,7 @@ def write_inertial(link: ET.Element, body: LinkParameters) -> None:
     child(inertial, "origin", xyz=centre, rpy=np.zeros(3))
     child(inertial, "mass", value=mass)
     axes = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    child(inertial, "inertia", **{name: inertia[place] for name, place in axes.items()})
+    child(inertial, "inertia", **{name: inertia[entry] for name, entry in axes.items()})
 
 
 def _write_base(root: ET.Element, gravity: Vector3, base: str, world: str) -> None:

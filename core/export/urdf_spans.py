@@ -41,37 +41,37 @@ def find_elements(text: bytes) -> Elements:
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal current
-        place = parser.CurrentByteIndex
-        open_tags.append((tag, place))
+        begin = parser.CurrentByteIndex
+        open_tags.append((tag, begin))
         if len(open_tags) == 1:
-            found.root.inside = _inside(text, place)
+            found.root.inside = _inside(text, begin)
         elif len(open_tags) == 2 and tag in ("link", "joint"):
-            current = Element(_inside(text, place), _kind(text, place))
+            current = Element(_inside(text, begin), _kind(text, begin))
             (found.links if tag == "link" else found.joints)[attributes["name"]] = current
 
     def end(tag: str) -> None:
-        _, place = open_tags.pop()
+        _, begin = open_tags.pop()
         if len(open_tags) == 2 and tag in ("inertial", "dynamics"):
-            low, high = _inside(text, place)
+            low, high = _inside(text, begin)
             stop = high if high > low else _after(text, parser.CurrentByteIndex)
-            current.parts[tag] = (place, stop)
+            current.parts[tag] = (begin, stop)
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.Parse(text, True)  # noqa: FBT003  (the signature of expat)
     return found
 
 
-def _after(text: bytes, place: int) -> int:
+def _after(text: bytes, begin: int) -> int:
     """Give the byte after the tag that starts at a place."""
-    tag = _TAG.match(text, place)
-    return tag.end() if tag else place
+    tag = _TAG.match(text, begin)
+    return tag.end() if tag else begin
 
 
-def _inside(text: bytes, place: int) -> Span:
-    end = _after(text, place)
+def _inside(text: bytes, begin: int) -> Span:
+    end = _after(text, begin)
     return (end - 2, end) if text[end - 2 : end] == b"/>" else (end, end)
 
 
-def _kind(text: bytes, place: int) -> Span:
-    found = _TYPE.search(text, place, _after(text, place))
+def _kind(text: bytes, begin: int) -> Span:
+    found = _TYPE.search(text, begin, _after(text, begin))
     return (0, 0) if found is None else found.span(1 if found.group(1) is not None else 2)

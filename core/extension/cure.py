@@ -60,15 +60,15 @@ def all_proven(diagnosis: Diagnosis) -> Diagnosis:
 
 
 def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
-    """Give the places of an extended model's base parameters in the model with all findings."""
-    places = list(range(len(base.kept)))
+    """Give the indices of an extended model's base parameters in the model with all findings."""
+    indices = list(range(len(base.kept)))
     members = (finding for finding in diagnosis.findings if finding.member is not None)
-    stop = len(places)
+    stop = len(indices)
     for finding, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
         start, stop = stop, stop + len(term.parameters(base.model.robot))
         if enters(finding):
-            places += range(start, stop)
-    return np.array(places)
+            indices += range(start, stop)
+    return np.array(indices)
 
 
 def taken_along(diagnosis: Diagnosis) -> str:

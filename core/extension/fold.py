@@ -18,15 +18,15 @@ def folded(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Wei
 
     Terms that change parameters which the model does not have stay.
     """
-    place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
+    column_of = {parameter.name: column for column, parameter in enumerate(model.parameters)}
     values, start = np.array(standard), 0
     kept: list[int] = []
     terms: list[Term] = []
     for term in model.terms:
         stop = start + len(term.parameters(model.robot))
         changed = getattr(term, "changes", ())
-        if changed and all(name in place for name in changed):
-            values[[place[name] for name in changed]] += values[start:stop]
+        if changed and all(name in column_of for name in changed):
+            values[[column_of[name] for name in changed]] += values[start:stop]
         else:
             terms.append(term)
             kept += range(start, stop)

@@ -48,7 +48,7 @@ def gains(
 
 def _squares(observation: Observation, base: BaseParameters, held: tuple[int, ...]) -> tuple[Matrix, Matrix]:
     """Give the sum of squared residuals and the number of rows, blocks x joints."""
-    blocks = [observation.blocks[place] for place in held]
+    blocks = [observation.blocks[index] for index in held]
     squares = [
         [
             factor.residual_square(base[columns])
@@ -80,7 +80,7 @@ def motion_intervals(comparison: Comparison) -> Intervals | None:
     block = np.array([keys.index(key) for key in comparison.before.keys])
     sums = [
         np.array(
-            [weights @ (windows.position[block == place] ** 2).sum(axis=0) for place in range(len(keys))]
+            [weights @ (windows.position[block == number] ** 2).sum(axis=0) for number in range(len(keys))]
         )
         for windows in (comparison.before, comparison.after)
     ]

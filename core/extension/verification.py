@@ -35,11 +35,11 @@ def verify(
         Gives the gain of one identification over another on the held-out blocks.
     """
     now: Answer | None = None
-    for place, finding in enumerate(diagnosis.findings):
+    for index, finding in enumerate(diagnosis.findings):
         if finding.member is None or enters(finding):
             continue
         findings = list(diagnosis.findings)
-        findings[place] = replace(finding, proven=True)
+        findings[index] = replace(finding, proven=True)
         trial = replace(diagnosis, findings=tuple(findings))
         try:
             now = tried(diagnosis) if now is None else now
@@ -47,7 +47,7 @@ def verify(
         except SolverError:  # with it there is no answer
             continue
         if shown := _shown(finding, gained(now, then)):
-            findings[place] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
+            findings[index] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
             diagnosis, now = replace(diagnosis, findings=tuple(findings)), then
     return diagnosis, now
 

@@ -139,9 +139,9 @@ class JointLog:
         return self.source.samples
 
 
-def rows_at(rows: LogRows, place: slice | np.ndarray) -> LogRows:
+def rows_at(rows: LogRows, index: slice | np.ndarray) -> LogRows:
     """Take some rows of all channels, by a slice, by number or by marks."""
-    return LogRows(rows.time[place], **{name: values[place] for name, values in rows.channels().items()})
+    return LogRows(rows.time[index], **{name: values[index] for name, values in rows.channels().items()})
 
 
 def whole_rows(log: JointLog) -> LogRows:

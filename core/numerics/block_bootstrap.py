@@ -13,7 +13,7 @@ FEWEST_BLOCKS = 4
 
 
 def block_draws(blocks: int, draws: int, seed: int) -> BlockDraws:
-    """Draw the places of as many blocks as there are, one row per draw.
+    """Draw the indices of as many blocks as there are, one row per draw.
 
     Examples
     --------

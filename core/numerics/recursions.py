@@ -16,12 +16,12 @@ _PART = {**_SUMS, "cache": False, "no_cpython_wrapper": True}
 
 
 @njit("int64(float64[::1], int64[::1], float64, int64, float64[:,::1], float64[::1])", **_SUMS)
-def reflect(residual, place, forgotten, fewest, predictors, variances) -> int:  # pragma: no cover  (compiled)
+def reflect(residual, past, forgotten, fewest, predictors, variances) -> int:  # pragma: no cover  (compiled)
     """Write the best predictors of a series from 0, 1, ... past values, and their innovations' variances.
 
     Parameters
     ----------
-    place
+    past
         Per value, how many values of its run precede it.
     forgotten
         Share by which correlations with the past are taken for smaller.
@@ -43,10 +43,10 @@ def reflect(residual, place, forgotten, fewest, predictors, variances) -> int:  
     for order in range(1, len(variances)):
         both, cross, count = 0.0, 0.0, 0
         for row in range(order, len(residual)):
-            inside = 1.0 if place[row] >= order else 0.0
+            inside = 1.0 if past[row] >= order else 0.0
             both += inside * (ahead[row] * ahead[row] + back[row - 1] * back[row - 1])
             cross += inside * ahead[row] * back[row - 1]
-            count += place[row] >= order
+            count += past[row] >= order
         if both <= 0.0 or count < fewest * order:
             return order - 1
         reflection = 2.0 * cross / (both * (1.0 + forgotten))
@@ -64,19 +64,19 @@ def reflect(residual, place, forgotten, fewest, predictors, variances) -> int:  
 
 
 @njit("void(float64[::1], int64[::1], float64[:,::1], float64[::1])", **_SUMS)
-def innovate(residual, place, weights, innovations) -> None:  # pragma: no cover  (compiled)
+def innovate(residual, past, weights, innovations) -> None:  # pragma: no cover  (compiled)
     """Write what is new in a series: its values and those before them by the weights for as many as known.
 
     Parameters
     ----------
-    place
+    past
         Per value, how many values of its run precede it.
     weights
         Known values x lags: the last row is for as many as it has lags, and for more.
     """
     most = len(weights) - 1
     for row in range(len(residual)):
-        known = min(place[row], most)
+        known = min(past[row], most)
         total = 0.0
         for lag in range(known + 1):
             total += weights[known, lag] * residual[row - lag]
@@ -119,9 +119,9 @@ def _new_of(row, known, columns, weights) -> np.ndarray:
 @njit(**_PART)
 def _add_row(row, known, rows, sums, products) -> None:
     """Add the products of one row of columns, of which so many rows before it are not zero."""
-    columns, place, weights, left, fitted, sizes, loose, begins = rows
+    columns, past, weights, left, fitted, sizes, loose, begins = rows
     right, squares, grams, cross = sums
-    white = _new_of(row, known, columns, weights[min(place[row], len(weights) - 1)])
+    white = _new_of(row, known, columns, weights[min(past[row], len(weights) - 1)])
     width = len(white)
     for tested in range(width):
         right[tested] += left[row] * white[tested]
@@ -164,7 +164,7 @@ def _take_spanned(sums, products, inside, low, high) -> None:
 
 @njit(**_PART)
 def _copy_sums(sums, own) -> None:
-    """Write sums over rows into a table's places for them; numba compiles loops sooner than slices."""
+    """Write sums over rows into a table's rows for them; numba compiles loops sooner than slices."""
     for tested in range(len(sums[0])):
         own[0][tested], own[1][tested] = sums[0][tested], sums[1][tested]
         for other in range(len(sums[0])):

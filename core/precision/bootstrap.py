@@ -34,7 +34,7 @@ def bootstrap(
     solve
         Fits a system.
     drawn
-        Per draw, the places of its blocks.
+        Per draw, the indices of its blocks.
     mapper
         Runs the draws' fits.
 
@@ -44,8 +44,8 @@ def bootstrap(
     """
     products = _products(blocks, columns_of, system)
 
-    def fit_draw(places: Indices) -> BaseParameters | None:
-        weights = np.bincount(places, minlength=len(blocks)).astype(float)
+    def fit_draw(indices: Indices) -> BaseParameters | None:
+        weights = np.bincount(indices, minlength=len(blocks)).astype(float)
         try:
             return solve(_system(np.tensordot(weights, products, axes=1), system))
         except SolverError:
@@ -63,8 +63,8 @@ def _products(
     products = np.zeros((len(blocks), size, size))
     for total, block in zip(products, blocks, strict=True):
         for factor, columns, noise in zip(block, columns_of, system.noise, strict=True):
-            place = np.append(columns, size - 1)
-            total[np.ix_(place, place)] += factor.triangle.T @ factor.triangle / noise**2
+            index = np.append(columns, size - 1)
+            total[np.ix_(index, index)] += factor.triangle.T @ factor.triangle / noise**2
     return products
 
 

@@ -99,9 +99,9 @@ def infer(
         for joint, (products, columns, noise) in enumerate(
             zip(memory, columns_of, system.noise, strict=True)
         ):
-            place = np.ix_(columns, columns)
-            autocovariance = _true_autocovariance(products, base[columns], covariance[place])
-            meat[place] += products.spread(autocovariance) / noise**4
+            index = np.ix_(columns, columns)
+            autocovariance = _true_autocovariance(products, base[columns], covariance[index])
+            meat[index] += products.spread(autocovariance) / noise**4
             factors[joint] = _memory_factor(autocovariance)
         covariance = _sandwich(bread, meat)
     return Inference(information, meat, _open_share(system.triangle), factors)

@@ -129,8 +129,8 @@ def _visit(model: DynamicModel, column: int) -> tuple[int, int, int]:
 def _table_place(model: DynamicModel, column: int) -> tuple[int, int, int]:
     symbols = (*INERTIAL_SYMBOLS, "IA", "FV", "FC", "OFF")
     parameter = model.parameters[column]
-    place = symbols.index(parameter.symbol) if parameter.symbol in symbols else len(symbols)
-    return (parameter.joint, place, column)
+    rank = symbols.index(parameter.symbol) if parameter.symbol in symbols else len(symbols)
+    return (parameter.joint, rank, column)
 
 
 def _link_of(robot: RobotModel, joint: int) -> int:
@@ -163,7 +163,7 @@ def _random_states(robot: RobotModel, parameters: int) -> MotionState:
 def _first_independent(matrix: Matrix) -> tuple[list[int], Rows]:
     """Pick the columns that the ones before them do not span.
 
-    Give their places and all columns as combinations of them.
+    Give their indices and all columns as combinations of them.
     """
     scale = np.linalg.norm(matrix, axis=0)
     used = scale > RANK_TOLERANCE * scale.max()

@@ -30,8 +30,8 @@ class ColumnPlan:
     @cached_property
     def entries(self) -> tuple[tuple[int, int], ...]:
         """List the (joint, position in `columns`) pairs of the series, in the order `series` gives them."""
-        place = {column: position for position, column in enumerate(self.columns)}
-        wanted = {(joint, place[column]) for joint, column in self.model.entries if column in place}
+        index_of = {column: index for index, column in enumerate(self.columns)}
+        wanted = {(joint, index_of[column]) for joint, column in self.model.entries if column in index_of}
         return tuple(sorted(wanted))
 
     @cached_property
@@ -43,8 +43,8 @@ class ColumnPlan:
     @cached_property
     def columns_of(self) -> tuple[Indices, ...]:
         """Give, per joint, the positions in `columns` of its non-zero series, in the order of `rows_of`."""
-        places = np.array([column for _, column in self.entries])
-        return tuple(places[rows] for rows in self.rows_of)
+        columns = np.array([column for _, column in self.entries])
+        return tuple(columns[rows] for rows in self.rows_of)
 
     def series(self, state: MotionState) -> Series:
         """Give the torque per unit parameter, one row per entry."""
@@ -55,7 +55,7 @@ class ColumnPlan:
 
     @cached_property
     def _fills(self) -> "list[_RigidBodyFill | _TermFill]":
-        slot_of = {(joint, self.columns[place]): row for row, (joint, place) in enumerate(self.entries)}
+        slot_of = {(joint, self.columns[index]): row for row, (joint, index) in enumerate(self.entries)}
         fills: list[_RigidBodyFill | _TermFill] = []
         start = 0
         for term in self.model.terms:

@@ -60,8 +60,8 @@ class Factor:
         array([[3.],
                [4.]])
         """
-        place = self._starts[name]
-        return self.triangle[:, place : place + dict(self.groups)[name]]
+        start = self._starts[name]
+        return self.triangle[:, start : start + dict(self.groups)[name]]
 
     def extended(self, rows: Matrix) -> "Factor":
         """Take further rows in."""
@@ -113,7 +113,7 @@ class Factor:
     def _starts(self) -> dict[str, int]:
         """Give every group's first column."""
         widths = [width for _, width in self.groups]
-        return {name: sum(widths[:place]) for place, (name, _) in enumerate(self.groups)}
+        return {name: sum(widths[:index]) for index, (name, _) in enumerate(self.groups)}
 
 
 def _triangle(rows: Rows) -> Rows:

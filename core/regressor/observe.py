@@ -63,7 +63,7 @@ class Observation:
         )
 
     def parts(self, held_out: frozenset[BlockKey]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Give the places of the fitted and of the held-out blocks.
+        """Give the indices of the fitted and of the held-out blocks.
 
         Raises
         ------
@@ -72,9 +72,9 @@ class Observation:
         """
         fitted: list[int] = []
         held: list[int] = []
-        for place, block in enumerate(self.blocks):
-            (held if (block.log, block.number) in held_out else fitted).append(place)
-        if held_out and not any(factor.rows for place in held for factor in self.blocks[place].factors):
+        for index, block in enumerate(self.blocks):
+            (held if (block.log, block.number) in held_out else fitted).append(index)
+        if held_out and not any(factor.rows for index in held for factor in self.blocks[index].factors):
             raise OptionError(
                 "no kept instant lies in the held-out blocks",
                 evidence={"instants kept": self.kept, "blocks held out": len(held_out)},
@@ -82,16 +82,16 @@ class Observation:
             )
         return tuple(fitted), tuple(held)
 
-    def over(self, plan: ColumnPlan, places: Indices) -> "Observation":
+    def over(self, plan: ColumnPlan, indices: Indices) -> "Observation":
         """Give the equations of a plan all of whose columns are among this one's, without another pass.
 
         Parameters
         ----------
-        places
+        indices
             Rising positions of the plan's columns in `self.plan.columns`.
         """
         kept = [
-            np.append(np.searchsorted(own, places[wanted]), len(own))
+            np.append(np.searchsorted(own, indices[wanted]), len(own))
             for own, wanted in zip(self.columns_of, plan.columns_of, strict=True)
         ]
 

@@ -15,15 +15,15 @@ from .parameters import INERTIAL_SYMBOLS
 
 def _basis() -> np.ndarray:
     basis = np.zeros((10, 4, 4))
-    place = {symbol: basis[position] for position, symbol in enumerate(INERTIAL_SYMBOLS)}
+    basis_of = {symbol: basis[position] for position, symbol in enumerate(INERTIAL_SYMBOLS)}
     for axis, symbol in enumerate(("XX", "YY", "ZZ")):
-        place[symbol][:3, :3] = 0.5 * np.eye(3)
-        place[symbol][axis, axis] = -0.5
+        basis_of[symbol][:3, :3] = 0.5 * np.eye(3)
+        basis_of[symbol][axis, axis] = -0.5
     for (row, column), symbol in (((0, 1), "XY"), ((0, 2), "XZ"), ((1, 2), "YZ")):
-        place[symbol][row, column] = place[symbol][column, row] = -1.0
+        basis_of[symbol][row, column] = basis_of[symbol][column, row] = -1.0
     for axis, symbol in enumerate(("MX", "MY", "MZ")):
-        place[symbol][axis, 3] = place[symbol][3, axis] = 1.0
-    place["M"][3, 3] = 1.0
+        basis_of[symbol][axis, 3] = basis_of[symbol][3, axis] = 1.0
+    basis_of["M"][3, 3] = 1.0
     return basis
 
 

@@ -200,7 +200,7 @@ def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravi
         parent = placed.get(joint.parent, _Placed(0, np.eye(3), np.zeros(3)))
         rotation = parent.rotation @ joint.rotation
         translation = parent.translation + parent.rotation @ joint.translation
-        place = _Placed(parent.number, rotation, translation)
+        frame = _Placed(parent.number, rotation, translation)
         if moves:
             turn, drive = rotation_to(joint.axis), _drive(joint, by_name)
             kind = cast("JointKind", MOVING_KINDS[joint.kind])
@@ -218,11 +218,11 @@ def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravi
                 )
             )
             bodies.append(np.zeros(10))
-            place = _Placed(len(links), turn.T, np.zeros(3))
-        placed[joint.child] = place
+            frame = _Placed(len(links), turn.T, np.zeros(3))
+        placed[joint.child] = frame
         body = document.links[joint.child]
-        if body is not None and place.number:
-            bodies[place.number - 1] += transform_body(body, place.rotation, place.translation)
+        if body is not None and frame.number:
+            bodies[frame.number - 1] += transform_body(body, frame.rotation, frame.translation)
     return RobotModel(
         name=document.name,
         links=tuple(links),

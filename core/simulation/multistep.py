@@ -118,7 +118,7 @@ def predict_motion(
             found.append(_errors(mechanism, group, slice(start, start + _AT_ONCE), asked))
             if progress is not None:
                 progress(min(1.0, (start + _AT_ONCE) / len(group.keys)))
-    position, velocity, still = (np.concatenate([part[place] for part in found]) for place in range(3))
+    position, velocity, still = (np.concatenate([part[index] for part in found]) for index in range(3))
     return MultiStep(asked.horizons, tuple(keys), np.concatenate(begins), position, velocity, still)
 
 

@@ -46,8 +46,8 @@ class HoldOut:
         count = round(self.fraction * self.blocks)
         if not count:
             return frozenset()
-        places = ((np.arange(count) + 0.5) * self.blocks / count).astype(int)
-        return frozenset((log, int(block)) for log in range(logs) for block in places)
+        held_out = ((np.arange(count) + 0.5) * self.blocks / count).astype(int)
+        return frozenset((log, int(block)) for log in range(logs) for block in held_out)
 
     def _check(self, logs: int) -> None:
         if logs == 1:

@@ -38,8 +38,8 @@ class MassMatrixCheck:
 def mass_matrices(model: DynamicModel, standard: Parameters, position: JointSeries) -> np.ndarray:
     """Give M(q) for every row of positions: the torque of unit accelerations, at rest and without gravity."""
     inertial = _inertial(model)
-    place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
-    values = np.array([standard[place[parameter.name]] for parameter in inertial.parameters])
+    column_of = {parameter.name: column for column, parameter in enumerate(model.parameters)}
+    values = np.array([standard[column_of[parameter.name]] for parameter in inertial.parameters])
     joints = len(model.robot.joints)
     repeated = np.repeat(position, joints, axis=0)
     unit = np.tile(np.eye(joints), (len(position), 1))
@@ -71,12 +71,11 @@ def workspace(robot: RobotModel, configurations: int = CONFIGURATIONS) -> JointS
 
 def pseudo_inertia_eigenvalues(model: DynamicModel, standard: Parameters) -> tuple[float, ...]:
     """Give the smallest eigenvalue of every link's pseudo-inertia (mixed units kg m2, kg m, kg)."""
-    place = {parameter.name: column for column, parameter in enumerate(model.parameters)}
-    links = [
-        place[f"XX{number}"] for number in range(1, len(model.robot.links) + 1) if f"XX{number}" in place
-    ]
+    columns = {parameter.name: column for column, parameter in enumerate(model.parameters)}
+    links = range(1, len(model.robot.links) + 1)
+    firsts = [columns[f"XX{link}"] for link in links if f"XX{link}" in columns]
     return tuple(
-        float(np.linalg.eigvalsh(pseudo_inertia(standard[first : first + 10]))[0]) for first in links
+        float(np.linalg.eigvalsh(pseudo_inertia(standard[first : first + 10]))[0]) for first in firsts
     )
 
 

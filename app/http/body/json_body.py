@@ -127,8 +127,8 @@ def invalid(errors: Iterable[object]) -> Problem:
 
 
 def _spot(error: dict[str, object]) -> dict[str, object]:
-    place = error.get("loc")
-    location = [str(step) for step in place] if isinstance(place, tuple | list) else []
+    path = error.get("loc")
+    location = [str(step) for step in path] if isinstance(path, tuple | list) else []
     spot: dict[str, object] = {"message": str(error.get("msg", ""))[:LONGEST_REASON]}
     if location[:1] == ["body"]:
         steps = (step.replace("~", "~0").replace("/", "~1") for step in location[1:])

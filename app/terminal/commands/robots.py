@@ -128,7 +128,7 @@ def _print_joints(rows: list[dict[str, Any]]) -> None:
         str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else "") for row in rows
     ]
     columns = [
-        Column("joint", [str(place) for place in range(1, len(rows) + 1)]),
+        Column("joint", [str(number) for number in range(1, len(rows) + 1)]),
         Column("name", [str(row.get("name", "")) for row in rows], is_text=True, spare=3),
         Column("type", kinds, is_text=True, spare=1),
         Column("on", [str(row.get("antecedent", "")) for row in rows], spare=2),

@@ -21,8 +21,8 @@ def print_diagnosis(console: Console, result: Document) -> None:
     diagnosis = result["diagnosis"]
     findings, band = diagnosis["findings"], diagnosis["band_hz"]
     console.print(f"\n[bold]{escape(headline(result))}[/]")
-    for place, finding in enumerate(findings, start=1):
-        console.print(f"\n[bold]{place}. {escape(finding['statement'])}.[/]")
+    for number, finding in enumerate(findings, start=1):
+        console.print(f"\n[bold]{number}. {escape(finding['statement'])}.[/]")
         for line in reasons(finding, band):
             console.print(Padding(escape(line), (0, 0, 0, 3)))
     if diagnosis["gain"]:

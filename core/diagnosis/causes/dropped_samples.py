@@ -106,9 +106,9 @@ def _bridged(fraction: float) -> Corruption:
 
     def corrupt(position: JointSeries, velocity: JointSeries, rng: np.random.Generator) -> JointSeries:
         del velocity
-        place = np.arange(len(position))
+        index = np.arange(len(position))
         kept = rng.random(len(position)) >= fraction
         kept[[0, -1]] = True
-        return np.asarray(CubicSpline(place[kept], position[kept])(place) - position)
+        return np.asarray(CubicSpline(index[kept], position[kept])(index) - position)
 
     return corrupt

@@ -141,7 +141,7 @@ def _contacts(solved: FittedCause) -> list[_Contact]:
 
 def _deviation(solved: FittedCause, number: int) -> float:
     """Give the deviation of the norm of one contact's force, N, to first order: that along the force."""
-    place = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
-    force = solved.values[place]
+    part = slice(len(WRENCH) * number, len(WRENCH) * number + 3)
+    force = solved.values[part]
     along = force / max(float(np.linalg.norm(force)), 1e-300)
-    return float(np.sqrt(max(along @ solved.covariance[place, place] @ along, 0.0)))
+    return float(np.sqrt(max(along @ solved.covariance[part, part] @ along, 0.0)))

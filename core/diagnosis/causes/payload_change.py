@@ -81,10 +81,10 @@ class PayloadChange(OwnJointCause):
         joint, mass = solved.site[0], float(body[MASS])
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         found = [Quantity("mass", joint, "kg", mass, float(deviations[MASS]))]
-        for place, axis in enumerate("xyz", start=_FIRST):
-            centre = float(body[place]) / mass
+        for index, axis in enumerate("xyz", start=_FIRST):
+            centre = float(body[index]) / mass
             slope = np.zeros(len(body))
-            slope[place], slope[MASS] = 1.0 / mass, -centre / mass
+            slope[index], slope[MASS] = 1.0 / mass, -centre / mass
             deviation = float(np.sqrt(max(slope @ solved.covariance @ slope, 0.0)))
             if deviation < ADMISSIBLE.payload_centre:
                 found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))

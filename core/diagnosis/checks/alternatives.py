@@ -32,9 +32,9 @@ from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 class Comparison:
     """Hold the comparison of a finding with its alternatives."""
 
-    place: int
+    index: int
     member: Candidate
-    """Place in the hypothesis of what is judged, and what it is."""
+    """Index in the hypothesis of the member that is judged, and the member."""
     statistic: float
     """Its likelihood ratio statistic."""
     bic_gain: float
@@ -77,7 +77,7 @@ def _comparison(state: SearchState, index: int, unnamed: tuple[Candidate, ...]) 
 def _falls(state: SearchState, own: Comparison, *, alone: bool) -> bool:
     """Tell whether a member is inadmissible or a surrogate."""
     return (
-        not state.chosen.allows(own.place)
+        not state.chosen.allows(own.index)
         or (own.margin < -SELECTION.undecided and not alone)
         or _reduces_no_error(state.fitter, state.chosen, own, alone=alone)
         or _beaten_by_unnamed(own)
@@ -186,7 +186,7 @@ def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Ca
         return 0.0
     torque, worth = fitter.dataset.position_torque, []
     for rows, part, made in zip(fitter.rows.fitted, own.fit.joints, torque.T, strict=True):
-        worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.place) ** 2)))
+        worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.run_index) ** 2)))
     every = range(1, len(worth) + 1)
     return min(max(worth[joint - 1] for joint in candidate.site or every) for candidate in both)
 

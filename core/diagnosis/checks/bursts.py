@@ -43,7 +43,7 @@ def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tupl
 
 
 def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, Indices, Indices]]:
-    """Give, per span of a log, its begin, the places of its rows, and those of its neighbourhood too."""
+    """Give, per span of a log, its begin, the indices of its rows, and those of its neighbourhood too."""
     own = np.flatnonzero(dataset.log[rows] == log)
     time = dataset.time[rows][own]
     begins = np.arange(time.min(), time.max(), 0.5 * UNNAMED.burst_seconds)

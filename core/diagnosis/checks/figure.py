@@ -27,7 +27,7 @@ def curve(
     dataset: Dataset,
     operating_point: Prediction,
     chosen: Hypothesis,
-    place: int,
+    index: int,
     columns: Columns,
     left: tuple[JointSeries, JointSeries],
 ) -> Curve | None:
@@ -38,9 +38,9 @@ def curve(
     left
         Residual without and with the finding, rows x joints.
     """
-    member = chosen.members[place]
-    torque = {joint: part @ chosen.fit.values[chosen.columns_of(place)] for joint, part in columns.items()}
-    joint = max(torque, key=lambda index: _share(torque[index], left[0][:, index], dataset.usable[:, index]))
+    member = chosen.members[index]
+    torque = {joint: part @ chosen.fit.values[chosen.columns_of(index)] for joint, part in columns.items()}
+    joint = max(torque, key=lambda joint: _share(torque[joint], left[0][:, joint], dataset.usable[:, joint]))
     name = STAND_IN.get(member.cause.coordinate, member.cause.coordinate)
     if name == "other_velocity":
         name = _of_other(joint, member.site)
@@ -92,9 +92,9 @@ def _apart(rows: Indices, forward: np.ndarray, along: Vector) -> list[Indices]:
 def _explained_by_means(torque: Vector, rows: Indices, groups: list[Indices]) -> float:
     """Give the share of a torque's variance over some rows that the means of groups explain."""
     total = float(np.var(torque)) * len(rows)
-    place = np.empty(int(rows.max(initial=0)) + 1, dtype=int)
-    place[rows] = np.arange(len(rows))
-    within = sum(float(np.var(torque[place[group]])) * len(group) for group in groups)
+    order = np.empty(int(rows.max(initial=0)) + 1, dtype=int)
+    order[rows] = np.arange(len(rows))
+    within = sum(float(np.var(torque[order[group]])) * len(group) for group in groups)
     return 1.0 - within / max(total, 1e-300)
 
 

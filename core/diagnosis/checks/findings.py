@@ -34,15 +34,15 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         Likelihood ratio statistic of an unnamed pattern in what is left: where it is larger than the
         finding's, the finding may be no more than its trace.
     """
-    fitter, chosen, place = found.fitter, found.chosen, own.place
-    dataset, left = fitter.dataset, (_without(fitter, chosen, place, own), after)
-    member, solved = chosen.members[place], chosen.in_joint_units(place, fitter.dataset.robot)
+    fitter, chosen, index = found.fitter, found.chosen, own.index
+    dataset, left = fitter.dataset, (_without(fitter, chosen, index, own), after)
+    member, solved = chosen.members[index], chosen.in_joint_units(index, fitter.dataset.robot)
     cause = member.cause
     columns = fitter.columns([member])[0]
     joints = tuple(sorted(columns))
     mask = dataset.usable & dataset.held_out[:, None]
     measured = gain(left[0], left[1], mask, dataset.block_of_all, joints)
-    log_p = log_p_of(fitter, chosen, place, own.statistic)
+    log_p = log_p_of(fitter, chosen, index, own.statistic)
     margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
     return Finding(
@@ -56,11 +56,11 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_explained(left, dataset.usable & ~dataset.held_out[:, None], joints),
-        evidence=(*_evidence(own, log_p, member.trials), *_on_holdout(fitter, chosen, place, own)),
+        evidence=(*_evidence(own, log_p, member.trials), *_on_holdout(fitter, chosen, index, own)),
         ambiguous_with=own.ambiguous,
         refuted=own.refuted,
         gain=measured,
-        curve=curve(dataset, fitter.operating_point, chosen, place, columns, left),
+        curve=curve(dataset, fitter.operating_point, chosen, index, columns, left),
         member=member,
     )
 
@@ -87,7 +87,7 @@ def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, .
 
 
 def _on_holdout(
-    fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison
+    fitter: HypothesisFitter, chosen: Hypothesis, index: int, own: Comparison
 ) -> tuple[Evidence, ...]:
     """Give its statistic on held-out rows, each weighted by the noise there; not of a transient cause.
 
@@ -95,13 +95,13 @@ def _on_holdout(
     """
     if own.member.cause.traits.transient:
         return ()
-    expected = expected_holdout_likelihood_ratio(fitter, own.without, chosen, place)
+    expected = expected_holdout_likelihood_ratio(fitter, own.without, chosen, index)
     return (
         Evidence(
             "Log-likelihood ratio statistic on held-out data; as far as it acts there, "
             f"{expected:.0f} is expected",
             "unseen likelihood ratio",
-            holdout_likelihood_ratio(fitter, own.without, chosen, place),
+            holdout_likelihood_ratio(fitter, own.without, chosen, index),
         ),
     )
 
@@ -143,6 +143,6 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
     )
 
 
-def _without(fitter: HypothesisFitter, chosen: Hypothesis, place: int, own: Comparison) -> JointSeries:
+def _without(fitter: HypothesisFitter, chosen: Hypothesis, index: int, own: Comparison) -> JointSeries:
     """Give the residual without a finding: all else fitted again, or, against a reference, kept as it is."""
-    return residual(fitter, own.without) if fitter.prior is None else residual(fitter, chosen, (place,))
+    return residual(fitter, own.without) if fitter.prior is None else residual(fitter, chosen, (index,))

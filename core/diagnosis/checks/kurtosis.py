@@ -48,8 +48,8 @@ def kurtosis(series: Vector, block: Indices) -> tuple[float, float]:
     >>> kurtosis(levels, np.arange(40) // 4)
     (1.0, 0.0)
     """
-    _, place = np.unique(block, return_inverse=True)
-    sums = np.array([np.bincount(place, series**power) for power in range(5)])
+    _, number = np.unique(block, return_inverse=True)
+    sums = np.array([np.bincount(number, series**power) for power in range(5)])
     whole = sums.sum(axis=1)
     size = float(_kurtosis(whole))
     without = _kurtosis(whole[:, None] - sums)

@@ -56,7 +56,7 @@ class UnnamedPatternCause(OwnJointCause):
         if name != "clock":
             return [scalars]
         step = STEP / _seconds(dataset) / FINER
-        return [_scalars(name, (numbers[0] + step * place,)) for place in range(-FINER, FINER + 1)]
+        return [_scalars(name, (numbers[0] + step * shift,)) for shift in range(-FINER, FINER + 1)]
 
     def switching(self, instants: Vector) -> Scalars:
         """Give the scalars of a torque that switches between two levels at these instants, s."""
@@ -108,13 +108,13 @@ def _seconds(dataset: Dataset) -> float:
 
 def _scalars(name: str, numbers: Numbers) -> Scalars:
     return {"pattern": float(_NAMES.index(name))} | {
-        f"number_{place}": value for place, value in enumerate(numbers)
+        f"number_{index}": value for index, value in enumerate(numbers)
     }
 
 
 def _read(scalars: Scalars) -> tuple[str, Numbers]:
     return _NAMES[int(scalars["pattern"])], tuple(
-        scalars[f"number_{place}"] for place in range(len(scalars) - 1)
+        scalars[f"number_{index}"] for index in range(len(scalars) - 1)
     )
 
 

@@ -66,14 +66,14 @@ def _piece(
     small = response[middle % thin :: thin]
     parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
     at = tile.first + recipe.decimation * np.arange(len(tile.time))
-    place = (done + np.arange(*kept)) / motion.kept
+    fraction = (done + np.arange(*kept)) / motion.kept
     stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
     return DatasetSegment(
         log=number,
         stretch=stretch,
         sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),
         time=tile.time,
-        block=np.minimum((place * motion.blocks).astype(int), motion.blocks - 1),
+        block=np.minimum((fraction * motion.blocks).astype(int), motion.blocks - 1),
         torque=tile.filtered(np.ascontiguousarray(_spikeless(motion.log, tile.torque).T)).T,
         usable=tile.usable,
         clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),

@@ -109,7 +109,7 @@ def _ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit
 
 
 def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[ARNoise, ...]:
-    return tuple(fit_ar_noise(left, rows.place, order=0) for left, rows in zip(sized, joints, strict=True))
+    return tuple(fit_ar_noise(left, rows.run_index, 0) for left, rows in zip(sized, joints, strict=True))
 
 
 def _size(joints: tuple[JointRows, ...]) -> int:
@@ -164,8 +164,8 @@ def _reestimated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[i
     for joint in range(len(joints)) if touched is None else touched:
         rows, known = joints[joint], found.joints[joint]
         residual = seen.joints[joint].residual(rows, seen.values)
-        estimated = fit_ar_noise(residual, rows.place, taken=degrees_of_freedom(rows, joints))
-        if estimated.departure(known.noise, residual, rows.place) > NOISE.settled:
+        estimated = fit_ar_noise(residual, rows.run_index, taken=degrees_of_freedom(rows, joints))
+        if estimated.departure(known.noise, residual, rows.run_index) > NOISE.settled:
             parts[joint] = whitened(rows, estimated)
     if tuple(parts) == found.joints:
         return found

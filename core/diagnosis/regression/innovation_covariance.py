@@ -9,7 +9,7 @@ from scipy.sparse import csr_array
 from ...arrays import Indices, JointSeries, UsableRows, Vector
 from ...dynamics.prediction import Prediction
 from ..dataset.dataset import Dataset
-from .ar_noise import fit_ar_noise, places
+from .ar_noise import fit_ar_noise, run_indices
 
 MIDDLE = 1.4826
 """Deviation of normal numbers over their median size."""
@@ -38,12 +38,12 @@ def inverse_covariances(dataset: Dataset, left: JointSeries, mask: np.ndarray) -
     out = []
     for joint in range(dataset.joints):
         rows = np.flatnonzero(mask[:, joint])
-        place = places(dataset.follows(rows))
-        new = fit_ar_noise(left[rows, joint], place).innovations(left[rows, joint], place)
+        run_index = run_indices(dataset.follows(rows))
+        new = fit_ar_noise(left[rows, joint], run_index).innovations(left[rows, joint], run_index)
         quiet = rows[_quiet(dataset, new, rows)]
-        noise = fit_ar_noise(left[quiet, joint], places(dataset.follows(quiet)))
-        white = noise.whitening(place)
-        size = MIDDLE * _middle(noise.innovations(left[rows, joint], place))
+        noise = fit_ar_noise(left[quiet, joint], run_indices(dataset.follows(quiet)))
+        white = noise.whitening(run_index)
+        size = MIDDLE * _middle(noise.innovations(left[rows, joint], run_index))
         white = csr_array((white.data / size, rows[white.indices], white.indptr), (len(rows), len(left)))
         out.append((white.T @ white).tocsr())
     return tuple(out)

@@ -35,7 +35,7 @@ class Nuisance:
     """
 
     columns: csr_array
-    with_other_holdout: csr_array
+    transposed: csr_array
     factor: Matrix
     sizes: Vector
 
@@ -49,7 +49,7 @@ class Nuisance:
         if not self.count:
             return rows
         for _ in range(2):
-            along, _ = dpbtrs(self.factor, self.with_other_holdout @ rows, lower=1)
+            along, _ = dpbtrs(self.factor, self.transposed @ rows, lower=1)
             rows = rows - self.columns @ along
         return rows
 
@@ -57,7 +57,7 @@ class Nuisance:
         """Give the least-squares coefficients of a column over the same rows, in the columns' own sizes."""
         along = np.zeros(self.count)
         for _ in range(2 if self.count else 0):
-            more, _ = dpbtrs(self.factor, self.with_other_holdout @ (rows - self.columns @ along), lower=1)
+            more, _ = dpbtrs(self.factor, self.transposed @ (rows - self.columns @ along), lower=1)
             along += more
         return np.asarray(along / self.sizes)
 
@@ -68,7 +68,7 @@ class Nuisance:
         """
         if not self.count or not rows.shape[1]:
             return np.zeros((self.count, rows.shape[1]))
-        along, _ = dtbtrs(self.factor, self.with_other_holdout @ rows, uplo="L")
+        along, _ = dtbtrs(self.factor, self.transposed @ rows, uplo="L")
         return np.asarray(along)
 
 

@@ -91,7 +91,7 @@ def whitened(rows: JointRows, noise: ARNoise) -> Prewhitened:
         inside=inside,
         gram=_gram(columns, inside),
         torque=torque,
-        log_deviations=noise.log_deviations(rows.place),
+        log_deviations=noise.log_deviations(rows.run_index),
         nuisance=nuisance,
     )
 
@@ -104,7 +104,7 @@ def prewhitened_residual(rows: JointRows, noise: ARNoise, left: Matrix) -> Equat
 
 def _noise_of(rows: JointRows, noise: ARNoise) -> tuple[csr_array, Nuisance]:
     """Give what makes a joint's rows white, and its nuisance columns when white."""
-    whitening = noise.whitening(rows.place)
+    whitening = noise.whitening(rows.run_index)
     return whitening, nuisance_of(whitening @ rows.nuisance.columns)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...arrays import EquationRows, Indices, Matrix, Vector, Weights
 from ..dataset.dataset import Dataset
-from .ar_noise import places
+from .ar_noise import run_indices
 from .nuisance import Nuisance, independent, nuisance_of
 
 Columns = Mapping[int, EquationRows]
@@ -19,8 +19,8 @@ class JointRows:
     """Hold the rows of one joint that a fit may use."""
 
     rows: Indices
-    place: Indices
-    """Which rows of the data set, and their places within runs."""
+    run_index: Indices
+    """Which rows of the data set, and their indices within runs."""
     columns: Matrix
     torque: Vector
     """What is fitted, and what it is fitted to."""
@@ -41,7 +41,7 @@ def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray
         out.append(
             JointRows(
                 rows,
-                places(dataset.follows(rows)),
+                run_indices(dataset.follows(rows)),
                 columns[joint][rows],
                 dataset.torque[rows, joint],
                 nuisance_of(independent(dataset.sticking[joint][rows])),

@@ -47,18 +47,18 @@ class Panel:
 
     def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
         widths = [next(iter(columns.values())).shape[1] for columns in candidates]
-        places = [[index for index, own in enumerate(widths) if own == width] for width in set(widths)]
+        groups = [[index for index, own in enumerate(widths) if own == width] for width in set(widths)]
         self._groups = [
             (alike, _Alike(joints, [candidates[index] for index in alike], widths[alike[0]]))
-            for alike in places
+            for alike in groups
         ]
 
     def scores(self, found: Fit) -> list[Score]:
         """Score the candidates on top of a fit."""
         out = {
             index: score
-            for places, alike in self._groups
-            for index, score in zip(places, alike.scores(found), strict=True)
+            for indices, alike in self._groups
+            for index, score in zip(indices, alike.scores(found), strict=True)
         }
         return [out[index] for index in range(len(out))]
 
@@ -119,7 +119,7 @@ def score_onsets(found: Fit, joints: tuple[JointRows, ...], columns: Columns, st
     begins = [np.searchsorted(joints[joint].rows, starts) for joint in columns]
     different, alike = np.unique(begins, axis=1, return_inverse=True)
     scores = _scores_from(found, joints, columns, tuple(different))
-    return [scores[place] for place in alike.ravel()]
+    return [scores[number] for number in alike.ravel()]
 
 
 def _scores_from(
@@ -136,7 +136,7 @@ def _scores_from(
         loose, acting = own.nuisance.columns, len(own.acting)
         shapes = (width,), (width,), (width, width), (acting, width)
         sums = tuple(np.empty((count, *shape)) for shape in shapes)
-        equations = (series[rows.rows], rows.place, own.noise.weights, found.left[joint])
+        equations = (series[rows.rows], rows.run_index, own.noise.weights, found.left[joint])
         fitted, inside, factor = (
             np.ascontiguousarray(table) for table in (own.columns, own.inside, own.nuisance.factor.T)
         )
@@ -167,13 +167,13 @@ def _tested(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
     values, vectors = np.linalg.eigh(left[tested])
     inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > COLUMNS.open)
     spread = vectors / size[tested][:, :, None]
-    with_other_holdout = np.einsum("nij,ni->nj", spread, right[tested])
+    projected = np.einsum("nij,ni->nj", spread, right[tested])
     covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)
-    found = np.einsum("nij,nj->ni", spread, with_other_holdout * inverse)
-    for place, index in enumerate(np.flatnonzero(tested)):
-        statistic = float(with_other_holdout[place] ** 2 @ inverse[place])
-        freedom = int(np.count_nonzero(inverse[place]))
-        out[index] = Score(statistic, freedom, found[place], covariance[place], float(clear[index]))
+    found = np.einsum("nij,nj->ni", spread, projected * inverse)
+    for row, index in enumerate(np.flatnonzero(tested)):
+        statistic = float(projected[row] ** 2 @ inverse[row])
+        freedom = int(np.count_nonzero(inverse[row]))
+        out[index] = Score(statistic, freedom, found[row], covariance[row], float(clear[index]))
     return out
 
 

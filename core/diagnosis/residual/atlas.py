@@ -19,7 +19,7 @@ from scipy.stats import chi2
 from ...arrays import Indices, JointSeries, SquareMatrix, Vector
 from ...dynamics.prediction import Prediction
 from ..dataset.dataset import Dataset
-from ..regression.ar_noise import ARNoise, fit_ar_noise, places
+from ..regression.ar_noise import ARNoise, fit_ar_noise, run_indices
 from .coordinates import coordinate, coordinate_names
 from .floor import NoiseFloor, noise_floor
 from .memory import covariance_of_sums
@@ -107,7 +107,7 @@ def _noise_beside(binned: _Binned) -> ARNoise:
     count = np.bincount(label)
     mean = np.bincount(label, binned.residual[rows]) / count
     follows = (np.diff(rows, prepend=-2) == 1) & ~np.isin(rows, binned.begins)
-    return fit_ar_noise(binned.residual[rows] - mean[label], places(follows), taken=float(len(count)))
+    return fit_ar_noise(binned.residual[rows] - mean[label], run_indices(follows), taken=float(len(count)))
 
 
 def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNoise) -> Dependence:

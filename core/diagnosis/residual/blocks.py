@@ -55,8 +55,8 @@ def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Sha
     """
     judged = np.flatnonzero(np.isfinite(prediction))
     guess, truth = prediction[judged], residual[judged]
-    _, place = np.unique(block[judged], return_inverse=True)
-    both, own, power = (np.bincount(place, series) for series in (guess * truth, guess**2, truth**2))
+    _, number = np.unique(block[judged], return_inverse=True)
+    both, own, power = (np.bincount(number, series) for series in (guess * truth, guess**2, truth**2))
     if len(both) < 2 or power.sum() <= 0.0:
         return Share(0.0, (0.0, 0.0), np.where(np.isfinite(prediction), 0.0, np.nan))
     others = own.sum() - own
@@ -67,7 +67,7 @@ def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Sha
     deviation = float(np.sqrt(len(gain) / (len(gain) - 1) * np.sum(missed**2)))
     reach = float(student.ppf(PREDICTION.quantile, len(gain) - 1)) * deviation
     scaled = np.full(len(prediction), np.nan)
-    scaled[judged] = factor[place] * guess
+    scaled[judged] = factor[number] * guess
     return Share(_within(share), (_within(share - reach), _within(share + reach)), scaled)
 
 

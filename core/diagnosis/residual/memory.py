@@ -61,8 +61,8 @@ def covariance_of_sums(noise: ARNoise, weights: Matrix, begins: Indices) -> Squa
     borders = np.append(begins, len(weights)).astype(int)
     for start, stop in pairwise(borders):
         size = next_fast_len(2 * int(stop - start), real=True)
-        with_other_holdout = rfft(weights[start:stop], size, axis=0)
+        transformed = rfft(weights[start:stop], size, axis=0)
         power = spectrum(noise, size) / size
         power[1 : (size + 1) // 2] *= 2.0  # the negative frequencies
-        total += np.real((with_other_holdout.conj().T * power) @ with_other_holdout)
+        total += np.real((transformed.conj().T * power) @ transformed)
     return total

@@ -96,8 +96,8 @@ def both_clear(dataset: Dataset, stretch: Stretch, found: Repeats, rows: int) ->
     return np.asarray(clear[:rows] & clear[later : later + rows] & second)
 
 
-def _kaiser(place: Vector) -> Vector:
-    inside = np.clip(1.0 - place**2, 0.0, None)
+def _kaiser(offset: Vector) -> Vector:
+    inside = np.clip(1.0 - offset**2, 0.0, None)
     return np.asarray(np.i0(_KAISER * np.sqrt(inside)) / np.i0(_KAISER))
 
 

@@ -48,10 +48,10 @@ class CandidateCache:
         """Give the candidates' columns, each at its operating point."""
         out: dict[int, Columns] = {}
         for point in self._points:
-            places = [place for place, (_, own) in enumerate(self._placed) if own is point]
-            columns = built([self.candidates[place] for place in places], point)
-            out |= dict(zip(places, columns, strict=True))
-        return [out[place] for place in range(len(out))]
+            indices = [index for index, (_, own) in enumerate(self._placed) if own is point]
+            columns = built([self.candidates[index] for index in indices], point)
+            out |= dict(zip(indices, columns, strict=True))
+        return [out[index] for index in range(len(out))]
 
     @property
     def _points(self) -> tuple[Candidates, ...]:

@@ -23,13 +23,13 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
         The hypothesis without the member.
     """
     own, own_ratio = whole.members[index].cause, likelihood_ratio_by_joint(less, whole)
-    for place, other in enumerate(whole.members):
+    for other_index, other in enumerate(whole.members):
         leaves = own.id in masks(other.cause.id)
-        if place == index or not (leaves or own.traits.transient):
+        if other_index == index or not (leaves or own.traits.transient):
             continue
-        without = fitter.fit((*whole.members[:place], *whole.members[place + 1 :]), whole)
+        without = fitter.fit((*whole.members[:other_index], *whole.members[other_index + 1 :]), whole)
         if own.traits.transient:
-            within = leaves and _acts_within(whole, index, place)
+            within = leaves and _acts_within(whole, index, other_index)
             if _is_masked_event(less, whole, without, index, within=within):
                 return True
             continue
@@ -66,11 +66,11 @@ def _is_extreme(less: Hypothesis, whole: Hypothesis, index: int) -> bool:
     return bool(chance < np.log(MASKING.event_level))
 
 
-def _acts_within(whole: Hypothesis, index: int, place: int) -> bool:
+def _acts_within(whole: Hypothesis, index: int, other_index: int) -> bool:
     """Tell whether one member acts hardly ever except while another does, on the joints of the other."""
     together = alone = 0
     for part in whole.fit.joints:
-        acts, other = (part.of(whole.columns_of(member)).any(axis=1) for member in (index, place))
+        acts, other = (part.of(whole.columns_of(member)).any(axis=1) for member in (index, other_index))
         if other.any():
             together += int((acts & other).sum())
             alone += int((acts & ~other).sum())

@@ -193,10 +193,10 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
 
     What was fitted in a member's place for a swap is not fitted again for a comparison.
     """
-    kept, place = fitter.at.trials.get(now, {}), scored.candidate.place
-    if place not in kept:
-        kept[place] = fitter.fit_with(now, refine_scalars(fitter, now, scored.candidate, on_trial=True))
-    return kept[place]
+    kept, key = fitter.at.trials.get(now, {}), scored.candidate.column_key
+    if key not in kept:
+        kept[key] = fitter.fit_with(now, refine_scalars(fitter, now, scored.candidate, on_trial=True))
+    return kept[key]
 
 
 def _share(now: Hypothesis, trial: Hypothesis) -> float:

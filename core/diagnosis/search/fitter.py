@@ -119,11 +119,11 @@ class HypothesisFitter:
 
     def _columns(self, candidates: Sequence[Candidate], at: Candidates) -> list[Columns]:
         known = ChainMap(self._fixed_columns, at.columns)
-        new = [each for each in candidates if each.place not in known]
+        new = [each for each in candidates if each.column_key not in known]
         terms = [each.cause.term(self.dataset, at.operating_point, each.site, each.scalars) for each in new]
         for candidate, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
-            known.maps[hasattr(term, "believed")][candidate.place] = columns
-        return [known[each.place] for each in candidates]
+            known.maps[hasattr(term, "believed")][candidate.column_key] = columns
+        return [known[each.column_key] for each in candidates]
 
     def _without_lasting_causes(self, found: Hypothesis) -> Dataset:
         """Take from the torque what a hypothesis's members explain of it, all but transient ones."""
@@ -202,7 +202,7 @@ class HypothesisFitter:
         kept = self.at.less
         if now not in kept:
             kept.clear()
-            rest = ((*now.members[:place], *now.members[place + 1 :]) for place in range(len(now.members)))
+            rest = ((*now.members[:index], *now.members[index + 1 :]) for index in range(len(now.members)))
             kept[now] = tuple(self.fit(members, now) for members in rest)
             self.at.trials.update({smaller: {} for smaller in kept[now]})
         return kept[now]

@@ -11,11 +11,11 @@ FINER = 9
 def neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
     """Give the points on either side; beyond an end, as far as the other neighbour."""
     points = sorted({*points, here})
-    place = points.index(here)
+    index = points.index(here)
     if len(points) == 1:
         return 0.5 * here, 2.0 * here
-    low = points[place - 1] if place else _mirrored(here, points[place + 1])
-    high = points[place + 1] if place + 1 < len(points) else _mirrored(here, points[place - 1])
+    low = points[index - 1] if index else _mirrored(here, points[index + 1])
+    high = points[index + 1] if index + 1 < len(points) else _mirrored(here, points[index - 1])
     return low, high
 
 

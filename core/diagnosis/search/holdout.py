@@ -38,7 +38,7 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
         total = 0.0
         for joint, own in columns.items():
             torque = (own[part[joint].rows] @ values)[:, None]
-            total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].place) ** 2))
+            total += float(np.sum(trial.fit.joints[joint].noise.whitened(torque, part[joint].run_index) ** 2))
         squares.append(total)
     return squares[0] / max(squares[1], 1e-300)
 

@@ -44,7 +44,7 @@ class Candidate:
         return len(set(self.scalars) - set(self.cause.traits.self_consistent))
 
     @cached_property
-    def place(self) -> ColumnKey:
+    def column_key(self) -> ColumnKey:
         """Give the key of its columns."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
 
@@ -87,15 +87,15 @@ class Hypothesis:
 
     def freedom(self, index: int) -> int:
         """Count the directions of a member's linear parameters that the rows tell."""
-        place = self.columns_of(index)
-        scale = self.fit.scale[place]
-        spread = np.linalg.eigvalsh(self.fit.covariance[place, place] * np.outer(scale, scale))
+        own = self.columns_of(index)
+        scale = self.fit.scale[own]
+        spread = np.linalg.eigvalsh(self.fit.covariance[own, own] * np.outer(scale, scale))
         return max(int(np.count_nonzero(spread < 1.0 / COLUMNS.open)), 1)
 
     def covariance(self, index: int) -> SquareMatrix:
         """Give the covariance of a member's linear parameters where its scalars are what they are."""
-        place = self.columns_of(index)
-        return np.asarray(self.fit.covariance[place, place])
+        own = self.columns_of(index)
+        return np.asarray(self.fit.covariance[own, own])
 
     def solved(self, index: int) -> FittedCause:
         """Give a member's estimates; deviations include those of its scalars and the linearisation error."""
@@ -135,12 +135,12 @@ def allowed(candidate: Candidate, judged: Score) -> bool:
 def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[ScoredCandidate]:
     """Give the best scalars of each kind, the smallest p-value first."""
     kinds: dict[object, list[int]] = {}
-    for place, candidate in enumerate(asked):
-        kinds.setdefault(candidate.key, []).append(place)
+    for index, candidate in enumerate(asked):
+        kinds.setdefault(candidate.key, []).append(index)
     best = []
-    for places in kinds.values():
-        ranked = sorted(places, key=lambda place: -found[place].statistic)
-        likeliest = next((place for place in ranked if allowed(asked[place], found[place])), ranked[0])
+    for indices in kinds.values():
+        ranked = sorted(indices, key=lambda index: -found[index].statistic)
+        likeliest = next((index for index in ranked if allowed(asked[index], found[index])), ranked[0])
         judged = found[likeliest]
         best.append(
             ScoredCandidate(

@@ -46,11 +46,11 @@ def _statistic(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float
     for joint, (rows, part) in enumerate(zip(joints, now.joints, strict=True)):
         without = replace(rows, torque=rows.torque - effect.get(joint, 0.0))
         left = part.residual(without, values)
-        likely = part.noise.log_likelihood(left, rows.place)
+        likely = part.noise.log_likelihood(left, rows.run_index)
         if joint in effect:
             residual = left if seen is now else seen.joints[joint].residual(without, seen_values)
-            estimated = fit_ar_noise(residual, rows.place, taken=degrees_of_freedom(rows, joints))
-            likely = max(likely, estimated.log_likelihood(left, rows.place))
+            estimated = fit_ar_noise(residual, rows.run_index, taken=degrees_of_freedom(rows, joints))
+            likely = max(likely, estimated.log_likelihood(left, rows.run_index))
         total += likely
     return 2.0 * (total - now.log_likelihood)
 

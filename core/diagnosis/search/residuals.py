@@ -17,12 +17,12 @@ def residual(fitter: HypothesisFitter, under: Hypothesis, without: Iterable[int]
     Parameters
     ----------
     without
-        Places of members whose torque is left out of the prediction, all else kept as it is.
+        Indices of members whose torque is left out of the prediction, all else kept as it is.
     """
     rows = extended(fitter.rows.everywhere, fitter.columns(under.members))
     values = under.fit.values.copy()
-    for place in without:
-        values[under.columns_of(place)] = 0.0
+    for index in without:
+        values[under.columns_of(index)] = 0.0
     return np.column_stack([joint.residual(values) for joint in rows])
 
 

@@ -47,7 +47,7 @@ class OneJointTerm:
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Put every parameter on the joint."""
-        return tuple((self.joint - 1, place) for place in range(len(self.parameters(robot))))
+        return tuple((self.joint - 1, index) for index in range(len(self.parameters(robot))))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter."""
@@ -86,7 +86,7 @@ class AllJointsTerm:
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Put every parameter on every joint."""
         count = len(self.parameters(robot))
-        return tuple((joint, place) for place in range(count) for joint in range(len(robot.joints)))
+        return tuple((joint, index) for index in range(count) for joint in range(len(robot.joints)))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, joint after joint for each parameter."""

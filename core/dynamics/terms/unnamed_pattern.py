@@ -42,7 +42,7 @@ class Trace(OneJointTerm):
         del robot
         count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2, "levels": 1}[self.pattern]
         return tuple(
-            Parameter(f"trace_{place}", self.joint, self.joint, "N m", None) for place in range(count)
+            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(count)
         )
 
     def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:

@@ -126,9 +126,9 @@ def _lines(head: bytes) -> list[str]:
 
 
 def _content(lines: Sequence[str]) -> list[int]:
-    """Give the places of the first two lines that are no comment."""
-    places = (index for index, line in enumerate(lines) if not _is_comment(line))
-    return list(islice(places, 2))
+    """Give the indices of the first two lines that are no comment."""
+    indices = (index for index, line in enumerate(lines) if not _is_comment(line))
+    return list(islice(indices, 2))
 
 
 def _check_text(path: Path) -> None:

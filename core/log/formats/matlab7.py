@@ -95,11 +95,11 @@ def _check_storage(name: str, dataset: Any) -> None:  # noqa: ANN401  # h5py giv
         )
 
 
-def _check_size(members: int, place: str) -> None:
-    if members > MAX_MEMBERS or place.count(".") > MAX_DEPTH:
+def _check_size(members: int, path: str) -> None:
+    if members > MAX_MEMBERS or path.count(".") > MAX_DEPTH:
         raise LogError(
             "the file holds more groups than a log has",
-            evidence={"in": place[:100], "at_most": MAX_MEMBERS, "deepest": MAX_DEPTH},
+            evidence={"in": path[:100], "at_most": MAX_MEMBERS, "deepest": MAX_DEPTH},
             remedy="save the datasets of the log only",
         )
 

@@ -80,19 +80,19 @@ def joint_bars(title: str, before: Sequence[float], after: Sequence[float], labe
     height = _ROW * len(before) + 4.0
     scale = (_BARS_WIDE - 160.0) / max([*before, *after, 1e-9])
     rows = [
-        _bar_pair(place, 4.0 + _ROW * place, (old * scale, new * scale), (old, new))
-        for place, (old, new) in enumerate(zip(before, after, strict=True))
+        _bar_pair(index, 4.0 + _ROW * index, (old * scale, new * scale), (old, new))
+        for index, (old, new) in enumerate(zip(before, after, strict=True))
     ]
     text = "; ".join(
-        f"joint {place + 1}: {percent(old)} before, {percent(new)} after"
-        for place, (old, new) in enumerate(zip(before, after, strict=True))
+        f"joint {index + 1}: {percent(old)} before, {percent(new)} after"
+        for index, (old, new) in enumerate(zip(before, after, strict=True))
     )
     drawn = picture(title, text, (_BARS_WIDE, height), *rows)
     return element("figure", element("figcaption", label), drawn, class_="bars")
 
 
-def _bar_pair(place: int, top: float, widths: tuple[float, float], values: tuple[float, float]) -> Markup:
-    parts = [element("text", f"joint {place + 1}", x=0, y=top + 16.0)]
+def _bar_pair(index: int, top: float, widths: tuple[float, float], values: tuple[float, float]) -> Markup:
+    parts = [element("text", f"joint {index + 1}", x=0, y=top + 16.0)]
     for shift, width, value, kind in zip((0.0, 12.0), widths, values, ("before", "after"), strict=True):
         bar = element(
             "rect", x=60, y=top + shift, width=round(max(width, 0.5), 1), height=10, class_=f"bar {kind}"

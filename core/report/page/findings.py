@@ -37,8 +37,8 @@ def findings(document: Document) -> list[dict[str, object]]:
     """Describe all findings in the order of the document."""
     repairs = document["diagnosis"].get("repairs", ())
     return [
-        _described(finding, repairs[place : place + 1], document)
-        for place, finding in enumerate(document["diagnosis"]["findings"])
+        _described(finding, repairs[index : index + 1], document)
+        for index, finding in enumerate(document["diagnosis"]["findings"])
     ]
 
 

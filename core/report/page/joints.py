@@ -104,8 +104,8 @@ def _motion(document: Document) -> Table | None:
         [
             f"{joint + 1}",
             *(
-                position_error(document, joint + 1, side["position_rms"][place][joint])
-                for place, side in product(range(len(horizons)), (old, new))
+                position_error(document, joint + 1, side["position_rms"][index][joint])
+                for index, side in product(range(len(horizons)), (old, new))
             ),
             _improvement(simulation["improvement_total_percent"][joint], ends[joint]),
             interval(ends[joint]),

@@ -53,8 +53,8 @@ def _titles(findings: Sequence[Document]) -> str:
     unsure = {finding["title"] for finding in findings if finding["ambiguous_with"]}
     return series(
         [
-            f"{lower(title)}{', or a similar cause' * (title in unsure)} ({joints(places)})"
-            for title, places in _joints_by_title(findings).items()
+            f"{lower(title)}{', or a similar cause' * (title in unsure)} ({joints(numbers)})"
+            for title, numbers in _joints_by_title(findings).items()
         ]
     )
 
@@ -72,7 +72,7 @@ def _line(finding: Document) -> str:
     alternatives = _joints_by_title(finding["ambiguous_with"])
     if not alternatives:
         return line
-    others = " or ".join(f"{lower(title)} ({joints(places)})" for title, places in alternatives.items())
+    others = " or ".join(f"{lower(title)} ({joints(numbers)})" for title, numbers in alternatives.items())
     return f"{line} Not distinguishable in this log from: {others}."
 
 
@@ -81,7 +81,7 @@ def _joints_by_title(causes: Sequence[Document]) -> dict[str, list[int]]:
     listed: dict[str, set[int]] = {}
     for cause in causes:
         listed.setdefault(cause["title"], set()).update(cause["joints"])
-    return {title: sorted(places) for title, places in listed.items()}
+    return {title: sorted(numbers) for title, numbers in listed.items()}
 
 
 def improvement(document: Document) -> str:

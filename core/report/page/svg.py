@@ -144,7 +144,7 @@ def ticks(low: float, high: float) -> list[float]:
     scale = 10.0 ** floor(log10(rough))
     step = next(scale * factor for factor in (1.0, 2.0, 5.0, 10.0) if scale * factor >= rough)
     begin, end = ceil(low / step - 1e-9), floor(high / step + 1e-9)
-    return [round(place * step, 12) + 0.0 for place in range(begin, end + 1)]
+    return [round(index * step, 12) + 0.0 for index in range(begin, end + 1)]
 
 
 def span(*groups: Values, margin: float = 0.06) -> tuple[float, float]:

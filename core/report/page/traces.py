@@ -79,8 +79,8 @@ def _overlaid(joints: Sequence[JointTraces], signal: str) -> Markup:
     frame = Frame(0.0, 0.0, _WIDE, _MOTION_HIGH, _time_range(joints), span(values))
     lines = [
         line
-        for place, trace in enumerate(joints, start=1)
-        for line in _lines(frame, trace.time, trace.signals[signal], f"j{place}")
+        for number, trace in enumerate(joints, start=1)
+        for line in _lines(frame, trace.time, trace.signals[signal], f"j{number}")
     ]
     ranges = " ".join(_range_sentence(trace, signal) for trace in joints)
     text = f"{signal.capitalize()} of joints {joints[0].joint} to {joints[-1].joint} over time. {ranges}"

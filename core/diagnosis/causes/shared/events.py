@@ -107,8 +107,8 @@ class _Search:
         pairs = np.zeros((len(rows), reach))
         for lag in range(min(reach, len(rows))):
             pairs[lag:, lag] = heights[lag:] * heights[: len(rows) - lag] * (since[lag:] >= lag)
-        places = (rows[:, None] * reach + np.arange(reach)).ravel()
-        both = csr_array((pairs.ravel(), places, starts * reach), (len(spans), self.grams[..., 0, 0].size))
+        columns = (rows[:, None] * reach + np.arange(reach)).ravel()
+        both = csr_array((pairs.ravel(), columns, starts * reach), (len(spans), self.grams[..., 0, 0].size))
         size = self.gains.shape[1]
         grams = (both @ self.grams.reshape(-1, size * size)).reshape(-1, size, size)
         gains = csr_array((heights, rows, starts), (len(spans), len(self.gains))) @ self.gains

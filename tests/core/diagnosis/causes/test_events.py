@@ -15,7 +15,7 @@ from tests.core.diagnosis.processes import (
 )
 from tests.core.diagnosis.scenes import SHOVE, eventful_scene
 from veritorque.core.diagnosis.causes.shared.events import find_events
-from veritorque.core.diagnosis.regression.ar_noise import places
+from veritorque.core.diagnosis.regression.ar_noise import run_indices
 from veritorque.core.diagnosis.regression.innovation_covariance import (
     fitted_rows,
     inverse_covariances,
@@ -82,7 +82,7 @@ def test_slow_noise_is_not_taken_for_fast_noise_because_some_of_it_is_small():
     left = drawn((0.98,), np.random.default_rng(1), len(dataset.time), dataset.joints)
     for joint, found in enumerate(inverse_covariances(dataset, left, mask)):
         rows = np.flatnonzero(mask[:, joint])
-        white = exact_noise((0.98,)).whitening(places(dataset.follows(rows)))
+        white = exact_noise((0.98,)).whitening(run_indices(dataset.follows(rows)))
         for span in ((1.0, 4.0), (5.0, 8.0)):
             shape = swell(dataset.time, span)
             exact = float(np.sum((white @ shape[rows]) ** 2))

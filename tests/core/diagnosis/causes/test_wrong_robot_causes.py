@@ -70,10 +70,10 @@ def test_amplitude_and_angle_scatter_as_stated():
     rng = np.random.default_rng(2)
     mean, covariance = np.array([1.0, -2.0]), np.array([[4e-3, 1e-3], [1e-3, 1e-3]])
     drawn = rng.multivariate_normal(mean, covariance, 20_000)
-    (size, wide), (angle, with_other_holdout) = amplitude_and_angle(mean, covariance)
+    (size, wide), (angle, angle_deviation) = amplitude_and_angle(mean, covariance)
     assert (size, angle) == pytest.approx((np.hypot(1.0, 2.0), np.arctan2(-2.0, 1.0)))
     assert wide == pytest.approx(np.std(np.hypot(*drawn.T)), rel=0.03)
-    assert with_other_holdout == pytest.approx(np.std(np.arctan2(drawn[:, 1], drawn[:, 0])), rel=0.03)
+    assert angle_deviation == pytest.approx(np.std(np.arctan2(drawn[:, 1], drawn[:, 0])), rel=0.03)
 
 
 def test_the_phase_of_an_eccentric_disc_is_that_of_a_sine():

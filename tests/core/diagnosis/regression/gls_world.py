@@ -69,7 +69,7 @@ class Equations:
             free = self.nuisance if joint == 1 else np.zeros_like(self.nuisance)
             parts.append(np.hstack([self.base[joint], *own, free])[kept])
             torque.append(self.dataset.torque[kept, joint])
-            covariances.append(dense_covariance(PROCESSES[joint], rows.place))
+            covariances.append(dense_covariance(PROCESSES[joint], rows.run_index))
         return np.vstack(parts), np.concatenate(torque), block_diag(*covariances)
 
 

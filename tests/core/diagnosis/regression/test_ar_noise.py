@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, dense_covariance, drawn, exact_noise, ljung_box
-from veritorque.core.diagnosis.regression.ar_noise import ARNoise, fit_ar_noise, places
+from veritorque.core.diagnosis.regression.ar_noise import ARNoise, fit_ar_noise, run_indices
 from veritorque.core.diagnosis.thresholds.regression import NOISE
 
 every_process = pytest.mark.parametrize("weights", [WHITE, SLOW, WAVY], ids=["white", "slow", "wavy"])
@@ -18,7 +18,7 @@ def one_run(count: int) -> np.ndarray:
 
 def runs(mask: np.ndarray) -> np.ndarray:
     """Give the places within their runs of the rows that a mask keeps."""
-    return places(np.diff(np.flatnonzero(mask), prepend=-2) == 1)
+    return run_indices(np.diff(np.flatnonzero(mask), prepend=-2) == 1)
 
 
 def log_likelihood(noise: ARNoise, series: np.ndarray, place: np.ndarray) -> float:

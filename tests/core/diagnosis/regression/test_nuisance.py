@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse import csr_array
 
 from tests.core.diagnosis.processes import SLOW, exact_noise
-from veritorque.core.diagnosis.regression.ar_noise import places
+from veritorque.core.diagnosis.regression.ar_noise import run_indices
 from veritorque.core.diagnosis.regression.nuisance import independent, nuisance_of
 
 ROWS = 300
@@ -103,7 +103,7 @@ def test_nothing_is_taken_where_no_column_acts(columns):
 
 
 def test_whitening_short_columns_sparsely_is_whitening_them():
-    place = places(np.arange(ROWS) % 70 > 0)
+    place = run_indices(np.arange(ROWS) % 70 > 0)
     noise, columns = exact_noise(SLOW), bumps(9)
     sparse = noise.whitening(place) @ csr_array(columns)
     np.testing.assert_allclose(sparse.toarray(), noise.whitened(columns, place), atol=1e-9)
