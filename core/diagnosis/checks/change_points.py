@@ -2,8 +2,7 @@
 
 The residual is smoothed with several widths, and changes side where it exceeds a level on the other one. Each
 set of change points is scored like any pattern, with every instant counted as one of all that the bandwidth
-resolves.
-Source: Yao, Statistics & Probability Letters 6(3), 1988, on what a change that is looked for costs.
+resolves. Source: Yao, Statistics & Probability Letters 6(3), 1988, on what a change that is looked for costs.
 """
 
 from collections.abc import Iterator

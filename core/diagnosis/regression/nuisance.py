@@ -2,9 +2,8 @@
 
 In the order of time such columns overlap with their neighbours only. Their Gram matrix is banded, and
 factorising it costs as much as there are columns, not their cube. A second projection removes what rounding
-leaves in the first, which grows with the square of their condition.
-Source: Bjorck, Numerical Methods for Least Squares
-Problems (1996), ch. 6 (banded normal equations) and 2.4 (repeated orthogonalisation).
+leaves in the first, which grows with the square of their condition. Source: Bjorck, Numerical Methods for
+Least Squares Problems (1996), ch. 6 (banded normal equations) and 2.4 (repeated orthogonalisation).
 """
 
 from dataclasses import dataclass

@@ -1,9 +1,8 @@
 """Score candidates by Rao's score test: the rise of the likelihood, given all that is already fitted.
 
 A candidate's columns are prewhitened like the residual and projected on the complement of the fitted columns.
-All of it works on small Gram matrices, so that thousands of candidates cost as much as a few fits.
-Sources: Rao 1948 (score test); Janot, Vandanjon & Gautier, Control Eng. Pract. 48, 2016 (augmented
-regressor).
+All of it works on small Gram matrices, so that thousands of candidates cost as much as a few fits. Sources:
+Rao 1948 (score test); Janot, Vandanjon & Gautier, Control Eng. Pract. 48, 2016 (augmented regressor).
 """
 
 from collections.abc import Sequence

@@ -2,8 +2,7 @@
 
 Every contact has its own wrench, constant in the base's axes, that rises and falls as a half sine. Its force
 acts at the origin of the link's frame, its moment represents the lever of the point of contact. A force that
-supports the drives reduces their torque. Source: De Luca & Mattone, ICRA 2005; Khalil & Dombre (2002),
-ch. 5.
+supports the drives reduces their torque. Source: De Luca & Mattone, ICRA 2005; Khalil & Dombre (2002), ch. 5.
 """
 
 from dataclasses import dataclass

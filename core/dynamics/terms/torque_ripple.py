@@ -1,8 +1,7 @@
 """Give torque ripple: cos(h q) and sin(h q).
 
 Cogging, wave generators and gear teeth repeat per revolution of motor or gear, at h cycles per revolution of
-the joint.
-Source: Madsen et al. 2020 (strain-wave gears).
+the joint. Source: Madsen et al. 2020 (strain-wave gears).
 """
 
 from dataclasses import dataclass
