@@ -24,8 +24,7 @@ def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
 def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
     for finding in diagnosis.findings:
         if finding.member is not None and enters(finding):
-            member, at = finding.member, diagnosis.operating_point
-            yield finding, member.cause.term(diagnosis.dataset, at, member.site, member.scalars)
+            yield finding, finding.member.term(diagnosis.dataset, diagnosis.operating_point)
 
 
 def enters(finding: Finding) -> bool:

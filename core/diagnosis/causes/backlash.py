@@ -3,15 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.backlash import Backlash as BacklashTerm
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, LINEARISATION
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, SearchTraits, Setting, Site
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, revolute_joints
 from .shared.text import by_name, quantity_text, rotor_text
-from .traits import SearchTraits
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, on a logarithmic scale: half as wide again is another motion."""
@@ -29,24 +27,23 @@ class Backlash(OwnJointCause):
     coordinate = "load"
     traits = SearchTraits(linearisation_error=LINEARISATION.backlash)
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the revolute joints."""
-        del operating_point
         return [(joint,) for joint in revolute_joints(dataset.robot)]
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the width of the gap; the time of crossing is its cube root."""
         return [
             {"around": value, **rotor}
-            for rotor in motor_inertias(dataset, operating_point, site)
+            for rotor in motor_inertias(at)
             for value in geometric_grid(NARROWEST, WIDEST, STEPS)
         ]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        band = SMOOTHING_OVER_BAND * dataset.band_hz
+        band = SMOOTHING_OVER_BAND * at.dataset.band_hz
         return BacklashTerm(
-            site[0], operating_point, scalars["around"], band, scalars.get("motor_inertia", 0.0)
+            at.joint, at.operating_point, at.scalars["around"], band, at.scalars.get("motor_inertia", 0.0)
         )
 
     def admissible(self, solved: FittedCause) -> bool:

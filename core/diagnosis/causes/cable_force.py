@@ -5,14 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.cable_force import Cable
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
-from .traits import SearchTraits
 
 SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
 """Shares of the samples during which the cable is slack."""
@@ -29,18 +26,16 @@ class CableForce(OwnJointCause):
     coordinate = "position"
     traits = SearchTraits(discrete=("side",))
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the angle of engagement for pulls above it, then for pulls below it."""
-        del operating_point
-        angle = dataset.state.position[:, site[0] - 1]
+        angle = at.dataset.state.position[:, at.joint - 1]
         above = [(float(np.quantile(angle, share)), 1.0) for share in SHARES]
         below = [(float(np.quantile(angle, 1.0 - share)), -1.0) for share in reversed(SHARES)]
         return [{"engage_angle": engaged, "side": side} for engaged, side in above + below]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point
-        return Cable(site[0], scalars["engage_angle"], scalars["side"])
+        return Cable(at.joint, at.scalars["engage_angle"], at.scalars["side"])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a cable that pulls back."""

@@ -5,19 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.encoder_error import EncoderEccentricity as EncoderEccentricityTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, LINEARISATION
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, SearchTraits, Setting, Site
 from .repairs import CorrectsLog
 from .shared.harmonics import amplitude_and_angle
 from .shared.own_joint import OwnJointCause, revolute_joints
 from .shared.text import by_name, number_text, quantity_text
-from .traits import SearchTraits
 
 
 @dataclass(frozen=True)
@@ -32,15 +30,13 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     coordinate = "position"
     traits = SearchTraits(linearisation_error=LINEARISATION.eccentricity)
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the revolute joints."""
-        del operating_point
         return [(joint,) for joint in revolute_joints(dataset.robot)]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, scalars
-        return EncoderEccentricityTerm(site[0], operating_point)
+        return EncoderEccentricityTerm(at.joint, at.operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""

@@ -3,14 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.encoder_error import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Setting, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause, revolute_joints
 from .shared.text import by_name, number_text, quantity_text
@@ -30,15 +29,13 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
     experiment = "motion of the joints beyond this one through their whole range, with this joint moving too"
     coordinate = "position"
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the revolute joints."""
-        del operating_point
         return [(joint,) for joint in revolute_joints(dataset.robot)]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, scalars
-        return EncoderOffsetTerm(site[0], operating_point)
+        return EncoderOffsetTerm(at.joint, at.operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""

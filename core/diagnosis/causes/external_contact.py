@@ -5,18 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.external_contact import WRENCH, Contact, Span, pushed
 from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
 from ..thresholds.causes import ADMISSIBLE, EVENTS
-from .protocol import FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting, Site
 from .shared.events import find_events
 from .shared.own_joint import OwnJointCause, end_links
 from .shared.text import number_text
-from .traits import SearchTraits
 
 
 def _spans(scalars: Scalars) -> tuple[Span, ...]:
@@ -47,20 +45,19 @@ class ExternalContact(OwnJointCause):
         trials=_spans_tried,
     )
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints of links that carry no other; several logs have no time in common."""
-        del operating_point
         return [(joint,) for joint in end_links(dataset.robot)] if len(dataset.motions) == 1 else []
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Find the spans in which the residual is a wrench on the link."""
-        mask = fitted_rows(dataset)
-        push = pushed(dataset.robot, end_links(dataset.robot)[site[0]], dataset.state)
-        left = torque_residual(dataset, operating_point)
+        mask = fitted_rows(at.dataset)
+        push = pushed(at.dataset.robot, end_links(at.dataset.robot)[at.joint], at.dataset.state)
+        left = torque_residual(at.dataset, at.operating_point)
         found = find_events(
-            dataset.time, push, left, inverse_covariances(dataset, left, mask), most=ADMISSIBLE.contacts
+            at.dataset.time, push, left, inverse_covariances(at.dataset, left, mask), most=ADMISSIBLE.contacts
         )
-        spans = sorted(span for span in found if not spiked(dataset.motions[0].log, span))
+        spans = sorted(span for span in found if not spiked(at.dataset.motions[0].log, span))
         if not spans:
             return []
         return [
@@ -71,10 +68,9 @@ class ExternalContact(OwnJointCause):
             }
         ]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del operating_point
-        return Contact(site[0], end_links(dataset.robot)[site[0]], _spans(scalars))
+        return Contact(at.joint, end_links(at.dataset.robot)[at.joint], _spans(at.scalars))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a force that does not break the robot, and a moment that its lever explains."""

@@ -2,11 +2,9 @@
 
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_asymmetric import AsymmetricViscous
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Setting
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
 
@@ -20,10 +18,9 @@ class FrictionAsymmetric(OwnJointCause):
     units = (("delta_viscous", "N m s/rad"),)
     experiment = "constant-speed moves at three speeds or more, each in both directions"
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point, scalars
-        return AsymmetricViscous(site[0])
+        return AsymmetricViscous(at.joint)
 
     def statement(self, solved: FittedCause) -> str:
         """State the direction of more friction and half the difference."""

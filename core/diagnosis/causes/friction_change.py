@@ -2,13 +2,11 @@
 
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Setting
 from .shared.own_joint import OwnJointCause
 from .shared.text import clearness, quantity_text
 
@@ -24,11 +22,12 @@ class FrictionChange(OwnJointCause):
     units = (("delta_viscous", "N m s/rad"), ("delta_coulomb", "N m"), ("delta_offset", "N m"))
     experiment = "constant-speed moves of this joint at three speeds or more, each in both directions"
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns, smoothed as those of the operating point's model."""
-        del dataset, scalars
-        widths = next((term.widths for term in operating_point.model.terms if isinstance(term, Coulomb)), ())
-        return FrictionChangeTerm(site[0], widths[site[0] - 1] if widths else 0.0)
+        widths = next(
+            (term.widths for term in at.operating_point.model.terms if isinstance(term, Coulomb)), ()
+        )
+        return FrictionChangeTerm(at.joint, widths[at.joint - 1] if widths else 0.0)
 
     def statement(self, solved: FittedCause) -> str:
         """State the significant changes, or the most significant one."""

@@ -7,11 +7,9 @@ transmitted.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_load_dependent import LoadFriction
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, motor_inertias
 from .shared.text import by_name, quantity_text, rotor_text
 
@@ -26,14 +24,13 @@ class FrictionLoadDependent(OwnJointCause):
     experiment = "slow moves in both directions through postures of low and of high gravity torque"
     coordinate = "load"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the motor-side inertia where the fit cannot separate it from the link's."""
-        return motor_inertias(dataset, operating_point, site)
+        return motor_inertias(at)
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset
-        return LoadFriction(site[0], operating_point, scalars.get("motor_inertia", 0.0))
+        return LoadFriction(at.joint, at.operating_point, at.scalars.get("motor_inertia", 0.0))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit friction that brakes, and less than all of the load."""

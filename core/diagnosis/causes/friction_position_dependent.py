@@ -3,15 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_position_dependent import PositionFriction
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.harmonics import harmonics, wave_quantities
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
-from .traits import SearchTraits
 
 MOST = 12
 
@@ -27,16 +24,14 @@ class FrictionPositionDependent(OwnJointCause):
     coordinate = "position"
     traits = SearchTraits(discrete=("centre",))
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the cycles per revolution from one upwards."""
-        del operating_point
-        angle = dataset.state.position[:, site[0] - 1]
+        angle = at.dataset.state.position[:, at.joint - 1]
         return harmonics(angle, lowest=1.0, highest=float("inf"), most=MOST)
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, operating_point
-        return PositionFriction(site[0], scalars["harmonic"], scalars["centre"])
+        return PositionFriction(at.joint, at.scalars["harmonic"], at.scalars["centre"])
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: amplitude cos(harmonic q + phase) is added to the Coulomb level."""

@@ -5,11 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_presliding import Presliding
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid
 from .shared.text import by_name, quantity_text
 
@@ -27,18 +25,16 @@ class FrictionPresliding(OwnJointCause):
     experiment = "many slow reversals, each followed by a move of some degrees"
     coordinate = "travel"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
-        del operating_point
-        span = max(float(np.ptp(dataset.state.position[:, site[0] - 1])), 1e-6)
+        span = max(float(np.ptp(at.dataset.state.position[:, at.joint - 1])), 1e-6)
         return [
             {"presliding_distance": value} for value in geometric_grid(NARROWEST * span, WIDEST * span, STEPS)
         ]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point
-        return Presliding(site[0], scalars["presliding_distance"])
+        return Presliding(at.joint, at.scalars["presliding_distance"])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit friction that builds up."""

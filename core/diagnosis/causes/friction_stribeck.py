@@ -3,11 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_stribeck import Stribeck
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid
 from .shared.text import by_name, quantity_text
 
@@ -24,18 +22,16 @@ class FrictionStribeck(OwnJointCause):
     units = (("excess_torque", "N m"), ("stribeck_velocity", "rad/s"))
     experiment = "slow constant-speed moves, 1 % to 20 % of the joint's speed, in both directions"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the Stribeck velocity from 3 % of the RMS speed to the RMS speed."""
-        del operating_point
-        speed = max(float(dataset.speed[site[0] - 1]), 1e-6)
+        speed = max(float(at.dataset.speed[at.joint - 1]), 1e-6)
         return [
             {"stribeck_velocity": value} for value in geometric_grid(SLOWEST * speed, QUICKEST * speed, STEPS)
         ]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point
-        return Stribeck(site[0], scalars["stribeck_velocity"])
+        return Stribeck(at.joint, at.scalars["stribeck_velocity"])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a positive excess."""

@@ -5,11 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_temperature import TemperatureFriction, WarmUpFriction
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, Setting
 from .shared.own_joint import NOTHING, OwnJointCause
 from .shared.text import by_name, quantity_text
 
@@ -32,20 +30,18 @@ class FrictionTemperature(OwnJointCause):
     experiment = "the same motion cold and after half an hour of work, the joints' temperatures logged"
     coordinate = "time"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the warm-up's time constant where no temperature is logged."""
-        del operating_point, site
-        if dataset.state.temperature is not None:
+        if at.dataset.state.temperature is not None:
             return NOTHING
-        return [{"time_constant": share * float(np.ptp(dataset.time))} for share in SHARES]
+        return [{"time_constant": share * float(np.ptp(at.dataset.time))} for share in SHARES]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del operating_point
-        temperature = dataset.state.temperature
+        temperature = at.dataset.state.temperature
         if temperature is not None:
-            return TemperatureFriction(site[0], float(temperature[:, site[0] - 1].mean()))
-        return WarmUpFriction(site[0], float(dataset.time.min()), scalars["time_constant"])
+            return TemperatureFriction(at.joint, float(temperature[:, at.joint - 1].mean()))
+        return WarmUpFriction(at.joint, float(at.dataset.time.min()), at.scalars["time_constant"])
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the slopes: per kelvin with a sensor, over the whole warm-up without one."""

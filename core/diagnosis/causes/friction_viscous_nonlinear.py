@@ -3,12 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_viscous_nonlinear import NonlinearViscous
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
 
@@ -25,15 +23,14 @@ class FrictionViscousNonlinear(OwnJointCause):
     units = (("coefficient", "N m (s/rad)^p"), ("exponent", "1"))
     experiment = "constant-speed moves from 5 % to 100 % of the joint's speed, in both directions"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the power."""
-        del dataset, operating_point, site
+        del at
         return [{"exponent": value} for value in EXPONENTS]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point
-        return NonlinearViscous(site[0], scalars["exponent"])
+        return NonlinearViscous(at.joint, at.scalars["exponent"])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a power that is neither Coulomb nor viscous friction."""

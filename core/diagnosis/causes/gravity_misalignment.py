@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.gravity_misalignment import Tilt, tilt_axes
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Setting, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 from .shared.text import number_text, quantity_text
@@ -29,15 +28,13 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
     experiment = "the same slow motion with the first joint at four angles, a quarter of a revolution apart"
     coordinate = "position"
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """Act on the whole robot, where there is gravity."""
-        del operating_point
         return [()] if np.any(dataset.robot.gravity) else []
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, site, scalars
-        return Tilt(0, operating_point)
+        return Tilt(0, at.operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a tilt that a first-order column can represent."""

@@ -6,17 +6,15 @@ from itertools import count
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.joint_coupling import MissingCoupling
 from ...robot.model import Coupling, RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
-from .traits import SearchTraits
 
 NAMES = (("Iam", "kg m2"), ("Fvm", "N m s/rad"), ("Fcm", "N m"))
 
@@ -33,9 +31,8 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
     coordinate = "other_velocity"
     traits = SearchTraits(discrete=("weight",))
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List pairs of revolute joints, at most two apart, that no declared coupling joins."""
-        del operating_point
         robot = dataset.robot
         turning = {link.joint for link in robot.links if link.kind == "revolute"}
 
@@ -47,16 +44,15 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
             and not any({first, second}.issubset(coupling.joints) for coupling in robot.couplings)
         ]
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the sign with which the first joint turns the motor."""
-        del dataset, operating_point, site
+        del at
         return [{"weight": 1.0}, {"weight": -1.0}]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns of the coupling."""
-        del dataset, operating_point
-        weights = (scalars["weight"], 1.0)
-        return MissingCoupling(Coupling("undeclared", site[1], (site[0], site[1]), weights))
+        weights = (at.scalars["weight"], 1.0)
+        return MissingCoupling(Coupling("undeclared", at.site[1], (at.joint, at.site[1]), weights))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit inertia and friction: none significantly negative, one significantly positive."""

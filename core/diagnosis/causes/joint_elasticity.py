@@ -5,15 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.joint_elasticity import Elasticity
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import LINEARISATION
-from .protocol import FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias
 from .shared.text import by_name, quantity_text, rotor_text
-from .traits import SearchTraits
 
 LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
 DAMPING_RATIOS = (0.05, 0.2)
@@ -30,21 +27,21 @@ class JointElasticity(OwnJointCause):
     coordinate = "load_jerk"
     traits = SearchTraits(linearisation_error=LINEARISATION.elasticity, like_position_noise=True)
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan resonance, from a few times the motion's bandwidth to beyond the data set's, and damping."""
-        ends = (LOWEST * dataset.motion_band_hz, HIGHEST * dataset.band_hz)
+        ends = (LOWEST * at.dataset.motion_band_hz, HIGHEST * at.dataset.band_hz)
         return [
             {"resonance_hz": frequency, "damping_ratio": ratio, **rotor}
-            for rotor in motor_inertias(dataset, operating_point, site)
+            for rotor in motor_inertias(at)
             for frequency in geometric_grid(*ends, POINTS)
             for ratio in DAMPING_RATIOS
         ]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        response = (scalars["resonance_hz"], scalars["damping_ratio"])
+        response = (at.scalars["resonance_hz"], at.scalars["damping_ratio"])
         return Elasticity(
-            site[0], operating_point, dataset.band_hz, *response, scalars.get("motor_inertia", 0.0)
+            at.joint, at.operating_point, at.dataset.band_hz, *response, at.scalars.get("motor_inertia", 0.0)
         )
 
     def admissible(self, solved: FittedCause) -> bool:

@@ -3,18 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.kinematic_error import ENTRY_UNITS, EntryName, link_of, with_entry
 from ...dynamics.terms.kinematic_error import KinematicError as KinematicErrorTerm
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text, quantity_text
-from .traits import SearchTraits
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 
@@ -31,23 +29,20 @@ class KinematicError(OwnJointCause, CorrectsRobot):
     coordinate = "position"
     traits = SearchTraits(discrete=("entry",))
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints whose link has a row."""
-        del operating_point
         joints = range(1, dataset.joints + 1)
         return [(joint,) for joint in joints if link_of(dataset.robot, joint).row is not None]
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """List the entries that are neither the joint's own stroke nor a shift of the whole robot."""
-        del operating_point
-        link = link_of(dataset.robot, site[0])
+        link = link_of(at.dataset.robot, at.joint)
         kept = {"alpha": True, "d": link.antecedent > 0, "r": link.antecedent > 0 and link.kind == "revolute"}
         return [{"entry": float(code)} for code, entry in enumerate(ENTRIES) if kept[entry]]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset
-        return KinematicErrorTerm(site[0], operating_point, _entry(scalars))
+        return KinematicErrorTerm(at.joint, at.operating_point, _entry(at.scalars))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""

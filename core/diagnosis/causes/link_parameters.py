@@ -3,14 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.link_parameters import LinkChange
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Setting, Site
 from .shared.bodies import is_body
 from .shared.own_joint import OwnJointCause, links_by_joint
 from .shared.text import clearness, quantity_text
@@ -32,15 +31,13 @@ class LinkParameters(OwnJointCause):
     )
     coordinate = "position"
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints with a link of their own."""
-        del operating_point
         return [(joint,) for joint in links_by_joint(dataset.robot)]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del operating_point, scalars
-        return LinkChange(site[0], links_by_joint(dataset.robot)[site[0]])
+        return LinkChange(at.joint, links_by_joint(at.dataset.robot)[at.joint])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a difference that is neither a body nor minus one: that is a payload."""

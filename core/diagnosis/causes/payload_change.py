@@ -5,18 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.payload_change import Payload
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, EVENTS
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
 from .shared.bodies import MASS, body_of, is_body
 from .shared.own_joint import NOTHING, OwnJointCause, end_links, links_by_joint
 from .shared.text import by_name, number_text, quantity_text
-from .traits import SearchTraits
 
 INSTANTS = 16
 _FIRST = INERTIAL_SYMBOLS.index("MX")
@@ -48,27 +46,24 @@ class PayloadChange(OwnJointCause):
     # The weight of a body shows its instant; its inertia hardly does.
     traits = SearchTraits(onset={"time": slice(_FIRST, None)}, trials=_instants_tried)
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints of the links that may carry it; several logs have no instant in common."""
-        del operating_point
         return (
             [(joint,) for joint in self._links(dataset)]
             if self.throughout or len(dataset.motions) == 1
             else []
         )
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the instant, where there is one."""
-        del operating_point, site
         if self.throughout:
             return NOTHING
-        instants = np.linspace(dataset.time.min(), dataset.time.max(), INSTANTS, endpoint=False)[1:]
+        instants = np.linspace(at.dataset.time.min(), at.dataset.time.max(), INSTANTS, endpoint=False)[1:]
         return [{"time": float(value)} for value in instants]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del operating_point
-        return Payload(site[0], self._links(dataset)[site[0]], scalars.get("time", -np.inf))
+        return Payload(at.joint, self._links(at.dataset)[at.joint], at.scalars.get("time", -np.inf))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a mass that an arm may carry and, where all ten parameters are fitted throughout, a body."""

@@ -6,8 +6,8 @@ torque, never of the measured one), which estimates are physically admissible, a
 How the search treats it is in `traits`, what it imitates in `imitation`, what it masks in `masking`.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 from ...arrays import SquareMatrix, Vector
@@ -16,7 +16,7 @@ from ...dynamics.term import Term
 from ...robot.joint_units import prismatic_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .traits import SearchTraits
+from ..thresholds.causes import LINEARISATION
 
 Cure = Literal["term", "signal", "robot"]
 Scalars = Mapping[str, float]
@@ -41,6 +41,22 @@ class Quantity:
 
 
 @dataclass(frozen=True, eq=False)
+class Setting:
+    """Hold all that a candidate's columns depend on."""
+
+    dataset: Dataset
+    operating_point: Prediction
+    site: Site
+    scalars: Scalars = field(default_factory=dict)
+    """Values of the nonlinear scalars; none yet while the grid is laid out."""
+
+    @property
+    def joint(self) -> int:
+        """Give the site's first joint, from 1."""
+        return self.site[0]
+
+
+@dataclass(frozen=True, eq=False)
 class FittedCause:
     """Hold the estimates of one candidate: linear parameters with covariance, scalars with deviations."""
 
@@ -55,6 +71,35 @@ class FittedCause:
     def unit(self, turning: str) -> str:
         """Give the unit of a number of the joint, from its unit on a revolute joint."""
         return prismatic_unit(turning) if self.slides else turning
+
+
+def grid_size(grid: Sequence[Scalars], scalars: Scalars) -> float:
+    """Count the points of a grid."""
+    del scalars
+    return float(len(grid))
+
+
+@dataclass(frozen=True)
+class SearchTraits:
+    """State how the search treats the candidates of a cause: no physics, and mostly the defaults."""
+
+    transient: bool = False
+    """Whether it acts in short spans only. Noise estimated before it is known contains it, so that a scan
+    says little about it."""
+    like_position_noise: bool = False
+    """Whether position noise, propagated to the torque, resembles it a little."""
+    linearisation_error: float = LINEARISATION.usual
+    """Relative error of its first-order columns: no size is known better."""
+    self_consistent: tuple[str, ...] = ()
+    """Scalars that are the size itself: columns are linearised at the size that they yield. Causes that agree
+    to first order differ in how their second order follows from it; a free scalar would lose that."""
+    discrete: tuple[str, ...] = ()
+    """Scalars that are taken from the grid as they are (a side, a sense), not refined."""
+    onset: Mapping[str, slice] = field(default_factory=dict)
+    """The scalar, if any, that is the instant (s) from which on its columns act, and the columns that show
+    it. From minus infinity on they act all along."""
+    trials: Callable[[Sequence[Scalars], Scalars], float] = grid_size
+    """How many trials a point of the grid was picked from: what its p-value is corrected for."""
 
 
 @runtime_checkable
@@ -82,15 +127,15 @@ class Cause(Protocol):
         """Tell whether a term, a signal or the robot's description is to be corrected."""
         ...
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List where it can act."""
         ...
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """List the values of its nonlinear scalars to be scanned; one empty mapping where it has none."""
         ...
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give its torque per unit of its linear parameters."""
         ...
 

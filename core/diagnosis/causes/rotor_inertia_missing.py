@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.rotor_inertia_missing import MissingRotor
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Setting, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text, quantity_text
@@ -25,17 +24,15 @@ class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
     experiment = "large accelerations of this joint in postures of different inertia beyond it"
     coordinate = "acceleration"
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints without a declared rotor."""
-        del operating_point
         return [
             (number,) for number, joint in enumerate(dataset.robot.joints, start=1) if not joint.rotor_inertia
         ]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point, scalars
-        return MissingRotor(site[0])
+        return MissingRotor(at.joint)
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a positive inertia."""

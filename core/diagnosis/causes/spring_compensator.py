@@ -2,11 +2,9 @@
 
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.spring_compensator import Spring
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Scalars, Site
+from .protocol import FittedCause, Setting
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
 
@@ -21,10 +19,9 @@ class SpringCompensator(OwnJointCause):
     experiment = "hold ten postures spread over the whole range of the joint"
     coordinate = "position"
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, operating_point, scalars
-        return Spring(site[0])
+        return Spring(at.joint)
 
     def statement(self, solved: FittedCause) -> str:
         """State the stiffness and its sign."""

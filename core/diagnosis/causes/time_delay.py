@@ -6,18 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.time_delay import Delay
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, SearchTraits, Setting, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text
-from .traits import SearchTraits
 
 STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
@@ -34,23 +32,22 @@ class TimeDelay(OwnJointCause, CorrectsLog):
     coordinate = "torque_rate"
     traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """Act on the whole robot."""
-        del dataset, operating_point
+        del dataset
         return [()]
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Begin at several delays."""
-        del dataset, operating_point, site
+        del at
         return [{"around": start} for start in STARTS]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, site
         return Delay(
             0,
-            operating_point,
-            float(np.clip(scalars["around"], -ADMISSIBLE.time_delay, ADMISSIBLE.time_delay)),
+            at.operating_point,
+            float(np.clip(at.scalars["around"], -ADMISSIBLE.time_delay, ADMISSIBLE.time_delay)),
         )
 
     def admissible(self, solved: FittedCause) -> bool:

@@ -8,7 +8,6 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import oaconvolve
 
 from ...arrays import InstantSeries, JointSeries, Samples
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_filter_lag import FilterLag
 from ...log.model import LogRows
@@ -16,11 +15,10 @@ from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, SearchTraits, Setting, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text
-from .traits import SearchTraits
 
 STARTS = (0.001, 0.004, 0.016, 0.064)
 ORDER = 2
@@ -40,23 +38,22 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
     coordinate = "torque_rate"
     traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """Act on the whole robot."""
-        del dataset, operating_point
+        del dataset
         return [()]
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Begin at several time constants."""
-        del dataset, operating_point, site
+        del at
         return [{"around": start} for start in STARTS]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, site
         return FilterLag(
             0,
-            operating_point,
-            float(np.clip(scalars["around"], ADMISSIBLE.least_filter_lag, ADMISSIBLE.filter_lag)),
+            at.operating_point,
+            float(np.clip(at.scalars["around"], ADMISSIBLE.least_filter_lag, ADMISSIBLE.filter_lag)),
         )
 
     def admissible(self, solved: FittedCause) -> bool:

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_gain import CommonGain
 from ...dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
@@ -11,7 +10,7 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Setting, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text
@@ -32,14 +31,13 @@ class TorqueGain(OwnJointCause, CorrectsLog):
     experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
     coordinate = "torque"
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List every joint, or the robot as a whole."""
-        return [()] if self.together else super().sites(dataset, operating_point)
+        return [()] if self.together else super().sites(dataset)
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, scalars
-        return TorqueGainTerm(site[0], operating_point) if site else CommonGain(0, operating_point)
+        return TorqueGainTerm(at.joint, at.operating_point) if at.site else CommonGain(0, at.operating_point)
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a gain error of less than nine tenths."""

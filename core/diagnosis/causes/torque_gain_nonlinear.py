@@ -5,13 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import JointSeries
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_gain_nonlinear import CubicGain
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Setting, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text, quantity_text
@@ -28,10 +26,9 @@ class TorqueGainNonlinear(OwnJointCause, CorrectsLog):
     experiment = "hold known payloads, up to the rated one, in the posture of the largest gravity torque"
     coordinate = "torque"
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del dataset, scalars
-        return CubicGain(site[0], operating_point)
+        return CubicGain(at.joint, at.operating_point)
 
     def statement(self, solved: FittedCause) -> str:
         """State sign and size of the cubic part."""

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_offset_drift import Drift, course
 from ...log.model import LogRows
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Numbers, Scalars, Site
+from .protocol import FittedCause, Numbers, Scalars, Setting, Site
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text, quantity_text
@@ -32,16 +31,17 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
     experiment = "hold the same posture at the start and at the end of a log as long as the task"
     coordinate = "time"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the time constant."""
-        del operating_point, site
-        return [{"time_constant": share * float(np.ptp(dataset.time))} for share in SHARES]
+        return [{"time_constant": share * float(np.ptp(at.dataset.time))} for share in SHARES]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the column."""
-        del operating_point
         return Drift(
-            site[0], float(dataset.time.min()), float(np.ptp(dataset.time)), scalars["time_constant"]
+            at.joint,
+            float(at.dataset.time.min()),
+            float(np.ptp(at.dataset.time)),
+            at.scalars["time_constant"],
         )
 
     def statement(self, solved: FittedCause) -> str:

@@ -5,16 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_ripple import Ripple
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Quantity, Scalars, Site
+from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.harmonics import harmonics, wave_quantities
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, quantity_text
-from .traits import SearchTraits
 
 MOST = 120
 BAND_SHARE = 0.7
@@ -32,19 +29,17 @@ class TorqueRipple(OwnJointCause):
     coordinate = "position"
     traits = SearchTraits(discrete=("centre",))
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the cycles per revolution from two to the bandwidth's limit."""
-        del operating_point
-        own = site[0] - 1
-        highest = BAND_SHARE * 2.0 * np.pi * dataset.band_hz / max(float(dataset.speed[own]), 1e-6)
+        own = at.joint - 1
+        highest = BAND_SHARE * 2.0 * np.pi * at.dataset.band_hz / max(float(at.dataset.speed[own]), 1e-6)
         return harmonics(
-            dataset.state.position[:, own], lowest=ADMISSIBLE.ripple_harmonic, highest=highest, most=MOST
+            at.dataset.state.position[:, own], lowest=ADMISSIBLE.ripple_harmonic, highest=highest, most=MOST
         )
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, operating_point
-        return Ripple(site[0], scalars["harmonic"], scalars["centre"])
+        return Ripple(at.joint, at.scalars["harmonic"], at.scalars["centre"])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit more cycles per revolution than gravity has."""

@@ -5,14 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Setting, Site
 from .shared.own_joint import OwnJointCause
 from .shared.text import by_name, number_text, quantity_text
 
@@ -31,15 +29,14 @@ class TorqueSaturation(OwnJointCause):
     experiment = "the same motion a tenth slower, which keeps the command below the limit"
     coordinate = "torque"
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the limit below the largest torque of the motion."""
-        largest = float(np.abs(operating_point.applied(dataset.state)[:, site[0] - 1]).max())
+        largest = float(np.abs(at.operating_point.applied(at.dataset.state)[:, at.joint - 1]).max())
         return [{"limit": share * largest} for share in SHARES]
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset
-        return Saturation(site[0], operating_point, scalars["limit"])
+        return Saturation(at.joint, at.operating_point, at.scalars["limit"])
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit commands that are larger than the applied torque."""

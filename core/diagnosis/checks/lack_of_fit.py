@@ -6,9 +6,10 @@ shows lack of fit. Either must be as significant as a named cause.
 
 from dataclasses import replace
 
+from ..causes.protocol import Setting
 from ..search.entry_test import is_significant, passes_holdout
 from ..search.fitter import HypothesisFitter
-from ..search.hypothesis import Candidate, Hypothesis
+from ..search.hypothesis import Candidate, Hypothesis, candidates_of
 from ..search.likelihood_ratio import bic_gain
 from ..thresholds.checks import UNNAMED
 from .unnamed_pattern import UnnamedPatternCause
@@ -19,10 +20,9 @@ _UNLISTED = UnnamedPatternCause()
 def unnamed_candidates(fitter: HypothesisFitter) -> tuple[Candidate, ...]:
     """Give the unnamed patterns as candidates at the operating point."""
     return tuple(
-        Candidate(_UNLISTED, site, scalars, _UNLISTED.traits.trials(grid, scalars))
-        for site in _UNLISTED.sites(fitter.dataset, fitter.operating_point)
-        for grid in [tuple(_UNLISTED.grid(fitter.dataset, fitter.operating_point, site))]
-        for scalars in grid
+        candidate
+        for site in _UNLISTED.sites(fitter.dataset)
+        for candidate in candidates_of(_UNLISTED, Setting(fitter.dataset, fitter.operating_point, site))
     )
 
 

@@ -13,12 +13,10 @@ from itertools import combinations_with_replacement, product
 import numpy as np
 
 from ...arrays import Vector
-from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, Numbers, Trace
-from ..causes.protocol import FittedCause, Quantity, Scalars, Site
+from ..causes.protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from ..causes.shared.own_joint import OwnJointCause
-from ..causes.traits import SearchTraits
 from ..dataset.dataset import Dataset
 from ..thresholds.checks import UNNAMED
 
@@ -43,11 +41,11 @@ class UnnamedPatternCause(OwnJointCause):
     coordinate = "time"
     traits = SearchTraits(discrete=("pattern", "number_0", "number_1", "number_2"))
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """List all patterns with their numbers."""
-        del operating_point
         return [
-            _scalars(name, numbers) for name, numbers in _fixed(dataset.joints, site[0], _seconds(dataset))
+            _scalars(name, numbers)
+            for name, numbers in _fixed(at.dataset.joints, at.joint, _seconds(at.dataset))
         ]
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
@@ -62,10 +60,9 @@ class UnnamedPatternCause(OwnJointCause):
         """Give the scalars of a torque that switches between two levels at these instants, s."""
         return _scalars("levels", tuple(instants.tolist()))
 
-    def term(self, dataset: Dataset, operating_point: Prediction, site: Site, scalars: Scalars) -> Term:
+    def term(self, at: Setting) -> Term:
         """Give the columns."""
-        del dataset, operating_point
-        return Trace(site[0], *_read(scalars))
+        return Trace(at.joint, *_read(at.scalars))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report no numbers: they have no physical meaning."""

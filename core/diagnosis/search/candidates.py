@@ -12,10 +12,10 @@ from ...dynamics.model import DynamicModel
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
 from ...simulation.inverse import inverse_dynamics
-from ..causes.protocol import Cause, Site
+from ..causes.protocol import Cause, Setting, Site
 from ..dataset.dataset import Dataset
 from ..regression.rows import Columns
-from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate
+from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate, candidates_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,26 +52,19 @@ class Candidates:
 
     def _sites(self, causes: Iterable[Cause]) -> Iterator[tuple[Cause, Site]]:
         for cause in causes:
-            for site in cause.sites(self.dataset, self.operating_point):
+            for site in cause.sites(self.dataset):
                 yield cause, site
 
     def of(self, cause: Cause, site: Site) -> tuple[Candidate, ...]:
         """Give one cause at one site with all values of its scalars."""
         if (cause, site) not in self._known:
-            grid = tuple(cause.grid(self.left, self.operating_point, site))
-            self._known[cause, site] = tuple(
-                Candidate(cause, site, scalars, cause.traits.trials(grid, scalars)) for scalars in grid
-            )
+            self._known[cause, site] = candidates_of(cause, Setting(self.left, self.operating_point, site))
         return self._known[cause, site]
 
     def of_kind(self, key: tuple[str, Site]) -> tuple[Candidate, ...]:
         """Give all causes of one id at one site: against a reference some come in two forms."""
         name, site = key
-        causes = (
-            cause
-            for cause in self.causes
-            if cause.id == name and site in cause.sites(self.dataset, self.operating_point)
-        )
+        causes = (cause for cause in self.causes if cause.id == name and site in cause.sites(self.dataset))
         return tuple(candidate for cause in causes for candidate in self.of(cause, site))
 
     def change(self, other: "Candidates") -> JointVector:
@@ -100,7 +93,7 @@ def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Pr
     for joins in (_loads, _acts_inside, _scales):
         terms = []
         for index, member in enumerate(found.members):
-            term = member.cause.term(dataset, operating_point, member.site, member.scalars)
+            term = member.term(dataset, operating_point)
             if joins(term) and not member.cause.traits.self_consistent:
                 terms.append((term, found.fit.values[found.columns_of(index)]))
         operating_point = replace(operating_point, joined=(*operating_point.joined, *terms))

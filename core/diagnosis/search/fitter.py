@@ -120,7 +120,7 @@ class HypothesisFitter:
     def _columns(self, candidates: Sequence[Candidate], at: Candidates) -> list[Columns]:
         known = ChainMap(self._fixed_columns, at.columns)
         new = [each for each in candidates if each.column_key not in known]
-        terms = [each.cause.term(self.dataset, at.operating_point, each.site, each.scalars) for each in new]
+        terms = [each.term(self.dataset, at.operating_point) for each in new]
         for candidate, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
             known.maps[hasattr(term, "believed")][candidate.column_key] = columns
         return [known[each.column_key] for each in candidates]

@@ -7,10 +7,13 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays import SquareMatrix, Vector
+from ...dynamics.prediction import Prediction
+from ...dynamics.term import Term
 from ...numerics.chi2_tail import log_chi2_tail
 from ...robot.joint_units import is_prismatic
 from ...robot.model import RobotModel
-from ..causes.protocol import Cause, FittedCause, Scalars, Site
+from ..causes.protocol import Cause, FittedCause, Scalars, Setting, Site
+from ..dataset.dataset import Dataset
 from ..regression.gls import Fit
 from ..regression.score_test import Score
 from ..thresholds.regression import COLUMNS
@@ -48,16 +51,20 @@ class Candidate:
         """Give the key of its columns."""
         return self.cause.id, self.site, tuple(sorted(self.scalars.items()))
 
+    def term(self, dataset: Dataset, operating_point: Prediction) -> Term:
+        """Give its torque per unit of its linear parameters."""
+        return self.cause.term(Setting(dataset, operating_point, self.site, self.scalars))
+
+
+def candidates_of(cause: Cause, at: Setting) -> tuple[Candidate, ...]:
+    """Give a cause at one site with all values of its scalars."""
+    grid = tuple(cause.grid(at))
+    return tuple(Candidate(cause, at.site, scalars, cause.traits.trials(grid, scalars)) for scalars in grid)
+
 
 @dataclass(frozen=True, eq=False)
 class ScoredCandidate:
-    """Hold a candidate with its score test.
-
-    Attributes
-    ----------
-    log_p
-        Logarithm of its p-value, corrected for its grid.
-    """
+    """Hold a candidate with its score test."""
 
     candidate: Candidate
     statistic: float
@@ -67,7 +74,7 @@ class ScoredCandidate:
 
     @cached_property
     def log_p(self) -> float:
-        """Give the log p-value of the statistic, times the number of trials."""
+        """Give the logarithm of its p-value, corrected for its grid: times the number of trials."""
         return log_chi2_tail(self.statistic, self.freedom) + float(np.log(self.candidate.trials))
 
 

@@ -7,9 +7,8 @@ import numpy as np
 
 from tests.core.diagnosis.scenes import Effect
 from veritorque.core.arrays import Samples
-from veritorque.core.diagnosis.causes.protocol import Cause, Scalars
+from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, SearchTraits
 from veritorque.core.diagnosis.causes.shared.own_joint import NOTHING, OwnJointCause
-from veritorque.core.diagnosis.causes.traits import SearchTraits
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
 from veritorque.core.dynamics.terms.effect import OneJointTerm
@@ -48,14 +47,14 @@ class MadeUpCause(OwnJointCause):
     units = ()
     experiment = "any other motion"
 
-    def sites(self, dataset, operating_point):
+    def sites(self, dataset):
         return [(JOINT,)]
 
-    def grid(self, dataset, operating_point, site):
+    def grid(self, at):
         return self.points
 
-    def term(self, dataset, operating_point, site, scalars):
-        return MadeUpTerm(site[0], type(self).make, scalars)
+    def term(self, at):
+        return MadeUpTerm(at.joint, type(self).make, at.scalars)
 
     def admissible(self, solved):
         return type(self).allowed(solved.scalars)

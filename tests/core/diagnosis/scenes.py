@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from tests.tools import Motion, pinocchio_torque, random_bodies
-from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, Site
+from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, Setting, Site
 from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter, hypothesis_fitter
 from veritorque.core.dynamics.model import standard_model
@@ -105,8 +105,8 @@ def bodies_of_skew_arm() -> np.ndarray:
 
 def first_choice(cause: Cause, scene: Scene) -> tuple[Site, Scalars]:
     """Give a cause's first site and grid point."""
-    site = cause.sites(scene.dataset, scene.operating_point)[0]
-    return site, cause.grid(scene.dataset, scene.operating_point, site)[0]
+    site = cause.sites(scene.dataset)[0]
+    return site, cause.grid(Setting(scene.dataset, scene.operating_point, site))[0]
 
 
 def change_with_measurement(cause: Cause, scene: Scene) -> float:
@@ -118,7 +118,7 @@ def change_with_measurement(cause: Cause, scene: Scene) -> float:
     dataset, (site, scalars) = scene.dataset, first_choice(cause, scene)
     noise = np.random.default_rng(5).normal(size=dataset.torque.shape) * 0.5 * np.std(dataset.torque, axis=0)
     both = [
-        one.columns([cause.term(one, scene.operating_point, site, scalars)])[0]
+        one.columns([cause.term(Setting(one, scene.operating_point, site, scalars))])[0]
         for one in (dataset, replace(dataset, torque=dataset.torque + noise))
     ]
     before, after = (np.hstack([one[joint] for joint in sorted(one)]) for one in both)

@@ -26,7 +26,7 @@ from tests.core.diagnosis.scenes import (
 from tests.plant.effects.registry import PARAMETERS
 from veritorque.core.diagnosis.causes.imitation import imitations
 from veritorque.core.diagnosis.causes.masking import excludes, masks
-from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
+from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause, Setting
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE, BY_ID, CAUSES, SAMPLE_CHECKS
 from veritorque.core.diagnosis.causes.repairs import CorrectsLog, CorrectsRobot, corrects
 from veritorque.core.diagnosis.causes.sample_check import SampleCheck
@@ -77,10 +77,10 @@ def parked() -> Scene:
 
 @every_torque_cause
 def test_a_joint_that_never_moves_leaves_every_cause_with_finite_columns(cause, parked):
-    for site in cause.sites(parked.dataset, parked.operating_point):
-        for scalars in cause.grid(parked.dataset, parked.operating_point, site):
+    for site in cause.sites(parked.dataset):
+        for scalars in cause.grid(Setting(parked.dataset, parked.operating_point, site)):
             (columns,) = parked.dataset.columns(
-                [cause.term(parked.dataset, parked.operating_point, site, scalars)]
+                [cause.term(Setting(parked.dataset, parked.operating_point, site, scalars))]
             )
             assert all(np.isfinite(one).all() for one in columns.values())
 
@@ -89,7 +89,9 @@ def solved(cause: Cause, scene: Scene, value: float) -> FittedCause:
     """Give all linear parameters at the cause's first site the same value, known to a fifth."""
     site, scalars = first_choice(cause, scene)
     count = len(
-        cause.term(scene.dataset, scene.operating_point, site, scalars).parameters(scene.dataset.robot)
+        cause.term(Setting(scene.dataset, scene.operating_point, site, scalars)).parameters(
+            scene.dataset.robot
+        )
     )
     covariance = (0.2 * value) ** 2 * np.eye(count) if np.isfinite(value) else np.eye(count)
     return FittedCause(site, np.full(count, value), covariance, scalars, dict.fromkeys(scalars, 0.1))
@@ -165,7 +167,7 @@ def test_a_cause_is_shown_over_a_coordinate_that_there_is(cause, scene):
 
 @every_torque_cause
 def test_sites_are_joints_of_the_robot_each_named_once(cause, scene):
-    sites = cause.sites(scene.dataset, scene.operating_point)
+    sites = cause.sites(scene.dataset)
     assert sites
     assert len(set(sites)) == len(sites)
     assert all(1 <= joint <= scene.dataset.joints for site in sites for joint in site)
@@ -174,17 +176,19 @@ def test_sites_are_joints_of_the_robot_each_named_once(cause, scene):
 def test_terms_of_different_causes_and_sites_have_different_names_so_that_none_replaces_another(scene):
     dataset, operating_point = scene.dataset, scene.operating_point
     names = [
-        cause.term(dataset, operating_point, site, cause.grid(dataset, operating_point, site)[0]).name
+        cause.term(
+            Setting(dataset, operating_point, site, cause.grid(Setting(dataset, operating_point, site))[0])
+        ).name
         for cause in CAUSES
-        for site in cause.sites(dataset, operating_point)
+        for site in cause.sites(dataset)
     ]
     assert len(set(names)) == len(names)
 
 
 @every_torque_cause
 def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scene):
-    for site in cause.sites(scene.dataset, scene.operating_point):
-        grid = cause.grid(scene.dataset, scene.operating_point, site)
+    for site in cause.sites(scene.dataset):
+        grid = cause.grid(Setting(scene.dataset, scene.operating_point, site))
         assert grid
         assert len({frozenset(one.items()) for one in grid}) == len(grid)
         assert {frozenset(one) for one in grid} == {frozenset(grid[0])}
@@ -194,7 +198,7 @@ def test_a_grid_has_finite_scalars_of_the_same_names_each_point_once(cause, scen
 @every_torque_cause
 def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
     site, scalars = first_choice(cause, scene)
-    grid = cause.grid(scene.dataset, scene.operating_point, site)
+    grid = cause.grid(Setting(scene.dataset, scene.operating_point, site))
     assert len(grid) <= cause.traits.trials(grid, scalars) < np.inf
 
 
@@ -202,7 +206,7 @@ def test_a_point_of_a_grid_was_picked_from_at_least_all_of_it(cause, scene):
 def test_what_a_cause_masks_or_excludes_is_another_that_a_search_could_add(cause, scene):
     """It may mask itself only where it could be at another joint, too."""
     others = {one.id for one in CAUSES} - {cause.id}
-    elsewhere = {cause.id} if len(cause.sites(scene.dataset, scene.operating_point)) > 1 else set()
+    elsewhere = {cause.id} if len(cause.sites(scene.dataset)) > 1 else set()
     assert set(excludes(cause.id)) <= others
     assert set(masks(cause.id)) <= others | elsewhere
 
@@ -217,9 +221,9 @@ def test_causes_that_exclude_each_other_imitate_each_other(cause):
 @every_torque_cause
 def test_a_scan_gives_finite_columns_of_one_width_that_are_not_all_nothing(cause, scene):
     dataset, operating_point = scene.dataset, scene.operating_point
-    site = cause.sites(dataset, operating_point)[-1]
-    grid = cause.grid(dataset, operating_point, site)
-    terms = [cause.term(dataset, operating_point, site, scalars) for scalars in grid]
+    site = cause.sites(dataset)[-1]
+    grid = cause.grid(Setting(dataset, operating_point, site))
+    terms = [cause.term(Setting(dataset, operating_point, site, scalars)) for scalars in grid]
     widths = {len(term.parameters(dataset.robot)) for term in terms}
     assert len(widths) == 1
     for columns in dataset.columns(terms):

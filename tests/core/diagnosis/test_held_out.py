@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.scenes import Scene, eventful_scene, fitter_of, measured_arm
-from veritorque.core.diagnosis.causes.protocol import Cause
+from veritorque.core.diagnosis.causes.protocol import Cause, Setting
 from veritorque.core.diagnosis.causes.registry import CAUSES
 from veritorque.core.diagnosis.regression.gls import Fit
 
@@ -35,10 +35,12 @@ def test_a_fit_does_not_see_what_is_held_out():
 def test_a_cause_settles_where_to_look_without_what_is_held_out(cause: Cause):
     """Neither its grid nor the columns built on it may depend on rows that are to judge it."""
     clean, spoilt = eventful_scene(), with_garbage(eventful_scene())
-    for site in cause.sites(clean.dataset, clean.operating_point):
-        grid = cause.grid(clean.dataset, clean.operating_point, site)
-        assert cause.grid(spoilt.dataset, spoilt.operating_point, site) == grid
-        terms = [cause.term(one.dataset, one.operating_point, site, grid[0]) for one in (clean, spoilt)]
+    for site in cause.sites(clean.dataset):
+        grid = cause.grid(Setting(clean.dataset, clean.operating_point, site))
+        assert cause.grid(Setting(spoilt.dataset, spoilt.operating_point, site)) == grid
+        terms = [
+            cause.term(Setting(one.dataset, one.operating_point, site, grid[0])) for one in (clean, spoilt)
+        ]
         before, after = clean.dataset.columns(terms)
         for joint, column in before.items():
             np.testing.assert_array_equal(after[joint], column)

@@ -40,8 +40,8 @@ class Measured(OneJointTerm):
 class Endogenous(TorqueGain):
     """Suspect a torque gain as one should not."""
 
-    def term(self, dataset, operating_point, site, scalars):
-        return Measured(site[0], dataset.torque)
+    def term(self, at):
+        return Measured(at.joint, at.dataset.torque)
 
 
 def test_a_column_of_measured_torque_is_seen():

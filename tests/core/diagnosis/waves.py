@@ -44,11 +44,11 @@ class WaveCause(OwnJointCause):
     units = (("amplitude", "N m"),)
     experiment = "any other motion"
 
-    def sites(self, dataset, operating_point):
+    def sites(self, dataset):
         return [(JOINT,)]
 
-    def term(self, dataset, operating_point, site, scalars):
-        return WaveTerm(site[0], self.waves)
+    def term(self, at):
+        return WaveTerm(at.joint, self.waves)
 
     def statement(self, solved):
         return f"Joint {solved.site[0]} waves"

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.core.diagnosis.scenes import eventful_scene
-from veritorque.core.diagnosis.causes.protocol import Cause
+from veritorque.core.diagnosis.causes.protocol import Cause, Setting
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE
 from veritorque.core.diagnosis.checks.unnamed_pattern import UnnamedPatternCause
 from veritorque.core.dynamics.model import STANDARD_TERMS
@@ -41,12 +41,12 @@ def cures_by_cause(robot: RobotModel | None = None) -> tuple[tuple[Cause, Term],
     warm = replace(scene.dataset.state, temperature=np.full_like(scene.dataset.state.position, 30.0))
     looks = (scene.dataset, replace(scene.dataset, state=warm))
     return tuple(
-        (cause, cause.term(look, believed, site, scalars))
+        (cause, cause.term(Setting(look, believed, site, scalars)))
         for look in looks
         for cause in AGAINST_REFERENCE
         if look is scene.dataset or cause.id == "friction_temperature"
-        for site in [cause.sites(look, own)[-1]]
-        for grid in [cause.grid(look, own, site)]
+        for site in [cause.sites(look)[-1]]
+        for grid in [cause.grid(Setting(look, own, site))]
         for place in sorted({0, len(grid) // 8, len(grid) // 2, len(grid) - 1})
         for scalars in [grid[place]]
     )
@@ -61,10 +61,10 @@ def cures(robot: RobotModel | None = None) -> tuple[Term, ...]:
 def traces() -> tuple[Term, ...]:
     """Give every pattern that has no cause, each with the last numbers that a search would try."""
     scene, suspect = eventful_scene(), UnnamedPatternCause()
-    site = suspect.sites(scene.dataset, scene.operating_point)[-1]
+    site = suspect.sites(scene.dataset)[-1]
     switching = suspect.switching(np.array([0.5, 1.5, 2.0]))
-    grid = (*suspect.grid(scene.dataset, scene.operating_point, site), switching)
-    terms = [suspect.term(scene.dataset, scene.operating_point, site, one) for one in grid]
+    grid = (*suspect.grid(Setting(scene.dataset, scene.operating_point, site)), switching)
+    terms = [suspect.term(Setting(scene.dataset, scene.operating_point, site, one)) for one in grid]
     return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
 
 

@@ -9,11 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ....dynamics.prediction import Prediction
 from ....robot.model import RobotModel
 from ...dataset.dataset import Dataset
-from ..protocol import Cure, FittedCause, Numbers, Quantity, Scalars, Site
-from ..traits import SearchTraits
+from ..protocol import Cure, FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
 
 NOTHING: tuple[Scalars, ...] = ({},)
 """The grid of a cause without nonlinear scalars."""
@@ -34,14 +32,13 @@ class OwnJointCause:
     coordinate: ClassVar[str] = "velocity"
     traits: ClassVar[SearchTraits] = SearchTraits()
 
-    def sites(self, dataset: Dataset, operating_point: Prediction) -> Sequence[Site]:
+    def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List every joint."""
-        del operating_point
         return [(joint,) for joint in range(1, dataset.joints + 1)]
 
-    def grid(self, dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+    def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan nothing."""
-        del dataset, operating_point, site
+        del at
         return NOTHING
 
     def admissible(self, solved: FittedCause) -> bool:
@@ -74,11 +71,11 @@ class OwnJointCause:
         return "The model has the torque as a further term; description and log stay as they are"
 
 
-def motor_inertias(dataset: Dataset, operating_point: Prediction, site: Site) -> Sequence[Scalars]:
+def motor_inertias(at: Setting) -> Sequence[Scalars]:
     """Scan the motor-side inertia of a joint, where the fit cannot separate it from the link's."""
-    if operating_point.rotor(site[0]) != 0.0:
+    if at.operating_point.rotor(at.joint) != 0.0:
         return NOTHING
-    least = float(operating_point.slopes(dataset.state, site[0] - 1)[2][:, site[0] - 1].min())
+    least = float(at.operating_point.slopes(at.dataset.state, at.joint - 1)[2][:, at.joint - 1].min())
     return [{"motor_inertia": share * least} for share in MOTOR_SHARES] if least > 0.0 else NOTHING
 
 

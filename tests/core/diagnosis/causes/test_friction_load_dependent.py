@@ -8,6 +8,7 @@ from tests.core.diagnosis.scenes import fitter_of, measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
+from veritorque.core.diagnosis.causes.protocol import Setting
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.diagnosis.search.grid import neighbours
 from veritorque.core.diagnosis.search.hypothesis import Candidate
@@ -42,7 +43,7 @@ def test_a_rotor_never_has_more_inertia_than_the_joint():
     scene = measured_arm()
     shares = [
         one["motor_inertia"]
-        for one in FrictionLoadDependent().grid(scene.dataset, scene.operating_point, (1,))
+        for one in FrictionLoadDependent().grid(Setting(scene.dataset, scene.operating_point, (1,)))
     ]
     least = scene.operating_point.slopes(scene.dataset.state, 0)[2][:, 0].min()
     farthest = neighbours(shares, shares[-1])[1]
@@ -61,6 +62,6 @@ def test_a_rotor_that_was_scanned_once_is_refined_where_no_grid_has_it_any_more(
 @pytest.mark.parametrize(("joint", "points"), [(1, 4), (3, 1)], ids=["unknown", "known"])
 def test_a_rotor_is_scanned_only_where_it_is_part_of_the_link(joint, points):
     scene = measured_arm()
-    grid = FrictionLoadDependent().grid(scene.dataset, scene.operating_point, (joint,))
+    grid = FrictionLoadDependent().grid(Setting(scene.dataset, scene.operating_point, (joint,)))
     assert len(grid) == points
     assert {name for scalars in grid for name in scalars} == ({"motor_inertia"} if points > 1 else set())

@@ -17,7 +17,7 @@ from veritorque.core.diagnosis.causes.friction_temperature import FrictionTemper
 from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
 from veritorque.core.diagnosis.causes.imitation import imitations
 from veritorque.core.diagnosis.causes.joint_coupling import JointCoupling
-from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause
+from veritorque.core.diagnosis.causes.protocol import Cause, FittedCause, Setting
 from veritorque.core.diagnosis.causes.rotor_inertia_missing import RotorInertiaMissing
 from veritorque.core.diagnosis.causes.shared.harmonics import harmonics, wave_quantities
 from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
@@ -84,17 +84,19 @@ def scene() -> tuple[Dataset, Prediction]:
 
 def solved(cause: Cause, dataset: Dataset, operating_point: Prediction, values: list[float]) -> FittedCause:
     """Make a solution at the cause's first site and grid point."""
-    site = cause.sites(dataset, operating_point)[0]
-    scalars = cause.grid(dataset, operating_point, site)[0]
-    count = len(cause.term(dataset, operating_point, site, scalars).parameters(dataset.robot))
+    site = cause.sites(dataset)[0]
+    scalars = cause.grid(Setting(dataset, operating_point, site))[0]
+    count = len(cause.term(Setting(dataset, operating_point, site, scalars)).parameters(dataset.robot))
     assert count == len(values)
     return FittedCause(site, np.array(values), 0.01 * np.eye(count), scalars, dict.fromkeys(scalars, 0.1))
 
 
 def as_found(cause: Cause, dataset: Dataset, operating_point: Prediction, value: float) -> FittedCause:
     """Give all linear parameters the same value."""
-    site = cause.sites(dataset, operating_point)[0]
-    term = cause.term(dataset, operating_point, site, cause.grid(dataset, operating_point, site)[0])
+    site = cause.sites(dataset)[0]
+    term = cause.term(
+        Setting(dataset, operating_point, site, cause.grid(Setting(dataset, operating_point, site))[0])
+    )
     return solved(cause, dataset, operating_point, [value] * len(term.parameters(dataset.robot)))
 
 
@@ -153,8 +155,10 @@ def test_neighbours_of_a_grid_are_so_correlated_that_nothing_between_them_is_mis
     cause: Cause, scene: tuple[Dataset, Prediction]
 ) -> None:
     dataset, operating_point = scene
-    grid = cause.grid(dataset, operating_point, (2,))
-    found = dataset.columns([cause.term(dataset, operating_point, (2,), scalars) for scalars in grid])
+    grid = cause.grid(Setting(dataset, operating_point, (2,)))
+    found = dataset.columns(
+        [cause.term(Setting(dataset, operating_point, (2,), scalars)) for scalars in grid]
+    )
     model = np.hstack([columns[1] for columns in dataset.columns([Offset(), Viscous(), Coulomb()])])
     for one, other, here, there in zip(found, found[1:], grid, grid[1:], strict=False):
         if here.get("side") == there.get("side"):
@@ -168,19 +172,21 @@ def _left(columns: np.ndarray, model: np.ndarray) -> np.ndarray:
 
 def test_ripple_is_scanned_up_to_the_bandwidth(scene: tuple[Dataset, Prediction]) -> None:
     dataset, operating_point = scene
-    highest = max(scalars["harmonic"] for scalars in TorqueRipple().grid(dataset, operating_point, (1,)))
+    highest = max(
+        scalars["harmonic"] for scalars in TorqueRipple().grid(Setting(dataset, operating_point, (1,)))
+    )
     assert highest * dataset.speed[0] < 2.0 * np.pi * dataset.band_hz < 3.0 * highest * dataset.speed[0]
 
 
 def test_only_joints_without_a_declared_rotor_may_miss_one(scene: tuple[Dataset, Prediction]) -> None:
-    assert RotorInertiaMissing().sites(*scene) == [(1,)]
+    assert RotorInertiaMissing().sites(scene[0]) == [(1,)]
 
 
 def test_a_declared_coupling_is_no_candidate(scene: tuple[Dataset, Prediction]) -> None:
-    dataset, operating_point = scene
-    assert set(JointCoupling().sites(dataset, operating_point)) == {(1, 2), (2, 3), (1, 3)}
+    dataset, _ = scene
+    assert set(JointCoupling().sites(dataset)) == {(1, 2), (2, 3), (1, 3)}
     declared = replace(dataset.robot, couplings=(Coupling("wrist", 3, (2, 3), (1.0, 1.0)),))
-    assert set(JointCoupling().sites(replace(dataset, robot=declared), operating_point)) == {(1, 2), (1, 3)}
+    assert set(JointCoupling().sites(replace(dataset, robot=declared))) == {(1, 2), (1, 3)}
 
 
 def test_friction_follows_the_logged_temperature_where_there_is_one(
@@ -188,11 +194,11 @@ def test_friction_follows_the_logged_temperature_where_there_is_one(
 ) -> None:
     dataset, operating_point = scene
     cause = FrictionTemperature()
-    assert all("time_constant" in scalars for scalars in cause.grid(dataset, operating_point, (1,)))
+    assert all("time_constant" in scalars for scalars in cause.grid(Setting(dataset, operating_point, (1,))))
     warm = replace(
         dataset, state=replace(dataset.state, temperature=np.full_like(dataset.state.position, 30.0))
     )
-    assert list(cause.grid(warm, operating_point, (1,))) == [{}]
+    assert list(cause.grid(Setting(warm, operating_point, (1,)))) == [{}]
     found = FittedCause((1,), np.array([0.1, 0.2]), np.eye(2), {}, {})
     assert [one.unit for one in cause.quantities(found)] == ["N m/K", "N m s/rad/K"]
 

@@ -131,12 +131,12 @@ class Counted(type(BY_ID["torque_gain_nonlinear"])):
     id = "counted"
     built: ClassVar[list[float]] = []
 
-    def grid(self, dataset, operating_point, site):
+    def grid(self, at):
         return [{"point": float(point)} for point in range(40)]
 
-    def term(self, dataset, operating_point, site, scalars):
-        self.built.append(scalars["point"])
-        return super().term(dataset, operating_point, site, scalars)
+    def term(self, at):
+        self.built.append(at.scalars["point"])
+        return super().term(at)
 
 
 def built_anew(fitter: HypothesisFitter, none: Hypothesis) -> int:

@@ -19,9 +19,9 @@ class Fickle(WaveCause):
 
     id = title = "fickle"
 
-    def term(self, dataset, operating_point, site, scalars):
-        believes = any(isinstance(one, BuiltOn) for one, _ in operating_point.joined)
-        return BuiltOn(site[0], {SLOW if believes else QUICK: 1.0}, operating_point)
+    def term(self, at):
+        believes = any(isinstance(one, BuiltOn) for one, _ in at.operating_point.joined)
+        return BuiltOn(at.joint, {SLOW if believes else QUICK: 1.0}, at.operating_point)
 
 
 @pytest.mark.parametrize(

@@ -34,9 +34,7 @@ def found_one_by_one(sizes=SIZES, *, leaves=PARTS, excludes=(), first=PARTS, fur
     whole = wave_cause("whole", dict(zip(RATES, SIZES, strict=True)))
     MASKED_BY["whole"], EXCLUDED_BY["whole"] = Masking(leaves, ""), Masking(excludes, "")
     type(whole).sites = lambda *_: [()]
-    type(whole).term = lambda self, dataset, operating_point, _, scalars: super(type(whole), self).term(
-        dataset, operating_point, (2,), scalars
-    )
+    type(whole).term = lambda self, at: super(type(whole), self).term(replace(at, site=(2,)))
     fitter = fitter_of(
         measured_arm(wave_effect(dict(zip((*RATES, 15.0), sizes, strict=False)))), [*parts, whole, *further]
     )
@@ -108,12 +106,12 @@ class Flattering(WaveCause):
 
     id = title = "flattering"
 
-    def term(self, dataset, operating_point, site, scalars):
-        sizes = [float(value[0]) for one, value in operating_point.joined if isinstance(one, BuiltOn)]
+    def term(self, at):
+        sizes = [float(value[0]) for one, value in at.operating_point.joined if isinstance(one, BuiltOn)]
         half = 1.0 if sizes else 0.5
         alone = any(size < 1.5 for size in sizes)
         waves = {7.0: 0.6} if alone else {7.0: 0.6 * half, 4.5: 0.3 * half, 11.0: 0.03 * half}
-        return BuiltOn(site[0], waves, operating_point)
+        return BuiltOn(at.joint, waves, at.operating_point)
 
 
 def test_what_explains_less_once_it_is_believed_makes_way_for_what_it_hid():

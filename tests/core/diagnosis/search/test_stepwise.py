@@ -13,8 +13,8 @@ from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes import imitation
 from veritorque.core.diagnosis.causes.imitation import IMITATIONS, Imitation
 from veritorque.core.diagnosis.causes.masking import EXCLUDED_BY, MASKED_BY, Masking
+from veritorque.core.diagnosis.causes.protocol import SearchTraits
 from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
-from veritorque.core.diagnosis.causes.traits import SearchTraits
 from veritorque.core.diagnosis.checks.alternatives import compare_alternatives, compare_member
 from veritorque.core.diagnosis.search import fitter as fitter_module
 from veritorque.core.diagnosis.search import stepwise as search
