@@ -8,7 +8,6 @@ Source: Nordin & Gutman, Automatica 38(10), 2002.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..gear import Gear
 from ..prediction import Prediction
-from .effect import AllJointsTerm, Symbol, rates, step_of
+from .effect import AllJointsTerm, rates, step_of
 from .joint_elasticity import smoothed
 
 
@@ -33,9 +32,9 @@ class Backlash(AllJointsTerm):
     around: float
     band_hz: float
     motor_inertia: float = 0.0
-    symbols: ClassVar[tuple[Symbol, ...]] = (("half_width", "rad", 0.0),)
-    kind: ClassVar[str] = "backlash"
-    remembers: ClassVar[bool] = True
+    symbols = (("half_width", "rad", 0.0),)
+    kind = "backlash"
+    remembers = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per rad of half width."""

@@ -5,14 +5,12 @@ one-sided linear spring.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,12 +19,11 @@ class Cable(OneJointTerm):
 
     engage_angle: float
     side: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", 0.0),)
-    kind: ClassVar[str] = "cable_force"
-    loads: ClassVar[bool] = True
+    symbols = (("stiffness", "N m/rad", 0.0),)
+    kind = "cable_force"
+    loads = True
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give the angle beyond the engagement, with its sign."""
-        del robot
         beyond = state.position[:, self.joint - 1] - self.engage_angle
         return [np.maximum(beyond, 0.0) if self.side >= 0.0 else np.minimum(beyond, 0.0)]

@@ -23,44 +23,8 @@ ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class OneJointTerm:
-    """Give columns that act on one joint only."""
-
-    joint: int
-    symbols: ClassVar[tuple[Symbol, ...]] = ()
-    kind: ClassVar[str] = ""
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = False
-
-    @property
-    def name(self) -> str:
-        """Name the effect together with its joint."""
-        return f"{self.kind}_{self.joint}"
-
-    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
-        """List the effect's parameters, in units of its joint."""
-        return tuple(
-            Parameter(symbol, self.joint, self.joint, joint_unit(robot, self.joint, unit), lower)
-            for symbol, unit, lower in self.symbols
-        )
-
-    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
-        """Put every parameter on the joint."""
-        return tuple((self.joint - 1, index) for index in range(len(self.parameters(robot))))
-
-    def series(self, robot: RobotModel, state: MotionState) -> Series:
-        """Give the torque per unit parameter."""
-        return np.array(self.columns(robot, state), dtype=float).reshape(-1, len(state.position))
-
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
-        """Give the torque on the joint per unit of each parameter."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True, eq=False)
-class AllJointsTerm:
-    """Give columns that act on every joint."""
+class JointTerm:
+    """Name an effect by its kind and its joint."""
 
     joint: int
     """The joint under which the effect is reported, from 1; 0 for the robot as a whole."""
@@ -74,6 +38,34 @@ class AllJointsTerm:
     def name(self) -> str:
         """Name the effect together with its joint."""
         return f"{self.kind}_{self.joint}"
+
+
+class OneJointTerm(JointTerm):
+    """Give columns that act on one joint only."""
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List the effect's parameters, in units of its joint."""
+        return tuple(
+            Parameter(symbol, self.joint, self.joint, joint_unit(robot, self.joint, unit), lower)
+            for symbol, unit, lower in self.symbols
+        )
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Put every parameter on the joint."""
+        return tuple((self.joint - 1, index) for index in range(len(self.parameters(robot))))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter; where the robot matters, an effect gives its own."""
+        del robot
+        return np.array(self.columns(state), dtype=float).reshape(-1, len(state.position))
+
+    def columns(self, state: MotionState) -> list[Samples]:
+        """Give the torque on the joint per unit of each parameter."""
+        raise NotImplementedError
+
+
+class AllJointsTerm(JointTerm):
+    """Give columns that act on every joint."""
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List the effect's parameters."""

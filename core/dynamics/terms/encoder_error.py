@@ -6,7 +6,6 @@ acceleration, and with them friction and rotor torque. Source: Khalil & Dombre (
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from ...arrays import JointSeries
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction, moved
-from .effect import AllJointsTerm, Symbol
+from .effect import AllJointsTerm
 
 SMALL = 1e-5
 """Size of the finite error, rad: its square and its rounding are negligible."""
@@ -25,8 +24,8 @@ class EncoderOffset(AllJointsTerm):
     """Model a reading that is the true angle plus `offset`."""
 
     believed: Prediction
-    symbols: ClassVar[tuple[Symbol, ...]] = (("offset", "rad", None),)
-    kind: ClassVar[str] = "encoder_offset"
+    symbols = (("offset", "rad", None),)
+    kind = "encoder_offset"
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give minus the change of load per rad."""
@@ -39,8 +38,8 @@ class EncoderEccentricity(AllJointsTerm):
     """Model a reading that is the true angle plus `sine` sin(q) + `cosine` cos(q)."""
 
     believed: Prediction
-    symbols: ClassVar[tuple[Symbol, ...]] = (("sine", "rad", None), ("cosine", "rad", None))
-    kind: ClassVar[str] = "encoder_eccentricity"
+    symbols = (("sine", "rad", None), ("cosine", "rad", None))
+    kind = "encoder_eccentricity"
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give minus the change of torque per rad of sin(q), and of cos(q)."""

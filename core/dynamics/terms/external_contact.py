@@ -7,7 +7,6 @@ supports the drives reduces their torque. Source: De Luca & Mattone, ICRA 2005; 
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
 
 import numpy as np
 
@@ -28,8 +27,8 @@ class Contact(AllJointsTerm):
 
     link: int
     spans: tuple[Span, ...]
-    kind: ClassVar[str] = "external_contact"
-    loads: ClassVar[bool] = True
+    kind = "external_contact"
+    loads = True
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:  # type: ignore[override]  # one wrench per span

@@ -5,24 +5,21 @@ Machines with Friction (1991).
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
 class AsymmetricViscous(OneJointTerm):
     """Model the half difference of forward and backward viscous friction."""
 
-    symbols: ClassVar[tuple[Symbol, ...]] = (("delta_viscous", "N m s/rad", None),)
-    kind: ClassVar[str] = "friction_asymmetric"
+    symbols = (("delta_viscous", "N m s/rad", None),)
+    kind = "friction_asymmetric"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give |v|."""
-        del robot
         return [np.abs(state.velocity[:, self.joint - 1])]

@@ -5,15 +5,13 @@ fixed. Source: Bittencourt & Gunnarsson 2012, on friction that changes between t
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from .coulomb import direction
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,20 +20,19 @@ class FrictionChange(OneJointTerm):
 
     width: float = 0.0
     """Width over which the sign of velocity is smoothed, rad/s or m/s; 0 for the plain sign."""
-    symbols: ClassVar[tuple[Symbol, ...]] = (
+    symbols = (
         ("delta_viscous", "N m s/rad", None),
         ("delta_coulomb", "N m", None),
         ("delta_offset", "N m", None),
     )
-    kind: ClassVar[str] = "friction_change"
+    kind = "friction_change"
 
     @property
     def changes(self) -> tuple[str, ...]:
         """Name the parameters that change."""
         return tuple(f"{symbol}{self.joint}" for symbol in ("FV", "FC", "OFF"))
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give velocity, its sign, and one."""
-        del robot
         velocity = state.velocity[:, self.joint - 1]
         return [velocity, direction(velocity, self.width), np.ones_like(velocity)]

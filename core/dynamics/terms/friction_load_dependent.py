@@ -4,16 +4,15 @@ Source: Bittencourt & Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
-from ...arrays import Samples
+from ...arrays import Series
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..gear import Gear
 from ..prediction import Prediction
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,10 +24,10 @@ class LoadFriction(OneJointTerm):
 
     believed: Prediction
     motor_inertia: float = 0.0
-    symbols: ClassVar[tuple[Symbol, ...]] = (("load_coefficient", "1", 0.0),)
-    kind: ClassVar[str] = "friction_load_dependent"
+    symbols = (("load_coefficient", "1", 0.0),)
+    kind = "friction_load_dependent"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
-        """Give sign(v) |load|."""
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give sign(v) |load|, with the load on this robot."""
         load = Gear(self.believed, self.joint, self.motor_inertia).load(state, robot)
-        return [np.sign(state.velocity[:, self.joint - 1]) * np.abs(load)]
+        return np.array([np.sign(state.velocity[:, self.joint - 1]) * np.abs(load)])

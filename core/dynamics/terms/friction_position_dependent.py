@@ -5,14 +5,12 @@ Control of Machines with Friction (1991).
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,12 +19,11 @@ class PositionFriction(OneJointTerm):
 
     harmonic: float
     centre: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("cosine", "N m", None), ("sine", "N m", None))
-    kind: ClassVar[str] = "friction_position_dependent"
+    symbols = (("cosine", "N m", None), ("sine", "N m", None))
+    kind = "friction_position_dependent"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give cosine and sine of h (q - centre), each times sign(v)."""
-        del robot
         sign = np.sign(state.velocity[:, self.joint - 1])
         angle = self.harmonic * (state.position[:, self.joint - 1] - self.centre)
         return [sign * np.cos(angle), sign * np.sin(angle)]

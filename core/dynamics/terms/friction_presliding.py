@@ -6,14 +6,12 @@ built up, too. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 STANDING = 0.01
 """Share of its largest speed below which a joint is at rest when a stretch begins."""
@@ -28,13 +26,12 @@ class Presliding(OneJointTerm):
     """
 
     presliding_distance: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("coulomb_level", "N m", 0.0),)
-    kind: ClassVar[str] = "friction_presliding"
-    remembers: ClassVar[bool] = True
+    symbols = (("coulomb_level", "N m", 0.0),)
+    kind = "friction_presliding"
+    remembers = True
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give Dahl's state minus sign(v)."""
-        del robot
         own = self.joint - 1
         position, velocity = state.position[:, own], state.velocity[:, own]
         return [dahl(position, velocity, self.presliding_distance) - np.sign(velocity)]

@@ -5,14 +5,12 @@ Gunnarsson 2012.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,11 +18,10 @@ class Stribeck(OneJointTerm):
     """Model the excess of friction near standstill; `stribeck_velocity` in rad/s (m/s)."""
 
     stribeck_velocity: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("excess_torque", "N m", 0.0),)
-    kind: ClassVar[str] = "friction_stribeck"
+    symbols = (("excess_torque", "N m", 0.0),)
+    kind = "friction_stribeck"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give sign(v) exp(-(v / vs)^2)."""
-        del robot
         velocity = state.velocity[:, self.joint - 1]
         return [np.sign(velocity) * np.exp(-((velocity / self.stribeck_velocity) ** 2))]

@@ -6,14 +6,12 @@ Bittencourt & Gunnarsson, J. Dyn. Sys. Meas. Control 134(5), 2012; Simoni et al.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,15 +19,11 @@ class TemperatureFriction(OneJointTerm):
     """Model friction over the logged temperature; `reference` in degC; zero where none was logged."""
 
     reference: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (
-        ("coulomb_slope", "N m/K", None),
-        ("viscous_slope", "N m s/rad/K", None),
-    )
-    kind: ClassVar[str] = "friction_temperature"
+    symbols = (("coulomb_slope", "N m/K", None), ("viscous_slope", "N m s/rad/K", None))
+    kind = "friction_temperature"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give sign(v) and v, each times the temperature above the reference."""
-        del robot
         velocity = state.velocity[:, self.joint - 1]
         if state.temperature is None:
             return [np.zeros_like(velocity), np.zeros_like(velocity)]
@@ -42,15 +36,11 @@ class WarmUpFriction(OneJointTerm):
 
     start: float
     time_constant: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (
-        ("coulomb_slope", "N m", None),
-        ("viscous_slope", "N m s/rad", None),
-    )
-    kind: ClassVar[str] = "friction_temperature"
+    symbols = (("coulomb_slope", "N m", None), ("viscous_slope", "N m s/rad", None))
+    kind = "friction_temperature"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give sign(v) and v, each times the share of the warm-up that has passed."""
-        del robot
         velocity = state.velocity[:, self.joint - 1]
         if state.time is None:
             return [np.zeros_like(velocity), np.zeros_like(velocity)]

@@ -6,7 +6,6 @@ are linear in gravity, so that a column is the weight of the bodies under that v
 """
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from ...arrays import JointSeries, Vector3
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import AllJointsTerm, Symbol, without_rounding
+from .effect import AllJointsTerm, without_rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,9 +21,9 @@ class Tilt(AllJointsTerm):
     """Model gravity rotated by `tilt_x` and `tilt_y` about the base's axes."""
 
     believed: Prediction
-    symbols: ClassVar[tuple[Symbol, ...]] = (("tilt_x", "rad", None), ("tilt_y", "rad", None))
-    kind: ClassVar[str] = "gravity_misalignment"
-    loads: ClassVar[bool] = True
+    symbols = (("tilt_x", "rad", None), ("tilt_y", "rad", None))
+    kind = "gravity_misalignment"
+    loads = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the weight per rad about either axis."""

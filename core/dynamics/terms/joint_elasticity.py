@@ -7,7 +7,6 @@ Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import ClassVar
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
@@ -20,7 +19,7 @@ from ...signals.state import MotionState
 from ...signals.zero_phase import kernel
 from ..gear import Gear
 from ..prediction import Prediction
-from .effect import AllJointsTerm, Symbol, rates, step_of
+from .effect import AllJointsTerm, rates, step_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +34,9 @@ class Elasticity(AllJointsTerm):
     """Those of the link's inertia on the spring: below it the link follows the load without lag."""
     motor_inertia: float = 0.0
     """Rotor inertia that the operating point's load contains, kg m2 (kg)."""
-    symbols: ClassVar[tuple[Symbol, ...]] = (("compliance", "rad/(N m)", 0.0),)
-    kind: ClassVar[str] = "joint_elasticity"
-    remembers: ClassVar[bool] = True
+    symbols = (("compliance", "rad/(N m)", 0.0),)
+    kind = "joint_elasticity"
+    remembers = True
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List the compliance, in the unit of its joint."""

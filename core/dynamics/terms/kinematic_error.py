@@ -5,7 +5,7 @@ The column is the change per unit of the entry. Source: Khalil & Dombre (2002), 
 """
 
 from dataclasses import dataclass, replace
-from typing import ClassVar, Literal
+from typing import Literal
 
 from ...arrays import JointSeries
 from ...robot.model import Link, RobotModel
@@ -24,8 +24,8 @@ class KinematicError(AllJointsTerm):
 
     believed: Prediction
     entry: EntryName
-    kind: ClassVar[str] = "kinematic_error"
-    loads: ClassVar[bool] = True
+    kind = "kinematic_error"
+    loads = True
 
     @property
     def name(self) -> str:

@@ -5,13 +5,12 @@ own parameters are fixed. Source: Khalil & Dombre (2002), ch. 9.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...arrays import JointSeries
 from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ...signals.state import MotionState
-from .effect import AllJointsTerm, Symbol
+from .effect import AllJointsTerm
 from .payload_change import body_torques
 
 
@@ -20,11 +19,9 @@ class LinkChange(AllJointsTerm):
     """Model a change of all ten parameters of a link (number from 1)."""
 
     link: int
-    symbols: ClassVar[tuple[Symbol, ...]] = tuple(
-        (f"delta_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
-    )
-    kind: ClassVar[str] = "link_parameters"
-    loads: ClassVar[bool] = True
+    symbols = tuple((f"delta_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS)
+    kind = "link_parameters"
+    loads = True
 
     @property
     def changes(self) -> tuple[str, ...]:

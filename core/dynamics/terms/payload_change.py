@@ -7,7 +7,6 @@ negative. A step before the first instant is a body that was there throughout. S
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 from ...signals.state import MotionState
 from ..newton_euler import unit_torques
-from .effect import AllJointsTerm, Symbol, without_rounding
+from .effect import AllJointsTerm, without_rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +24,9 @@ class Payload(AllJointsTerm):
 
     link: int
     begin: float
-    symbols: ClassVar[tuple[Symbol, ...]] = tuple(
-        (f"payload_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS
-    )
-    kind: ClassVar[str] = "payload_change"
-    loads: ClassVar[bool] = True
+    symbols = tuple((f"payload_{symbol}", INERTIAL_UNITS[symbol], None) for symbol in INERTIAL_SYMBOLS)
+    kind = "payload_change"
+    loads = True
 
     @property
     def changes(self) -> tuple[str, ...]:

@@ -6,22 +6,19 @@ al. 2013 (counterbalances).
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
 class Spring(OneJointTerm):
     """Model a spring about the joint's axis that pulls against its angle."""
 
-    symbols: ClassVar[tuple[Symbol, ...]] = (("stiffness", "N m/rad", None),)
-    kind: ClassVar[str] = "spring_compensator"
+    symbols = (("stiffness", "N m/rad", None),)
+    kind = "spring_compensator"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give q."""
-        del robot
         return [state.position[:, self.joint - 1].copy()]

@@ -6,7 +6,6 @@ Identification (1999), ch. 4.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -15,7 +14,7 @@ from ...arrays import JointSeries
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import AllJointsTerm, Symbol, rates
+from .effect import AllJointsTerm, rates
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,10 +23,10 @@ class Delay(AllJointsTerm):
 
     believed: Prediction
     around: float = 0.0
-    symbols: ClassVar[tuple[Symbol, ...]] = (("delay", "s", None),)
-    kind: ClassVar[str] = "time_delay"
-    remembers: ClassVar[bool] = True
-    channel: ClassVar[bool] = True
+    symbols = (("delay", "s", None),)
+    kind = "time_delay"
+    remembers = True
+    channel = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (delayed minus predicted torque) / delay; for no delay, minus the rate."""

@@ -7,7 +7,6 @@ its linear parameter is the time constant when the two agree. Source: Oppenheim 
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from scipy.signal import lfilter
@@ -16,7 +15,7 @@ from ...arrays import JointSeries
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import AllJointsTerm, Symbol, step_of
+from .effect import AllJointsTerm, step_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,10 +24,10 @@ class FilterLag(AllJointsTerm):
 
     believed: Prediction
     around: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("time_constant", "s", 0.0),)
-    kind: ClassVar[str] = "torque_filter_lag"
-    remembers: ClassVar[bool] = True
-    channel: ClassVar[bool] = True
+    symbols = (("time_constant", "s", 0.0),)
+    kind = "torque_filter_lag"
+    remembers = True
+    channel = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (filtered minus predicted torque) / time constant."""

@@ -5,13 +5,12 @@ Gautier & Briot, IFAC World Congress 2011.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...arrays import JointSeries, Samples
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import AllJointsTerm, OneJointTerm, Symbol
+from .effect import AllJointsTerm, OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,13 +18,12 @@ class TorqueGain(OneJointTerm):
     """Model a relative gain error of a torque channel."""
 
     believed: Prediction
-    symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
-    kind: ClassVar[str] = "torque_gain"
-    channel: ClassVar[bool] = True
+    symbols = (("relative_error", "1", None),)
+    kind = "torque_gain"
+    channel = True
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give the joint's predicted torque."""
-        del robot
         return [self.believed.applied(state)[:, self.joint - 1]]
 
 
@@ -34,9 +32,9 @@ class CommonGain(AllJointsTerm):
     """Model the same relative gain error of all torque channels."""
 
     believed: Prediction
-    symbols: ClassVar[tuple[Symbol, ...]] = (("relative_error", "1", None),)
-    kind: ClassVar[str] = "torque_gain"
-    channel: ClassVar[bool] = True
+    symbols = (("relative_error", "1", None),)
+    kind = "torque_gain"
+    channel = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the predicted torque."""

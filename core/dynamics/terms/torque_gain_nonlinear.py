@@ -6,13 +6,11 @@ gain; Gautier & Briot 2011 on drive gains.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,11 +18,10 @@ class CubicGain(OneJointTerm):
     """Model a channel whose gain changes with the square of the torque."""
 
     believed: Prediction
-    symbols: ClassVar[tuple[Symbol, ...]] = (("cubic_coefficient", "1/(N m)^2", None),)
-    kind: ClassVar[str] = "torque_gain_nonlinear"
-    channel: ClassVar[bool] = True
+    symbols = (("cubic_coefficient", "1/(N m)^2", None),)
+    kind = "torque_gain_nonlinear"
+    channel = True
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give the predicted torque cubed."""
-        del robot
         return [self.believed.applied(state)[:, self.joint - 1] ** 3]

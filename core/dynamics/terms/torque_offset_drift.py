@@ -5,14 +5,12 @@ linear where tc is many times the duration. Source: the step response of a first
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,13 +20,12 @@ class Drift(OneJointTerm):
     start: float
     duration: float
     time_constant: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("total_drift", "N m", None),)
-    kind: ClassVar[str] = "torque_offset_drift"
-    channel: ClassVar[bool] = True
+    symbols = (("total_drift", "N m", None),)
+    kind = "torque_offset_drift"
+    channel = True
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give the share of the drift that has passed."""
-        del robot
         if state.time is None:
             return [np.zeros(len(state.position))]
         return [course(state.time - self.start, self.duration, self.time_constant)]

@@ -5,14 +5,12 @@ the joint. Source: Madsen et al. 2020 (strain-wave gears).
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,11 +19,10 @@ class Ripple(OneJointTerm):
 
     harmonic: float
     centre: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("cosine", "N m", None), ("sine", "N m", None))
-    kind: ClassVar[str] = "torque_ripple"
+    symbols = (("cosine", "N m", None), ("sine", "N m", None))
+    kind = "torque_ripple"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give cosine and sine of h (q - centre)."""
-        del robot
         angle = self.harmonic * (state.position[:, self.joint - 1] - self.centre)
         return [np.cos(angle), np.sin(angle)]

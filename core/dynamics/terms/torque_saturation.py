@@ -7,15 +7,13 @@ the polynomials of least degree with these zeros.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..prediction import Prediction
-from .effect import OneJointTerm, Symbol
+from .effect import OneJointTerm
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,14 +22,13 @@ class Saturation(OneJointTerm):
 
     believed: Prediction
     limit: float
-    symbols: ClassVar[tuple[Symbol, ...]] = (("bulge", "N m/s2", 0.0), ("skew", "N m/s3", None))
-    kind: ClassVar[str] = "torque_saturation"
-    remembers: ClassVar[bool] = True
-    channel: ClassVar[bool] = True
+    symbols = (("bulge", "N m/s2", 0.0), ("skew", "N m/s3", None))
+    kind = "torque_saturation"
+    remembers = True
+    channel = True
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give parabola and skew over every interval in which the predicted torque is beyond the limit."""
-        del robot
         torque = self.believed.applied(state)[:, self.joint - 1]
         bulge, skew = np.zeros_like(torque), np.zeros_like(torque)
         if state.time is None:

@@ -8,7 +8,6 @@ O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate, repeat
-from typing import ClassVar
 
 import numpy as np
 from scipy.signal import lfilter
@@ -34,8 +33,8 @@ class Trace(OneJointTerm):
     ``swing``: deflection and rate of an oscillator at f Hz, driven by the own acceleration. ``levels``: plus
     or minus one, with a change of sign at each of the instants, s."""
     numbers: Numbers
-    kind: ClassVar[str] = "unlisted"
-    remembers: ClassVar[bool] = True
+    kind = "unlisted"
+    remembers = True
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List a number per column."""
@@ -45,9 +44,8 @@ class Trace(OneJointTerm):
             Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(count)
         )
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         """Give the pattern's columns."""
-        del robot
         return PATTERNS[self.pattern](self.joint - 1, self.numbers, state)
 
 

@@ -34,7 +34,7 @@ class MadeUpTerm(OneJointTerm):
         count = len(self.make(NO_MOTION, self.scalars))
         return tuple(Parameter(f"c{place}", self.joint, self.joint, "1", None) for place in range(count))
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         return list(self.make(state, self.scalars))
 
 

@@ -32,7 +32,7 @@ class Measured(OneJointTerm):
     symbols = (("G", "1", None),)
     kind = "measured"
 
-    def columns(self, robot, state):
+    def columns(self, state):
         rows = np.linspace(0.0, len(self.torque) - 1.0, len(state.position))
         return [np.interp(rows, np.arange(len(self.torque)), self.torque[:, self.joint - 1])]
 

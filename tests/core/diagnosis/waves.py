@@ -10,7 +10,6 @@ from veritorque.core.arrays import Samples
 from veritorque.core.diagnosis.causes.shared.own_joint import OwnJointCause
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.effect import OneJointTerm
-from veritorque.core.robot.model import RobotModel
 from veritorque.core.signals.state import MotionState
 
 JOINT = 2
@@ -24,7 +23,7 @@ class WaveTerm(OneJointTerm):
     symbols = (("W", "N m", None),)
     kind = "wave"
 
-    def columns(self, robot: RobotModel, state: MotionState) -> list[Samples]:
+    def columns(self, state: MotionState) -> list[Samples]:
         angle = state.position[:, self.joint - 1]
         return [sum(size * np.sin(rate * angle) for rate, size in self.waves.items())]
 
