@@ -19,11 +19,11 @@ Entry = tuple[int, int]
 class Term(Protocol):
     """Define the columns of one torque effect."""
 
-    remembers: ClassVar[bool]
+    remembers: ClassVar[bool] = False
     """Whether the torque depends on the motion before the instant."""
-    channel: ClassVar[bool]
+    channel: ClassVar[bool] = False
     """Whether the torque is an error of the torque channel, which moves nothing."""
-    loads: ClassVar[bool]
+    loads: ClassVar[bool] = False
     """Whether it acts on the links, so that transmissions carry it."""
 
     @property

@@ -7,7 +7,6 @@ visit.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -31,14 +30,11 @@ DIRECTIONAL = ("FC", "FCM")
 
 
 @dataclass(frozen=True)
-class _Candidate:
+class _Candidate(Term):
     """Offer a friction term's direction-dependent columns under another name, to compare several widths."""
 
     term: Coulomb | GearCoupling
     number: int
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

@@ -6,7 +6,6 @@ Staubli wrists 5-6, as in Janot, Vandanjon & Gautier, IEEE TCST 22(1), 2014.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -14,19 +13,16 @@ from ...arrays import Samples, Series
 from ...robot.model import Coupling, RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
-from ..term import Entry
+from ..term import Entry, Term
 from .coulomb import direction
 
 
 @dataclass(frozen=True)
-class GearCoupling:
+class GearCoupling(Term):
     """Model coupled motors: IAM, FVM and FCM of every declared coupling; widths in rad/s as for `Coulomb`."""
 
     widths: tuple[float, ...] = ()
     name: str = "coupling"
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = False
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List IAM, FVM, FCM of every coupling."""

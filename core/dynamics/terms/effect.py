@@ -3,7 +3,7 @@
 A concrete effect names its parameters and gives its columns; joints are counted from 1.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -14,7 +14,7 @@ from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
-from ..term import Entry
+from ..term import Entry, Term
 
 Symbol = tuple[str, str, float | None]
 """Name, SI unit (on a revolute joint), and physical lower bound (None where any sign is admissible)."""
@@ -23,16 +23,13 @@ ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class JointTerm:
+class JointTerm(Term):
     """Name an effect by its kind and its joint."""
 
     joint: int
     """The joint under which the effect is reported, from 1; 0 for the robot as a whole."""
     symbols: ClassVar[tuple[Symbol, ...]] = ()
     kind: ClassVar[str] = ""
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:
@@ -89,6 +86,40 @@ class AllJointsTerm(JointTerm):
         raise NotImplementedError
 
 
+class EachJointTerm(Term):
+    """Give a parameter and a column of its own to every joint that has the effect."""
+
+    symbol: ClassVar[Symbol]
+
+    def joints(self, robot: RobotModel) -> tuple[int, ...]:
+        """List the joints (from 0) that have it: those whose friction names it."""
+        return tuple(index for index, joint in enumerate(robot.joints) if self.name in joint.friction)
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List the parameter of every joint that has it, in units of the joint."""
+        symbol, unit, lower = self.symbol
+        return tuple(
+            Parameter(symbol, joint, joint, joint_unit(robot, joint, unit), lower)
+            for joint in (index + 1 for index in self.joints(robot))
+        )
+
+    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
+        """Pair each joint with its own parameter."""
+        return tuple((joint, position) for position, joint in enumerate(self.joints(robot)))
+
+    def series(self, robot: RobotModel, state: MotionState) -> Series:
+        """Give the torque per unit parameter."""
+        joints = self.joints(robot)
+        rows = np.empty((len(joints), len(state.position)))
+        for position, joint in enumerate(joints):
+            rows[position] = self.column(joint, state)
+        return rows
+
+    def column(self, joint: int, state: MotionState) -> Samples | float:
+        """Give the torque on a joint (from 0) per unit of its parameter."""
+        raise NotImplementedError
+
+
 def step_of(state: MotionState) -> float:
     """Give the time between samples, s."""
     if state.time is None or len(state.time) < 2:
@@ -108,33 +139,6 @@ def rates(values: JointSeries, state: MotionState) -> tuple[JointSeries, JointSe
     second[1:-1] = (values[2:] - 2.0 * values[1:-1] + values[:-2]) / step**2
     second[0], second[-1] = second[1], second[-2]
     return np.asarray(first), second
-
-
-def own_joint_parameters(
-    robot: RobotModel, joints: tuple[int, ...], symbol: str, unit: str, lower: float | None
-) -> tuple[Parameter, ...]:
-    """Name one parameter for each of the joints (from 0).
-
-    `unit` is that of a revolute joint.
-    """
-    return tuple(
-        Parameter(symbol, joint + 1, joint + 1, joint_unit(robot, joint + 1, unit), lower) for joint in joints
-    )
-
-
-def own_joint_entries(joints: tuple[int, ...]) -> tuple[Entry, ...]:
-    """Pair each joint with its parameter."""
-    return tuple((joint, position) for position, joint in enumerate(joints))
-
-
-def own_joint_series(
-    joints: tuple[int, ...], samples: int, column: Callable[[int], Samples | float]
-) -> Series:
-    """Stack the column of each joint."""
-    rows = np.empty((len(joints), samples))
-    for position, joint in enumerate(joints):
-        rows[position] = column(joint)
-    return rows
 
 
 def without_rounding(torques: Sequence[JointSeries]) -> list[JointSeries]:

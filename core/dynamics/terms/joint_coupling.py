@@ -5,24 +5,20 @@ The columns are those of a declared coupling, so that declaring it is the correc
 """
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 from ...arrays import Series
 from ...robot.model import Coupling, RobotModel
 from ...robot.parameters import Parameter
 from ...signals.state import MotionState
-from ..term import Entry
+from ..term import Entry, Term
 from .coupling import GearCoupling
 
 
 @dataclass(frozen=True, eq=False)
-class MissingCoupling:
+class MissingCoupling(Term):
     """Model one coupled motor, whatever couplings the robot declares."""
 
     coupling: Coupling
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = False
 
     @property
     def name(self) -> str:

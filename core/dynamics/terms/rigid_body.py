@@ -6,7 +6,6 @@ ch. 12.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -15,17 +14,15 @@ from ...robot.model import RobotModel
 from ...robot.parameters import Parameter, inertial_parameters
 from ...signals.state import MotionState
 from ..newton_euler import inverse_dynamics
-from ..term import Entry
+from ..term import Entry, Term
 
 
 @dataclass(frozen=True)
-class RigidBody:
+class RigidBody(Term):
     """Model links as rigid bodies."""
 
     name: str = "rigid_body"
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = True
+    loads = True
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List ten parameters per link in Khalil's order."""

@@ -1,37 +1,19 @@
 """Give viscous friction: FV times joint velocity. Source: the seed paper, eq. (4)."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
-from ...arrays import Series
-from ...robot.model import RobotModel
-from ...robot.parameters import Parameter
+from ...arrays import Samples
 from ...signals.state import MotionState
-from ..term import Entry
-from .effect import own_joint_entries, own_joint_parameters, own_joint_series
+from .effect import EachJointTerm
 
 
 @dataclass(frozen=True)
-class Viscous:
+class Viscous(EachJointTerm):
     """Model viscous friction FV."""
 
     name: str = "viscous"
-    remembers: ClassVar[bool] = False
-    channel: ClassVar[bool] = False
-    loads: ClassVar[bool] = False
+    symbol = ("FV", "N m s/rad", 0.0)
 
-    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
-        """List FV of every joint that has it."""
-        return own_joint_parameters(robot, _joints(robot), "FV", "N m s/rad", 0.0)
-
-    def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
-        """Pair each joint with its own parameter."""
-        return own_joint_entries(_joints(robot))
-
-    def series(self, robot: RobotModel, state: MotionState) -> Series:
-        """Give the torque per unit parameter."""
-        return own_joint_series(_joints(robot), len(state.position), lambda joint: state.velocity[:, joint])
-
-
-def _joints(robot: RobotModel) -> tuple[int, ...]:
-    return tuple(index for index, joint in enumerate(robot.joints) if "viscous" in joint.friction)
+    def column(self, joint: int, state: MotionState) -> Samples:
+        """Give the joint's velocity."""
+        return state.velocity[:, joint]
