@@ -5,7 +5,6 @@ number of such repeats follows from how often each channel repeats by itself.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -18,8 +17,8 @@ from ...signals.condition import Motion
 from ...signals.resample import dropped
 from ..dataset.dataset import Dataset
 from ..thresholds.samples import SAMPLE_CHECKS
-from .protocol import Cure, Quantity
-from .sample_check import Corruption, SampleFinding, residual_share
+from .protocol import Quantity
+from .sample_check import Corruption, SampleCheck, SampleFinding, residual_share
 
 ROWS = 65_536
 
@@ -34,15 +33,14 @@ class _Count:
 
 
 @dataclass(frozen=True)
-class DroppedSamples:
+class DroppedSamples(SampleCheck):
     """Candidate cause: dropped samples."""
 
-    id: ClassVar[str] = "dropped_samples"
-    title: ClassVar[str] = "Dropped samples"
-    cure: ClassVar[Cure] = "signal"
-    units: ClassVar[tuple[tuple[str, str], ...]] = (("fraction", "1"),)
-    experiment: ClassVar[str] = "any motion, recorded with the controller's own sample counter"
-    beyond_repair: ClassVar[str] = "Samples that were not recorded are lost; the repeated rows are left out"
+    id = "dropped_samples"
+    title = "Dropped samples"
+    units = (("fraction", "1"),)
+    experiment = "any motion, recorded with the controller's own sample counter"
+    beyond_repair = "Samples that were not recorded are lost; the repeated rows are left out"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Count rows that repeat while the robot moves."""

@@ -1,7 +1,6 @@
 """Candidate cause: an encoder resolution that is too coarse for the derivatives of the motion."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -13,20 +12,19 @@ from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
 from ..dataset.dataset import Dataset
 from ..thresholds.samples import SAMPLE_CHECKS
-from .protocol import Cure, Quantity
-from .sample_check import Corruption, SampleFinding, disturbance, share_of_residual
+from .protocol import Quantity
+from .sample_check import Corruption, SampleCheck, SampleFinding, disturbance, share_of_residual
 
 
 @dataclass(frozen=True)
-class EncoderQuantization:
+class EncoderQuantization(SampleCheck):
     """Candidate cause: a coarse encoder."""
 
-    id: ClassVar[str] = "encoder_quantization"
-    title: ClassVar[str] = "Encoder resolution too coarse"
-    cure: ClassVar[Cure] = "signal"
-    units: ClassVar[tuple[tuple[str, str], ...]] = (("lsb", "rad"),)
-    experiment: ClassVar[str] = "slow motion, which passes many samples within one step"
-    beyond_repair: ClassVar[str] = "The joint's position between two counts of its encoder is not in the log"
+    id = "encoder_quantization"
+    title = "Encoder resolution too coarse"
+    units = (("lsb", "rad"),)
+    experiment = "slow motion, which passes many samples within one step"
+    beyond_repair = "The joint's position between two counts of its encoder is not in the log"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Round each joint's smooth motion to its own steps and measure the effect on the torque."""

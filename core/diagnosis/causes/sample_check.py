@@ -51,18 +51,10 @@ class SampleCheck(Protocol):
     id: ClassVar[str]
     title: ClassVar[str]
     experiment: ClassVar[str]
+    units: ClassVar[tuple[tuple[str, str], ...]]
+    cure: ClassVar[Cure] = "signal"
     beyond_repair: ClassVar[str]
     """Why no log can be corrected for it, in a sentence."""
-
-    @property
-    def units(self) -> tuple[tuple[str, str], ...]:
-        """List name and unit of every number it reports."""
-        ...
-
-    @property
-    def cure(self) -> Cure:
-        """Tell what is to be corrected."""
-        ...
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Search the logs for it."""

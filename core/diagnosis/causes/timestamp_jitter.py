@@ -8,7 +8,6 @@ rounding and noise lack this property.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
-from typing import ClassVar
 
 import numpy as np
 from scipy.signal import oaconvolve
@@ -22,21 +21,20 @@ from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..thresholds.samples import SAMPLE_CHECKS
-from .protocol import Cure, Quantity
-from .sample_check import Corruption, SampleFinding, residual_share
+from .protocol import Quantity
+from .sample_check import Corruption, SampleCheck, SampleFinding, residual_share
 from .shared.text import number_text
 
 
 @dataclass(frozen=True)
-class TimestampJitter:
+class TimestampJitter(SampleCheck):
     """Candidate cause: jitter of the sampling instants."""
 
-    id: ClassVar[str] = "timestamp_jitter"
-    title: ClassVar[str] = "Timestamp jitter"
-    cure: ClassVar[Cure] = "signal"
-    units: ClassVar[tuple[tuple[str, str], ...]] = (("std", "s"),)
-    experiment: ClassVar[str] = "fast motion of at least two joints at once"
-    beyond_repair: ClassVar[str] = "The instants at which samples were really taken are not in the log"
+    id = "timestamp_jitter"
+    title = "Timestamp jitter"
+    units = (("std", "s"),)
+    experiment = "fast motion of at least two joints at once"
+    beyond_repair = "The instants at which samples were really taken are not in the log"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Compare the joints' remainders with their velocities."""
