@@ -8,8 +8,7 @@ from ...dynamics.terms.backlash import Backlash as BacklashTerm
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, LINEARISATION
 from .protocol import FittedCause, Scalars, SearchTraits, Setting, Site
-from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, revolute_joints
-from .shared.text import by_name, quantity_text, rotor_text
+from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, revolute_joints, rotor_text
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, on a logarithmic scale: half as wide again is another motion."""
@@ -55,8 +54,8 @@ class Backlash(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the half width of the gap."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
             f"Backlash on joint {solved.site[0]}: the link lags or leads the motor by "
-            f"{quantity_text(found['half_width'])}, on the side that the load selects{rotor_text(found)}"
+            f"{found['half_width'].text}, on the side that the load selects{rotor_text(found)}"
         )

@@ -9,7 +9,6 @@ from ...dynamics.term import Term
 from ...dynamics.terms.cable_force import Cable
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 SHARES = (0.15, 0.3, 0.45, 0.6, 0.75, 0.85, 0.93)
 """Shares of the samples during which the cable is slack."""
@@ -57,9 +56,9 @@ class CableForce(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the angle of engagement and the stiffness."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         side = "above" if solved.scalars["side"] >= 0.0 else "below"
         return (
-            f"Cable or hose force on joint {solved.site[0]}: stiffness {quantity_text(found['stiffness'])} "
-            f"{side} {quantity_text(found['engage_angle'])}"
+            f"Cable or hose force on joint {solved.site[0]}: stiffness {found['stiffness'].text} "
+            f"{side} {found['engage_angle'].text}"
         )

@@ -11,11 +11,10 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, LINEARISATION
-from .protocol import FittedCause, Numbers, Quantity, SearchTraits, Setting, Site
+from .protocol import FittedCause, Numbers, Quantity, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsLog
 from .shared.harmonics import amplitude_and_angle
 from .shared.own_joint import OwnJointCause, revolute_joints
-from .shared.text import by_name, number_text, quantity_text
 
 
 @dataclass(frozen=True)
@@ -53,10 +52,10 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
 
     def statement(self, solved: FittedCause) -> str:
         """State amplitude and phase of the error."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
             f"Encoder eccentricity on joint {solved.site[0]}: angle error "
-            f"{quantity_text(found['amplitude'])} times sin(q + {found['phase'].value:.2g})"
+            f"{found['amplitude'].text} times sin(q + {found['phase'].value:.2g})"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:

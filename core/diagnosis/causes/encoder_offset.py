@@ -9,10 +9,9 @@ from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Setting, Site
+from .protocol import FittedCause, Numbers, Setting, Site, number_text
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause, revolute_joints
-from .shared.text import by_name, number_text, quantity_text
 
 
 @dataclass(frozen=True)
@@ -43,10 +42,10 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
 
     def statement(self, solved: FittedCause) -> str:
         """State the zero error."""
-        found = by_name(self.quantities(solved))["offset"]
+        found = self.by_name(solved)["offset"]
         return (
             f"Encoder zero error on joint {solved.site[0]}: the reading is the described angle plus "
-            f"{quantity_text(found)}"
+            f"{found.text}"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:

@@ -11,10 +11,9 @@ from ..dataset.dataset import Dataset
 from ..dataset.spikes import spiked
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
 from ..thresholds.causes import ADMISSIBLE, EVENTS
-from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting, Site
+from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting, Site, number_text
 from .shared.events import find_events
 from .shared.own_joint import OwnJointCause, end_links
-from .shared.text import number_text
 
 
 def _spans(scalars: Scalars) -> tuple[Span, ...]:

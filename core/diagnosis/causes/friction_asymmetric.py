@@ -6,7 +6,6 @@ from ...dynamics.term import Term
 from ...dynamics.terms.friction_asymmetric import AsymmetricViscous
 from .protocol import FittedCause, Setting
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 
 @dataclass(frozen=True)
@@ -24,9 +23,9 @@ class FrictionAsymmetric(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the direction of more friction and half the difference."""
-        found = by_name(self.quantities(solved))["delta_viscous"]
+        found = self.by_name(solved)["delta_viscous"]
         more, less = ("forwards", "backwards") if found.value > 0.0 else ("backwards", "forwards")
         return (
             f"Direction-dependent viscous friction on joint {solved.site[0]}: {more} more and {less} less "
-            f"than the mean by {quantity_text(found)}"
+            f"than the mean by {found.text}"
         )

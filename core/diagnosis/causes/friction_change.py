@@ -1,6 +1,7 @@
 """Candidate cause: friction or offset of a joint that changed since the reference (wear, grease, cold)."""
 
 from dataclasses import dataclass
+from operator import attrgetter
 
 from ...dynamics.term import Term
 from ...dynamics.terms.coulomb import Coulomb
@@ -8,7 +9,6 @@ from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTe
 from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Setting
 from .shared.own_joint import OwnJointCause
-from .shared.text import clearness, quantity_text
 
 WORDS = {"delta_viscous": "viscous friction", "delta_coulomb": "Coulomb friction", "delta_offset": "offset"}
 
@@ -32,8 +32,8 @@ class FrictionChange(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """State the significant changes, or the most significant one."""
         found = self.quantities(solved)
-        clear = [change for change in found if clearness(change) > ADMISSIBLE.stated_deviations] or [
-            max(found, key=clearness)
+        clear = [change for change in found if change.clearness > ADMISSIBLE.stated_deviations] or [
+            max(found, key=attrgetter("clearness"))
         ]
-        changes = " and ".join(f"{WORDS[change.name]} by {quantity_text(change)}" for change in clear)
+        changes = " and ".join(f"{WORDS[change.name]} by {change.text}" for change in clear)
         return f"Friction change on joint {solved.site[0]} since the reference: {changes}"

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_load_dependent import LoadFriction
 from .protocol import FittedCause, Scalars, Setting
-from .shared.own_joint import OwnJointCause, motor_inertias
-from .shared.text import by_name, quantity_text, rotor_text
+from .shared.own_joint import OwnJointCause, motor_inertias, rotor_text
 
 
 @dataclass(frozen=True)
@@ -38,8 +37,8 @@ class FrictionLoadDependent(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State friction per unit of load."""
-        found, unit = by_name(self.quantities(solved)), solved.unit("N m")
+        found, unit = self.by_name(solved), solved.unit("N m")
         return (
-            f"Load-dependent friction on joint {solved.site[0]}: {quantity_text(found['load_coefficient'])} "
+            f"Load-dependent friction on joint {solved.site[0]}: {found['load_coefficient'].text} "
             f"{unit} per {unit} of transmitted {'force' if solved.slides else 'torque'}{rotor_text(found)}"
         )

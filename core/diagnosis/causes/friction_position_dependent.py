@@ -8,7 +8,6 @@ from ...dynamics.terms.friction_position_dependent import PositionFriction
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.harmonics import harmonics, wave_quantities
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 MOST = 12
 
@@ -39,8 +38,8 @@ class FrictionPositionDependent(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State amplitude and cycles per revolution."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
             f"Position-dependent Coulomb friction on joint {solved.site[0]}: amplitude "
-            f"{quantity_text(found['amplitude'])}, {quantity_text(found['harmonic'])} cycles per revolution"
+            f"{found['amplitude'].text}, {found['harmonic'].text} cycles per revolution"
         )

@@ -9,7 +9,6 @@ from ...dynamics.term import Term
 from ...dynamics.terms.friction_presliding import Presliding
 from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid
-from .shared.text import by_name, quantity_text
 
 NARROWEST, WIDEST, STEPS = 2e-4, 0.16, 11
 """Distances as shares of the joint's range, on a logarithmic scale."""
@@ -42,8 +41,8 @@ class FrictionPresliding(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State level and presliding distance."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
-            f"Presliding friction on joint {solved.site[0]}: {quantity_text(found['coulomb_level'])} builds "
-            f"up over {quantity_text(found['presliding_distance'])} after each reversal"
+            f"Presliding friction on joint {solved.site[0]}: {found['coulomb_level'].text} builds "
+            f"up over {found['presliding_distance'].text} after each reversal"
         )

@@ -7,7 +7,6 @@ from ...dynamics.term import Term
 from ...dynamics.terms.friction_stribeck import Stribeck
 from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid
-from .shared.text import by_name, quantity_text
 
 SLOWEST, QUICKEST, STEPS = 0.03, 1.0, 9
 """Speeds as shares of the joint's RMS speed, on a logarithmic scale."""
@@ -39,8 +38,8 @@ class FrictionStribeck(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State excess and Stribeck velocity."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
-            f"Stribeck friction on joint {solved.site[0]}: {quantity_text(found['excess_torque'])} above the "
-            f"Coulomb level near standstill, decaying over {quantity_text(found['stribeck_velocity'])}"
+            f"Stribeck friction on joint {solved.site[0]}: {found['excess_torque'].text} above the "
+            f"Coulomb level near standstill, decaying over {found['stribeck_velocity'].text}"
         )

@@ -9,7 +9,6 @@ from ...dynamics.term import Term
 from ...dynamics.terms.friction_temperature import TemperatureFriction, WarmUpFriction
 from .protocol import FittedCause, Quantity, Scalars, Setting
 from .shared.own_joint import NOTHING, OwnJointCause
-from .shared.text import by_name, quantity_text
 
 SHARES = (0.05, 0.12, 0.3, 0.7, 3.0)
 """Time constants of a warm-up, as shares of the data set's duration."""
@@ -58,12 +57,12 @@ class FrictionTemperature(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the changes of friction, per kelvin or over the warm-up."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         changes = (
             f"Temperature-dependent friction on joint {solved.site[0]}: Coulomb friction changes by "
-            f"{quantity_text(found['coulomb_slope'])}, viscous friction by "
-            f"{quantity_text(found['viscous_slope'])}"
+            f"{found['coulomb_slope'].text}, viscous friction by "
+            f"{found['viscous_slope'].text}"
         )
         if "time_constant" not in found:
             return changes
-        return f"{changes} during a warm-up with a time constant of {quantity_text(found['time_constant'])}"
+        return f"{changes} during a warm-up with a time constant of {found['time_constant'].text}"

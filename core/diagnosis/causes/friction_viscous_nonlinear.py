@@ -8,7 +8,6 @@ from ...dynamics.terms.friction_viscous_nonlinear import NonlinearViscous
 from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 EXPONENTS = (0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5, 3.0)
 """A power of zero is Coulomb friction, of one viscous friction: the model has both."""
@@ -43,9 +42,9 @@ class FrictionViscousNonlinear(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State exponent and coefficient."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         grows = "grows" if solved.values[0] > 0.0 else "falls"
         return (
             f"Nonlinear viscous friction on joint {solved.site[0]}: it {grows} with speed to the power "
-            f"{quantity_text(found['exponent'])}, coefficient {quantity_text(found['coefficient'])}"
+            f"{found['exponent'].text}, coefficient {found['coefficient'].text}"
         )

@@ -11,10 +11,9 @@ from ...dynamics.terms.gravity_misalignment import Tilt, tilt_axes
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Setting, Site
+from .protocol import FittedCause, Numbers, Quantity, Setting, Site, number_text
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
-from .shared.text import number_text, quantity_text
 
 
 @dataclass(frozen=True)
@@ -49,8 +48,7 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
     def statement(self, solved: FittedCause) -> str:
         """State the rotation of gravity about each axis."""
         turns = " and ".join(
-            f"by {quantity_text(tilt)} about the base's {tilt.name[-1]} axis"
-            for tilt in self.quantities(solved)
+            f"by {tilt.text} about the base's {tilt.name[-1]} axis" for tilt in self.quantities(solved)
         )
         return (
             f"Base tilt: gravity is rotated {turns} against the description, as by a base tilted the other "

@@ -14,7 +14,6 @@ from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 NAMES = (("Iam", "kg m2"), ("Fvm", "N m s/rad"), ("Fcm", "N m"))
 
@@ -64,17 +63,15 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the motor's inertia and friction under the number of the joint that it drives."""
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
-        found = by_name(
-            [
-                Quantity(name, solved.site[1], unit, float(value), float(deviation))
-                for (name, unit), value, deviation in zip(NAMES, solved.values, deviations, strict=True)
-            ]
-        )
+        found = {
+            name: Quantity(name, solved.site[1], unit, float(value), float(deviation))
+            for (name, unit), value, deviation in zip(NAMES, solved.values, deviations, strict=True)
+        }
         return tuple(found[name] for name, _ in self.units)
 
     def statement(self, solved: FittedCause) -> str:
         """State the two joints, the motor's inertia and its friction."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         first, second = solved.site
         sums = "sum" if solved.scalars["weight"] >= 0.0 else "difference"
         return (
@@ -109,4 +106,4 @@ def _significant(quantity: Quantity) -> str:
     """Write a quantity where it differs from zero: an inertia may belong to links or rotors as well."""
     if quantity.standard_deviation > abs(quantity.value):
         return "not distinguishable from zero"
-    return quantity_text(quantity)
+    return quantity.text

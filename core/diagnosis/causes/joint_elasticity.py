@@ -9,8 +9,7 @@ from ...dynamics.term import Term
 from ...dynamics.terms.joint_elasticity import Elasticity
 from ..thresholds.causes import LINEARISATION
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
-from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias
-from .shared.text import by_name, quantity_text, rotor_text
+from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, rotor_text
 
 LOWEST, HIGHEST, POINTS = 2.5, 4.0, 7
 DAMPING_RATIOS = (0.05, 0.2)
@@ -67,8 +66,8 @@ class JointElasticity(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the stiffness."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
-            f"Joint elasticity on joint {solved.site[0]}: stiffness {quantity_text(found['stiffness'])} "
+            f"Joint elasticity on joint {solved.site[0]}: stiffness {found['stiffness'].text} "
             f"between the motor encoder and the link{rotor_text(found)}"
         )

@@ -9,10 +9,9 @@ from ...dynamics.terms.kinematic_error import KinematicError as KinematicErrorTe
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text, quantity_text
 
 ENTRIES: tuple[EntryName, ...] = ("alpha", "d", "r")
 
@@ -58,13 +57,10 @@ class KinematicError(OwnJointCause, CorrectsRobot):
 
     def statement(self, solved: FittedCause) -> str:
         """State the entry and its error."""
-        found = by_name(self.quantities(solved))["error"]
+        found = self.by_name(solved)["error"]
         entry = _entry(solved.scalars)
         way, size = ("larger" if found.value > 0.0 else "smaller"), replace(found, value=abs(found.value))
-        return (
-            f"Kinematic table error on joint {solved.site[0]}: {entry} has to be {way} by "
-            f"{quantity_text(size)}"
-        )
+        return f"Kinematic table error on joint {solved.site[0]}: {entry} has to be {way} by {size.text}"
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """State the entry before and after."""

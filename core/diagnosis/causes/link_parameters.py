@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
 from ...dynamics.term import Term
 from ...dynamics.terms.link_parameters import LinkChange
@@ -12,7 +13,6 @@ from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Setting, Site
 from .shared.bodies import is_body
 from .shared.own_joint import OwnJointCause, links_by_joint
-from .shared.text import clearness, quantity_text
 
 LISTED = 3
 """Numbers in a statement."""
@@ -45,11 +45,9 @@ class LinkParameters(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the parameters that differ most, in units of their standard deviation."""
-        first = sorted(self.quantities(solved), key=clearness, reverse=True)[:LISTED]
-        clear = [change for change in first if clearness(change) > ADMISSIBLE.stated_deviations] or first[:1]
-        changes = ", ".join(
-            f"{change.name.removeprefix('delta_')} by {quantity_text(change)}" for change in clear
-        )
+        first = sorted(self.quantities(solved), key=attrgetter("clearness"), reverse=True)[:LISTED]
+        clear = [change for change in first if change.clearness > ADMISSIBLE.stated_deviations] or first[:1]
+        changes = ", ".join(f"{change.name.removeprefix('delta_')} by {change.text}" for change in clear)
         return f"Link of joint {solved.site[0]} differs from the reference: {changes}"
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:

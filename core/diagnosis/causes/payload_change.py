@@ -11,10 +11,9 @@ from ...robot.model import RobotModel
 from ...robot.parameters import INERTIAL_SYMBOLS
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, EVENTS
-from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site, number_text
 from .shared.bodies import MASS, body_of, is_body
 from .shared.own_joint import NOTHING, OwnJointCause, end_links, links_by_joint
-from .shared.text import by_name, number_text, quantity_text
 
 INSTANTS = 16
 _FIRST = INERTIAL_SYMBOLS.index("MX")
@@ -91,13 +90,13 @@ class PayloadChange(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State mass, link, instant and centre of mass."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         observed = [(axis, found[f"com_{axis}"]) for axis in "xyz" if f"com_{axis}" in found]
         centre = ", ".join(f"{axis} = {coordinate.value:.2g}" for axis, coordinate in observed)
         word = "attached to" if found["mass"].value > 0.0 else "removed from"
         mass = Quantity("mass", None, "kg", abs(found["mass"].value), found["mass"].standard_deviation)
         return (
-            f"Payload {word} the link of joint {solved.site[0]}: {quantity_text(mass)} since "
+            f"Payload {word} the link of joint {solved.site[0]}: {mass.text} since "
             f"{self._since(found)}" + (f", centre of mass at {centre} m in its frame" if observed else "")
         )
 

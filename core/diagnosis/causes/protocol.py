@@ -39,6 +39,28 @@ class Quantity:
     value: float
     standard_deviation: float
 
+    @property
+    def text(self) -> str:
+        """Write it with its unit and uncertainty."""
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"{number_text(self.value, 3)} ± {number_text(self.standard_deviation)}{unit}"
+
+    @property
+    def clearness(self) -> float:
+        """Give its size in standard deviations."""
+        return abs(self.value) / max(self.standard_deviation, 1e-300)
+
+
+def number_text(value: float, digits: int = 1) -> str:
+    """Write a number with so many significant digits, without an exponent where possible.
+
+    Examples
+    --------
+    >>> number_text(0.0123), number_text(12.3), number_text(1234.5, 3)
+    ('0.01', '10', '1230')
+    """
+    return f"{float(f'{value:.{digits}g}'):g}"
+
 
 @dataclass(frozen=True, eq=False)
 class Setting:

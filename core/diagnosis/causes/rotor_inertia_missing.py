@@ -7,10 +7,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.rotor_inertia_missing import MissingRotor
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Numbers, Setting, Site
+from .protocol import FittedCause, Numbers, Setting, Site, number_text
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text, quantity_text
 
 
 @dataclass(frozen=True)
@@ -40,9 +39,9 @@ class RotorInertiaMissing(OwnJointCause, CorrectsRobot):
 
     def statement(self, solved: FittedCause) -> str:
         """State the missing inertia."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
-            f"Rotor inertia of joint {solved.site[0]} missing from the model: {quantity_text(found['IA'])} "
+            f"Rotor inertia of joint {solved.site[0]} missing from the model: {found['IA'].text} "
             "on the joint side"
         )
 

@@ -6,7 +6,6 @@ from ...dynamics.term import Term
 from ...dynamics.terms.spring_compensator import Spring
 from .protocol import FittedCause, Setting
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 
 @dataclass(frozen=True)
@@ -25,9 +24,9 @@ class SpringCompensator(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the stiffness and its sign."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         acts = "towards" if solved.values[0] > 0.0 else "away from"
         return (
-            f"Spring parallel to the motor of joint {solved.site[0]}: {quantity_text(found['stiffness'])}, "
+            f"Spring parallel to the motor of joint {solved.site[0]}: {found['stiffness'].text}, "
             f"{acts} its rest angle, which the torque offset absorbs"
         )

@@ -12,10 +12,9 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, SearchTraits, Setting, Site
+from .protocol import FittedCause, Numbers, Scalars, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text
 
 STARTS = (-0.02, -0.005, 0.0, 0.005, 0.02)
 
@@ -56,7 +55,7 @@ class TimeDelay(OwnJointCause, CorrectsLog):
 
     def statement(self, solved: FittedCause) -> str:
         """State the delay in milliseconds."""
-        found = by_name(self.quantities(solved))["delay"]
+        found = self.by_name(solved)["delay"]
         late = "behind" if found.value > 0.0 else "ahead of"
         size, doubt = number_text(1e3 * abs(found.value), 3), number_text(1e3 * found.standard_deviation)
         return f"Torque channel delay on all joints: {size} ± {doubt} ms {late} the positions"

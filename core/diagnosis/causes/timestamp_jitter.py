@@ -21,9 +21,8 @@ from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..thresholds.samples import SAMPLE_CHECKS
-from .protocol import Quantity
+from .protocol import Quantity, number_text
 from .sample_check import Corruption, SampleCheck, SampleFinding, residual_share
-from .shared.text import number_text
 
 
 @dataclass(frozen=True)

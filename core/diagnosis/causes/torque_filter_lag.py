@@ -15,10 +15,9 @@ from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Scalars, SearchTraits, Setting, Site
+from .protocol import FittedCause, Numbers, Scalars, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text
 
 STARTS = (0.001, 0.004, 0.016, 0.064)
 ORDER = 2
@@ -62,7 +61,7 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
 
     def statement(self, solved: FittedCause) -> str:
         """State the time constant."""
-        found = by_name(self.quantities(solved))["time_constant"]
+        found = self.by_name(solved)["time_constant"]
         return (
             f"Low-pass filter in the torque channel of all joints: time constant {1e3 * found.value:.3g} ± "
             f"{number_text(1e3 * found.standard_deviation)} ms, without a filter of the positions"

@@ -10,10 +10,9 @@ from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Setting, Site
+from .protocol import FittedCause, Numbers, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class TorqueGain(OwnJointCause, CorrectsLog):
 
     def statement(self, solved: FittedCause) -> str:
         """State the gain error in per cent."""
-        found = by_name(self.quantities(solved))["relative_error"]
+        found = self.by_name(solved)["relative_error"]
         way = "high" if found.value > 0.0 else "low"
         size = f"{100.0 * abs(found.value):.3g} ± {number_text(100.0 * found.standard_deviation)} % too {way}"
         if not solved.site:

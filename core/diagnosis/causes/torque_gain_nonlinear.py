@@ -9,10 +9,9 @@ from ...dynamics.term import Term
 from ...dynamics.terms.torque_gain_nonlinear import CubicGain
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from .protocol import FittedCause, Numbers, Setting, Site
+from .protocol import FittedCause, Numbers, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text, quantity_text
 
 
 @dataclass(frozen=True)
@@ -32,11 +31,11 @@ class TorqueGainNonlinear(OwnJointCause, CorrectsLog):
 
     def statement(self, solved: FittedCause) -> str:
         """State sign and size of the cubic part."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         high = "too high" if solved.values[0] > 0.0 else "too low"
         return (
             f"Nonlinear torque gain on joint {solved.site[0]}: large torques read {high}, torque plus "
-            f"{quantity_text(found['cubic_coefficient'])} times its cube"
+            f"{found['cubic_coefficient'].text} times its cube"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:

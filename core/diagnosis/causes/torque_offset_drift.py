@@ -11,10 +11,9 @@ from ...log.model import LogRows
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from .protocol import FittedCause, Numbers, Scalars, Setting, Site
+from .protocol import FittedCause, Numbers, Scalars, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text, quantity_text
 
 SHARES = (0.05, 0.1, 0.2, 0.4, 0.8, 20.0)
 """Time constants of the drift, as shares of the data set's duration; the last is a linear drift."""
@@ -46,9 +45,9 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
 
     def statement(self, solved: FittedCause) -> str:
         """State total drift and time constant."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
-            f"Torque offset drift on joint {solved.site[0]}: {quantity_text(found['total_drift'])} over the "
+            f"Torque offset drift on joint {solved.site[0]}: {found['total_drift'].text} over the "
             f"log, time constant {found['time_constant'].value:.2g} s"
         )
 

@@ -11,7 +11,6 @@ from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.harmonics import harmonics, wave_quantities
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, quantity_text
 
 MOST = 120
 BAND_SHARE = 0.7
@@ -51,8 +50,8 @@ class TorqueRipple(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State amplitude and cycles per revolution."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
-            f"Torque ripple on joint {solved.site[0]}: amplitude {quantity_text(found['amplitude'])}, "
-            f"{quantity_text(found['harmonic'])} cycles per revolution"
+            f"Torque ripple on joint {solved.site[0]}: amplitude {found['amplitude'].text}, "
+            f"{found['harmonic'].text} cycles per revolution"
         )

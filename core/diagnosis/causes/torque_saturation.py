@@ -10,9 +10,8 @@ from ...dynamics.terms.torque_saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Setting, Site
+from .protocol import FittedCause, Numbers, Quantity, Scalars, Setting, Site, number_text
 from .shared.own_joint import OwnJointCause
-from .shared.text import by_name, number_text, quantity_text
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
 """Limits, as shares of the motion's largest torque."""
@@ -50,10 +49,10 @@ class TorqueSaturation(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """State the limit."""
-        found = by_name(self.quantities(solved))
+        found = self.by_name(solved)
         return (
             f"Torque saturation on joint {solved.site[0]}: the applied torque is limited to "
-            f"{quantity_text(found['limit'])}, the log keeps the larger command"
+            f"{found['limit'].text}, the log keeps the larger command"
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:

@@ -1,9 +1,9 @@
-"""Define what causes of one joint have in common: sites, grids, admissibility, quantities.
+"""Define what causes of one joint have in common: sites, grids, admissibility, quantities, words.
 
 A cause's own file holds only what differs.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -60,6 +60,10 @@ class OwnJointCause:
             Quantity(name, joint, solved.unit(unit), *both[name]) for name, unit in self.units if name in both
         )
 
+    def by_name(self, solved: FittedCause) -> dict[str, Quantity]:
+        """Give the reported numbers by their names."""
+        return {quantity.name: quantity for quantity in self.quantities(solved)}
+
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the reported numbers."""
         del dataset
@@ -104,3 +108,11 @@ def links_by_joint(robot: RobotModel) -> dict[int, int]:
     """Give the first link (from 1) of every joint that it follows one to one, by the joint."""
     numbered = list(enumerate(robot.links, start=1))
     return {link.joint: number for number, link in reversed(numbered) if link.ratio == 1.0}
+
+
+def rotor_text(found: Mapping[str, Quantity]) -> str:
+    """Write the motor-side inertia of a joint, where it was scanned and is significant."""
+    rotor = found.get("motor_inertia")
+    if rotor is None or rotor.value <= 2.0 * rotor.standard_deviation:
+        return ""
+    return f"; motor-side inertia {rotor.text}"
