@@ -4,6 +4,7 @@ Reads that succeed are counted only: clients that poll would fill the disk with 
 """
 
 import logging
+import re
 import secrets
 import time
 
@@ -12,10 +13,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from .. import logging as journal
 from ..services.metrics import Metrics
-from .trace_context import trace_id
 
 LOGGER = logging.getLogger(__name__)
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
+_FIELDS = re.compile(r"([0-9a-f]{2})-([0-9a-f]{32})-([0-9a-f]{16})-[0-9a-f]{2}(-.*)?")
+_INVALID_VERSION = "ff"
+_ONLY_VERSION = "00"
+"""The version that has nothing after its four fields."""
 
 
 class RequestLog:
@@ -60,3 +64,21 @@ class RequestLog:
         level = logging.DEBUG if method in SAFE_METHODS and status < 400 else logging.INFO
         fields = {"method": method, "path": scope["path"], "status": status, "seconds": round(seconds, 6)}
         LOGGER.log(level, "answered", extra=fields)
+
+
+def trace_id(traceparent: str | None) -> str:
+    """Give the id of the trace that a header names; a new one where it is absent or not valid.
+
+    Source: W3C Trace Context, level 1 (2021), section 3.2.
+
+    Examples
+    --------
+    >>> trace_id("00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01")
+    '4bf92f3577b34da6a3ce929d0e0e4736'
+    """
+    found = _FIELDS.fullmatch(traceparent or "")
+    if found is None:
+        return secrets.token_hex(16)
+    version, trace, parent, more = found.groups()
+    valid = version != _INVALID_VERSION and int(trace, 16) and int(parent, 16)
+    return trace if valid and not (more and version == _ONLY_VERSION) else secrets.token_hex(16)

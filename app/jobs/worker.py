@@ -27,10 +27,10 @@ from .executors.executor import Executor
 from .executors.job_process import internal_error
 from .inputs import computation_of, open_workspace
 from .liveness import Presence
-from .progress import Reporter
 from .reclaim import Reclaimer
 
 LOGGER = logging.getLogger(__name__)
+REPORT_EVERY_S = 0.2
 POLL_S = 0.02
 WATCH_EVERY_S = 0.1
 HEARTBEAT_S = 2.0
@@ -249,3 +249,21 @@ class Worker:
             self._store.work.retry_or_fail(held, outcome.problem)
         else:
             self._store.work.hand_back(held)  # after a shutdown; a dismissed job stays dismissed
+
+
+class Reporter:
+    """Write progress to the store: every new stage, and fractions a few times a second."""
+
+    def __init__(self, store: Store, held: Held) -> None:
+        self._store, self._held = store, held
+        self._stage, self._next = "", 0.0
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        """Say how far a job is."""
+        if stage == self._stage and time.monotonic() < self._next:
+            return
+        self._stage, self._next = stage, time.monotonic() + REPORT_EVERY_S
+        try:
+            self._store.work.report(self._held, stage=stage, fraction=fraction)
+        except Unavailable as error:
+            LOGGER.warning("progress is not written: %s", error.reason)

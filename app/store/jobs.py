@@ -17,8 +17,7 @@ from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, selec
 from .database import Database
 from .queueing import NewJob, Outcome, queue_all
 from .records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
-from .rows import job_record, request_record
-from .tables import JOBS, now
+from .tables import JOBS, job_record, now, request_record
 
 OURS = JOBS.c.tenant == bindparam("tenant")
 FIND = select(JOBS).where(OURS, JOBS.c.id == bindparam("id"))

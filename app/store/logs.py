@@ -9,8 +9,7 @@ from ..json_text import canonical_json
 from .database import Database, insert_if_new
 from .quota import refuse_beyond, refuse_more
 from .records import UNBOUNDED, Document, LogRecord, Quota
-from .rows import log_record
-from .tables import LOGS, now
+from .tables import LOGS, log_record, now
 
 FIND = select(LOGS).where(LOGS.c.tenant == bindparam("tenant"), LOGS.c.id == bindparam("id"))
 

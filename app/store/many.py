@@ -7,8 +7,7 @@ from sqlalchemy import Connection, Row, Select, bindparam, select
 
 from .database import Database
 from .records import JobRecord
-from .rows import job_record
-from .tables import JOBS
+from .tables import JOBS, job_record
 
 Place = tuple[str, str]
 """Tenant and id of a job."""

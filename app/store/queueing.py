@@ -18,8 +18,7 @@ from .database import lock_in_turn
 from .errors import KeyReused, OverQuota
 from .quota import room_for_jobs
 from .records import UNFINISHED, JobRecord, JobRequestRecord, Quota
-from .rows import job_record
-from .tables import JOBS, REPEATS, now, one_of
+from .tables import JOBS, REPEATS, job_record, now, one_of
 
 ANSWERED = (*UNFINISHED, "successful")
 """States of a job that answers a later request for the same."""

@@ -8,8 +8,7 @@ from sqlalchemy import ColumnElement, Connection, and_, delete, select
 from ..json_text import canonical_json
 from .database import Database, insert_if_new
 from .records import Document, RobotRecord
-from .rows import robot_record
-from .tables import ROBOTS, now
+from .tables import ROBOTS, now, robot_record
 
 
 class RobotStore:

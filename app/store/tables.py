@@ -1,9 +1,10 @@
-"""Lay out the database: one table per resource, JSON documents as text, times as ISO 8601 in UTC.
+"""Lay out the database, and read its rows: one table per resource, JSON as text, times as ISO 8601 in UTC.
 
 Everything but a key belongs to a tenant. Numbers that only ever grow (`sequence`, `token`, `beat`, `version`)
 order what clocks cannot: a clock may be set back an hour.
 """
 
+import json
 from collections.abc import Iterable
 from datetime import UTC, datetime
 from typing import Any
@@ -15,12 +16,15 @@ from sqlalchemy import (
     Index,
     Integer,
     MetaData,
+    Row,
     String,
     Table,
     Text,
     UniqueConstraint,
     or_,
 )
+
+from .records import JobRecord, JobRequestRecord, LogRecord, RobotRecord
 
 METADATA = MetaData(
     naming_convention={
@@ -124,3 +128,52 @@ def now() -> str:
 def written(time: datetime) -> str:
     """Write a time in UTC such that later times sort after earlier ones."""
     return time.isoformat(timespec="milliseconds")
+
+
+def request_record(text: str) -> JobRequestRecord:
+    """Read what was asked for."""
+    asked = json.loads(text)
+    return JobRequestRecord(asked["kind"], asked["robot"], tuple(asked["logs"]), asked["options"])
+
+
+def job_record(row: Row[Any]) -> JobRecord:
+    """Read a job."""
+    return JobRecord(
+        tenant=row.tenant,
+        id=row.id,
+        sequence=row.sequence,
+        request=request_record(row.request),
+        trace=row.trace,
+        state=row.state,
+        stage=row.stage,
+        fraction=row.fraction,
+        attempts=row.attempts,
+        token=row.token,
+        version=row.version,
+        problem=None if row.problem is None else json.loads(row.problem),
+        result_sha256=row.result_sha256,
+        traces_sha256=row.traces_sha256,
+        created_at=row.created_at,
+        started_at=row.started_at,
+        finished_at=row.finished_at,
+    )
+
+
+def log_record(row: Row[Any]) -> LogRecord:
+    """Read a log's summary."""
+    return LogRecord(row.id, row.sequence, row.sha256, json.loads(row.document), row.created_at)
+
+
+def robot_record(row: Row[Any]) -> RobotRecord:
+    """Read a robot."""
+    document = json.loads(row.document)
+    return RobotRecord(
+        id=row.id,
+        sequence=row.sequence,
+        name=document["name"],
+        joints=document["joints"],
+        built_in=False,
+        description=document["description"],
+        suspicions=tuple(document["suspicions"]),
+        created_at=row.created_at,
+    )

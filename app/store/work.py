@@ -11,8 +11,7 @@ from sqlalchemy import ColumnElement, Connection, and_, func, or_, select, updat
 
 from .database import Database
 from .records import Document, JobRecord
-from .rows import job_record
-from .tables import JOBS, now
+from .tables import JOBS, job_record, now
 
 MOST_ATTEMPTS = 3
 """A job whose computation died this often is not tried again."""

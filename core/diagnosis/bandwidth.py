@@ -14,7 +14,7 @@ from scipy.stats import median_abs_deviation
 
 from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from ..dynamics.prediction import Prediction
-from ..robot.parameters import INERTIAL_SYMBOLS
+from ..robot.model import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
 from .dataset.dataset import Dataset
 from .regression.ar_noise import ARNoise, run_indices

@@ -11,8 +11,7 @@ import numpy as np
 
 from ..arrays import JointSeries, Parameters, Weights
 from ..errors import OptionError
-from ..robot.model import RobotModel
-from ..robot.parameters import Parameter
+from ..robot.model import Parameter, RobotModel
 from ..signals.state import MotionState
 from .newton_euler import inverse_dynamics
 from .term import Entry, Term

@@ -7,8 +7,7 @@ one time series for each; structural zeros are never computed, filtered or store
 from typing import ClassVar, Protocol, runtime_checkable
 
 from ..arrays import Series
-from ..robot.model import RobotModel
-from ..robot.parameters import Parameter
+from ..robot.model import Parameter, RobotModel
 from ..signals.state import MotionState
 
 Entry = tuple[int, int]

@@ -15,7 +15,7 @@ from ..arrays import Parameters, Vector
 from ..dynamics.model import DynamicModel
 from ..errors import OptionError
 from ..robot.inertia import from_mass_properties
-from ..robot.parameters import INERTIAL_SYMBOLS
+from ..robot.model import INERTIAL_SYMBOLS
 
 LARGEST_MARGIN = 0.1
 """A margin is a share of an ordinary link's pseudo-inertia; more than a tenth would shape the answer."""

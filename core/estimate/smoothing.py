@@ -19,8 +19,7 @@ from ..reduction.base import base_model
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor
 from ..regressor.observe import Observation, observe
-from ..robot.model import RobotModel
-from ..robot.parameters import Parameter
+from ..robot.model import Parameter, RobotModel
 from ..signals.condition import Motion
 from ..signals.state import MotionState
 

@@ -8,8 +8,7 @@ from collections.abc import Mapping
 
 from ..document.caveats import REPRESENTATIVE, SOURCE, smoothing
 from ..document.identified import IdentifiedRobot
-from ..robot.model import Link
-from ..robot.parameters import INERTIAL_SYMBOLS
+from ..robot.model import INERTIAL_SYMBOLS, Link
 
 FRAMES = (
     "Link frame j has rotation (into the antecedent's frame) and translation (m) relative to its antecedent "

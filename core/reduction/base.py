@@ -14,8 +14,7 @@ import numpy as np
 from ..arrays import BaseParameters, Matrix, Parameters, Rows
 from ..dynamics.model import DynamicModel
 from ..regressor.columns import all_columns, dense
-from ..robot.model import Link, RobotModel
-from ..robot.parameters import INERTIAL_SYMBOLS, Parameter
+from ..robot.model import INERTIAL_SYMBOLS, Link, Parameter, RobotModel
 from ..signals.state import MotionState
 
 RANK_TOLERANCE = 1e-9

@@ -14,9 +14,18 @@ from ..arrays import LinkParameters, LinkTable
 from ..errors import RobotError
 from ..fields import Fields
 from .inertia import from_mass_properties
-from .model import FRICTION_KINDS, Coupling, Joint, JointKind, Limits, Link, RobotModel
+from .model import (
+    FRICTION_KINDS,
+    INERTIAL_SYMBOLS,
+    INERTIAL_UNITS,
+    Coupling,
+    Joint,
+    JointKind,
+    Limits,
+    Link,
+    RobotModel,
+)
 from .modified_dh import ModifiedDHRow
-from .parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
 
 MODIFIED_DH, FRAMES = "modified-dh", "frames"
 MOST_JOINTS = 64

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import LinkParameters, PseudoInertia, Rotation, Vector3
 from .frames import cross_matrix
-from .parameters import INERTIAL_SYMBOLS
+from .model import INERTIAL_SYMBOLS
 
 
 def _basis() -> np.ndarray:

@@ -9,8 +9,7 @@ import numpy as np
 
 from ..errors import RobotError
 from .description import FRAMES, MODIFIED_DH
-from .model import Joint, Link, RobotModel
-from .parameters import INERTIAL_SYMBOLS
+from .model import INERTIAL_SYMBOLS, Joint, Link, RobotModel
 
 
 def to_description(robot: RobotModel) -> dict[str, object]:

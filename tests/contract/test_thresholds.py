@@ -32,8 +32,7 @@ NAMED = {
         "causes/torque_saturation": "SHARES",
         "checks/change_points": "SMOOTHED FAR",
         "checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS",
-        "search/grid": "FINER",
-        "search/profile_likelihood": "AROUND",
+        "search/profile_likelihood": "AROUND FINER",
     },
     "numerics": {
         "bandwidth": "_POINTS",

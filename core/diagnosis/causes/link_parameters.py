@@ -6,8 +6,7 @@ from operator import attrgetter
 
 from ...dynamics.term import Term
 from ...dynamics.terms.link_parameters import LinkChange
-from ...robot.model import RobotModel
-from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ...robot.model import INERTIAL_SYMBOLS, INERTIAL_UNITS, RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Setting, Site

@@ -7,8 +7,7 @@ import numpy as np
 
 from ...dynamics.term import Term
 from ...dynamics.terms.payload_change import Payload
-from ...robot.model import RobotModel
-from ...robot.parameters import INERTIAL_SYMBOLS
+from ...robot.model import INERTIAL_SYMBOLS, RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, EVENTS
 from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site, number_text

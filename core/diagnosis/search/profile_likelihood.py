@@ -4,7 +4,7 @@ One scalar after the other is searched on top of a hypothesis, at its noise, wit
 projected out: variable projection. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -16,7 +16,6 @@ from ...numerics.chi2_tail import log_chi2_tail
 from ..regression.score_test import Score
 from ..thresholds.search import REFINEMENT
 from .fitter import HypothesisFitter
-from .grid import between, neighbours
 from .hypothesis import Candidate, Hypothesis, allowed
 
 RELATIVE_STEP, LEAST_STEP, WIDENINGS = 1e-3, 1e-9, 7
@@ -25,6 +24,8 @@ YIELDINGS = 4
 """Steps by the secant towards columns that yield the size which they are built for,"""
 SAME_SIZE = 0.01
 """within this share of it."""
+FINER = 9
+"""Points laid between the neighbours of the best grid point, in each of two rounds."""
 AROUND = np.linspace(-1.0, 1.0, 21)
 """From a settled instant to others that are asked how likely they are, s."""
 
@@ -223,3 +224,27 @@ def _deviation_of_interval(seen: Mapping[float, float], here: float) -> float:
 
 def _drop(low: Score, middle: Score, high: Score) -> float:
     return middle.statistic - 0.5 * (low.statistic + high.statistic)
+
+
+def neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
+    """Give the points on either side; beyond an end, as far as the other neighbour."""
+    points = sorted({*points, here})
+    index = points.index(here)
+    if len(points) == 1:
+        return 0.5 * here, 2.0 * here
+    low = points[index - 1] if index else _mirrored(here, points[index + 1])
+    high = points[index + 1] if index + 1 < len(points) else _mirrored(here, points[index - 1])
+    return low, high
+
+
+def _mirrored(here: float, other: float) -> float:
+    if here > 0.0 and other > 0.0:
+        return here * here / other
+    return 2.0 * here - other
+
+
+def between(low: float, high: float) -> list[float]:
+    """Give points between two: in equal ratios where both are positive."""
+    if low > 0.0:
+        return [float(point) for point in np.geomspace(low, high, FINER + 2)[1:-1]]
+    return [float(point) for point in np.linspace(low, high, FINER + 2)[1:-1]]

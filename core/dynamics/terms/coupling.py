@@ -10,8 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Samples, Series
-from ...robot.model import Coupling, RobotModel
-from ...robot.parameters import Parameter
+from ...robot.model import Coupling, Parameter, RobotModel
 from ...signals.state import MotionState
 from ..term import Entry, Term
 from .coulomb import direction

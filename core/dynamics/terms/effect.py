@@ -11,8 +11,7 @@ import numpy as np
 
 from ...arrays import JointSeries, Samples, Series
 from ...robot.joint_units import joint_unit
-from ...robot.model import RobotModel
-from ...robot.parameters import Parameter
+from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
 from ..term import Entry, Term
 

@@ -7,8 +7,7 @@ The columns are those of a declared coupling, so that declaring it is the correc
 from dataclasses import dataclass, replace
 
 from ...arrays import Series
-from ...robot.model import Coupling, RobotModel
-from ...robot.parameters import Parameter
+from ...robot.model import Coupling, Parameter, RobotModel
 from ...signals.state import MotionState
 from ..term import Entry, Term
 from .coupling import GearCoupling

@@ -13,8 +13,7 @@ from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from ...arrays import JointSeries, Samples, Spectrum
 from ...robot.joint_units import joint_unit
-from ...robot.model import RobotModel
-from ...robot.parameters import Parameter
+from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
 from ...signals.zero_phase import kernel
 from ..gear import Gear

@@ -7,8 +7,7 @@ own parameters are fixed. Source: Khalil & Dombre (2002), ch. 9.
 from dataclasses import dataclass
 
 from ...arrays import JointSeries
-from ...robot.model import RobotModel
-from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ...robot.model import INERTIAL_SYMBOLS, INERTIAL_UNITS, RobotModel
 from ...signals.state import MotionState
 from .effect import AllJointsTerm
 from .payload_change import body_torques

@@ -11,8 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...arrays import JointSeries
-from ...robot.model import RobotModel
-from ...robot.parameters import INERTIAL_SYMBOLS, INERTIAL_UNITS
+from ...robot.model import INERTIAL_SYMBOLS, INERTIAL_UNITS, RobotModel
 from ...signals.state import MotionState
 from ..newton_euler import unit_torques
 from .effect import AllJointsTerm, without_rounding

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Series
-from ...robot.model import RobotModel
-from ...robot.parameters import Parameter, inertial_parameters
+from ...robot.model import Parameter, RobotModel, inertial_parameters
 from ...signals.state import MotionState
 from ..newton_euler import inverse_dynamics
 from ..term import Entry, Term

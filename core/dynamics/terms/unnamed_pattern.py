@@ -13,8 +13,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from ...arrays import Samples
-from ...robot.model import RobotModel
-from ...robot.parameters import Parameter
+from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
 from .effect import OneJointTerm, step_of
 

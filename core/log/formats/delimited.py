@@ -20,8 +20,7 @@ import pyarrow.csv as arrow_csv
 from ...arrays import Series
 from ...errors import LogError
 from .arrow import numbers
-from .boundary import reading
-from .table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric
+from .table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
 
 FORM = "CSV"
 HEAD_BYTES = 1 << 20

@@ -15,8 +15,16 @@ from typing import Any
 import numpy as np
 
 from ...errors import LogError
-from .boundary import reading
-from .table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, check_values, expand
+from .table import (
+    MAX_COLUMNS,
+    MemoryTable,
+    check_columns,
+    check_density,
+    check_shapes,
+    check_values,
+    expand,
+    reading,
+)
 
 FORM = "MATLAB v5"
 HEADER_BYTES = 128

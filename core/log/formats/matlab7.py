@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import LogError
-from .boundary import reading
-from .table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, expand
+from .table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, expand, reading
 
 FORM = "MATLAB v7.3"
 MAX_MEMBERS = 4 * MAX_COLUMNS

@@ -14,8 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import LogError
-from .boundary import reading
-from .table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, expand
+from .table import MAX_COLUMNS, MemoryTable, check_columns, check_density, check_shapes, expand, reading
 
 FORM = "NPZ"
 MAX_HEADER_BYTES = 10_000

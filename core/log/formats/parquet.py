@@ -18,8 +18,7 @@ from ...errors import LogError
 from ..layout import Layout
 from ..model import LogRows
 from .arrow import numbers
-from .boundary import reading
-from .table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric
+from .table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric, reading
 
 FORM = "Parquet"
 BUFFER_BYTES = 1 << 18

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import LogError
-from .boundary import reading
-from .table import MemoryTable, check_columns, check_density, check_values
+from .table import MemoryTable, check_columns, check_density, check_values, reading
 
 MCAP_FORM, BAG_FORM = "MCAP", "ROS bag"
 JOINT_STATE = "sensor_msgs/msg/JointState"

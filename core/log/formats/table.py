@@ -1,19 +1,22 @@
 """Hold what all file formats have in common: named columns of numbers, given in batches of rows.
 
 A format knows nothing of joints or units; it only says which columns there are and reads those it is asked
-for. The limits stop a small file from asking for a large machine.
+for. The limits stop a small file from asking for a large machine. Damaged files make a format's library raise
+nearly anything; one gate per format says which format it was and what was seen.
 """
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import prod
+from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from ...arrays import Series
-from ...errors import LogError
+from ...errors import LogError, VeritorqueError
 
 MAX_COLUMNS = 512
 LONGEST_NAME = 256
@@ -28,7 +31,6 @@ FREE_BYTES = 1 << 24
 BATCH_ROWS = 32_768
 
 
-@runtime_checkable
 @runtime_checkable
 class Table(Protocol):
     """Give named columns of one length, batch by batch."""
@@ -195,3 +197,33 @@ def not_numeric(name: str, found: str, advice: str = "") -> LogError:
         evidence={"column": name, "found": found},
         remedy=advice or "store plain numbers, or map another column",
     )
+
+
+@contextmanager
+def reading(form: str, path: Path) -> Iterator[None]:
+    """Guard the reading of a file: our own errors and want of memory pass, every other is "cannot be read".
+
+    Parameters
+    ----------
+    form
+        The format's name, for the message.
+    path
+        The file; only its size is reported, never its path.
+
+    Raises
+    ------
+    LogError
+        In place of any exception of a foreign library.
+    """
+    try:
+        yield
+    except (VeritorqueError, MemoryError):
+        raise
+    except Exception as error:
+        size = path.stat().st_size if path.exists() else 0
+        text = " ".join(str(error).replace(str(path), "the file").split())
+        raise LogError(
+            f"the {form} file cannot be read: it is damaged, cut short or not written as the format demands",
+            evidence={"format": form, "bytes": size, "detail": f"{type(error).__name__}: {text[:300]}"},
+            remedy="write the file again and upload it whole",
+        ) from error

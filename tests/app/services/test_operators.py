@@ -17,7 +17,7 @@ from tests.app.conftest import assert_problem, service
 from tests.app.jobs.test_jobs import asked
 from tests.app.stubs import StubExecutor, failing
 from veritorque.app import logging as journal
-from veritorque.app.http.trace_context import trace_id
+from veritorque.app.http.request_log import trace_id
 from veritorque.app.settings import Settings
 from veritorque.app.store.store import Store
 

@@ -12,8 +12,7 @@ from veritorque.core.diagnosis.causes.shared.own_joint import NOTHING, OwnJointC
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
 from veritorque.core.dynamics.terms.effect import OneJointTerm
-from veritorque.core.robot.model import RobotModel
-from veritorque.core.robot.parameters import Parameter
+from veritorque.core.robot.model import Parameter, RobotModel
 from veritorque.core.signals.state import MotionState
 
 JOINT = 2

@@ -21,7 +21,7 @@ from veritorque.core.export.content import content
 from veritorque.core.export.formats import FORMATS
 from veritorque.core.export.matlab import write_matlab
 from veritorque.core.export.yaml import write_yaml
-from veritorque.core.robot.parameters import INERTIAL_SYMBOLS
+from veritorque.core.robot.model import INERTIAL_SYMBOLS
 
 
 @pytest.fixture(params=ROBOTS, scope="module")

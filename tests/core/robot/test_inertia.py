@@ -17,7 +17,7 @@ from veritorque.core.robot.inertia import (
     pseudo_inertia,
     transform_body,
 )
-from veritorque.core.robot.parameters import INERTIAL_SYMBOLS
+from veritorque.core.robot.model import INERTIAL_SYMBOLS
 
 SEEDS = st.integers(0, 2**32 - 1)
 

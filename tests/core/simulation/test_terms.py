@@ -13,8 +13,7 @@ from veritorque.core.dynamics.terms.friction_asymmetric import AsymmetricViscous
 from veritorque.core.dynamics.terms.joint_coupling import MissingCoupling
 from veritorque.core.dynamics.terms.payload_change import Payload
 from veritorque.core.dynamics.terms.rotor_inertia_missing import MissingRotor
-from veritorque.core.robot.model import Coupling
-from veritorque.core.robot.parameters import Parameter
+from veritorque.core.robot.model import Coupling, Parameter
 from veritorque.core.signals.state import MotionState
 from veritorque.core.simulation.mechanism import mechanism_of
 from veritorque.core.simulation.stage import accelerations

@@ -6,7 +6,7 @@ import numpy as np
 
 from ....arrays import LinkParameters, SquareMatrix
 from ....estimate.body import nearest_body
-from ....robot.parameters import INERTIAL_SYMBOLS
+from ....robot.model import INERTIAL_SYMBOLS
 from ...thresholds.causes import ADMISSIBLE
 
 MASS = INERTIAL_SYMBOLS.index("M")

@@ -10,9 +10,8 @@ from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
 from veritorque.core.diagnosis.causes.protocol import Setting
 from veritorque.core.diagnosis.diagnose import diagnose
-from veritorque.core.diagnosis.search.grid import neighbours
 from veritorque.core.diagnosis.search.hypothesis import Candidate
-from veritorque.core.diagnosis.search.profile_likelihood import refine_scalars
+from veritorque.core.diagnosis.search.profile_likelihood import neighbours, refine_scalars
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 

@@ -113,4 +113,4 @@ def test_what_is_late_is_the_torque_as_its_channel_scales_it():
     heavy = replace(alone, standard=1.5 * alone.standard)
     (ours,), (expected,) = (Delay(0, one, 0.02).torques(robot, state) for one in (scaled, heavy))
     np.testing.assert_allclose(ours, expected, rtol=1e-12)
-    np.testing.assert_array_equal(TorqueGain(1, scaled).columns(robot, state), alone.torque(state).T)
+    np.testing.assert_array_equal(TorqueGain(1, scaled).columns(state), alone.torque(state).T)
