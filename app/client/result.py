@@ -4,7 +4,7 @@ The document itself stays at hand and is what is stored and passed on; see docs/
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -17,12 +17,20 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Document = Mapping[str, Any]
+Words = tuple[str, ...]
 Floats = np.ndarray[tuple[int], np.dtype[np.float64]]
+Counts = np.ndarray[tuple[int], np.dtype[np.int64]]
+Flags = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
     """Hold rows of a document as columns: names and words as tuples, numbers as arrays (NaN where absent)."""
+
+    @classmethod
+    def from_rows(cls, rows: Sequence[Document]) -> Self:
+        """Read rows whose fields have the names of the columns."""
+        return cls(**{column.name: _READERS[column.type](rows, column.name) for column in fields(cls)})
 
     def __len__(self) -> int:
         """Count the rows."""
@@ -65,30 +73,15 @@ class BaseParameters(Rows):
         The standard parameters that it adds up.
     """
 
-    name: tuple[str, ...]
-    joint: np.ndarray
-    unit: tuple[str, ...]
+    name: Words
+    joint: Counts
+    unit: Words
     value: Floats
     value_ols: Floats
     standard_deviation: Floats
     relative_deviation_percent: Floats
-    essential: np.ndarray
-    grouping: tuple[str, ...]
-
-    @classmethod
-    def from_rows(cls, rows: Sequence[Document]) -> Self:
-        """Read the rows of `base_parameters`."""
-        return cls(
-            name=_words(rows, "name"),
-            joint=_whole(rows, "joint"),
-            unit=_words(rows, "unit"),
-            value=_numbers(rows, "value"),
-            value_ols=_numbers(rows, "value_ols"),
-            standard_deviation=_numbers(rows, "standard_deviation"),
-            relative_deviation_percent=_numbers(rows, "relative_deviation_percent"),
-            essential=np.array([bool(row.get("essential")) for row in rows]),
-            grouping=_words(rows, "grouping"),
-        )
+    essential: Flags
+    grouping: Words
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,39 +94,22 @@ class StandardParameters(Rows):
         ``individually``, ``in_combination`` or ``no``: only the first are measured by themselves.
     """
 
-    name: tuple[str, ...]
-    joint: np.ndarray
-    unit: tuple[str, ...]
+    name: Words
+    joint: Counts
+    unit: Words
     value: Floats
-    identifiable: tuple[str, ...]
-
-    @classmethod
-    def from_rows(cls, rows: Sequence[Document]) -> Self:
-        """Read the rows of `standard_parameters`."""
-        return cls(
-            name=_words(rows, "name"),
-            joint=_whole(rows, "joint"),
-            unit=_words(rows, "unit"),
-            value=_numbers(rows, "value"),
-            identifiable=_words(rows, "identifiable"),
-        )
+    identifiable: Words
 
 
 @dataclass(frozen=True, eq=False)
 class JointErrors(Rows):
     """Torque prediction error per joint; RMS in N m, for prismatic joints in N."""
 
-    joint: np.ndarray
+    joint: Counts
     rms_torque: Floats
     rms_residual: Floats
     nrmse_of_range_percent: Floats
     nrmse_of_rms_percent: Floats
-
-    @classmethod
-    def from_rows(cls, rows: Sequence[Document]) -> Self:
-        """Read the rows of `fit` or `validation`."""
-        names = ("rms_torque", "rms_residual", "nrmse_of_range_percent", "nrmse_of_rms_percent")
-        return cls(joint=_whole(rows, "joint"), **{name: _numbers(rows, name) for name in names})
 
 
 @dataclass(frozen=True)
@@ -226,7 +202,7 @@ class Result:
         return cls.from_document(json.loads(Path(path).read_text(encoding="utf-8")))
 
 
-def _words(rows: Sequence[Document], name: str) -> tuple[str, ...]:
+def _words(rows: Sequence[Document], name: str) -> Words:
     return tuple(str(row.get(name) or "") for row in rows)
 
 
@@ -235,5 +211,17 @@ def _numbers(rows: Sequence[Document], name: str) -> Floats:
     return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
 
 
-def _whole(rows: Sequence[Document], name: str) -> np.ndarray:
+def _whole(rows: Sequence[Document], name: str) -> Counts:
     return np.array([row[name] for row in rows], dtype=np.int64)
+
+
+def _flags(rows: Sequence[Document], name: str) -> Flags:
+    return np.array([bool(row.get(name)) for row in rows])
+
+
+_READERS: Mapping[Any, Callable[[Sequence[Document], str], Any]] = {
+    Words: _words,
+    Floats: _numbers,
+    Counts: _whole,
+    Flags: _flags,
+}
