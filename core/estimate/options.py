@@ -12,11 +12,9 @@ from .methods.registry import ESTIMATORS
 
 SOLVERS = ("clarabel", "cvxpy")
 PULL = 0.02
-"""Weight of the pull towards the prior, in units of chi^2 per squared scale.
-
-A parameter that lies one scale from the prior is pulled by a fiftieth of a deviation at most, however long
-the log; what the motion leaves open goes to the prior all the same.
-"""
+"""Weight of the pull towards the prior, in units of chi^2 per squared scale. A parameter that lies one scale
+from the prior is pulled by a fiftieth of a deviation at most, however long the log; what the motion leaves
+open goes to the prior all the same."""
 
 
 @dataclass(frozen=True)

@@ -23,10 +23,8 @@ _ROOT = np.where(_ROW == _COLUMN, 1.0, np.sqrt(2.0))
 SVEC_IDENTITY = np.where(_ROW == _COLUMN, 1.0, 0.0)
 """The 4x4 identity in the solver's triangle order."""
 _FINE, _COARSE = 1e-9, 1e-7
-"""Gaps and residuals asked for, the second where rounding stops the solver before the first.
-
-Both are relative to an objective near one half, so either is far below what noise does to it.
-"""
+"""Gaps and residuals asked for, the second where rounding stops the solver before the first. Both are
+relative to an objective near one half, so either is far below what noise does to it."""
 _BOLD, _CAREFUL = 0.99, 0.9
 """Largest share of the way to a cone's edge that a step goes; shorter ones are rounded less."""
 _SHORT_OF_ACCURACY = ("AlmostSolved", "InsufficientProgress", "NumericalError")

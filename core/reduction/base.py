@@ -18,10 +18,8 @@ from ..robot.model import INERTIAL_SYMBOLS, Link, Parameter, RobotModel
 from ..signals.state import MotionState
 
 RANK_TOLERANCE = 1e-9
-"""A column is dependent when less than this share of it lies outside the columns before it.
-
-Rounding leaves about 1e-13.
-"""
+"""A column is dependent when less than this share of it lies outside the columns before it. Rounding leaves
+about 1e-13."""
 RIGHT_ANGLE_TOLERANCE = 2e-5
 """Entries of a rotation this close to 0 or 1 are meant to be 0 or 1."""
 _RIGHT_ANGLE_ENTRIES = 5

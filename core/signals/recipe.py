@@ -19,15 +19,11 @@ from .zero_phase import HIGHEST_ORDER
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
 PARALLEL_OVER_MOTION = 10.0
-"""The parallel filter passes ten times the motion's band.
-
-Products of the joints' motions lie above each of them.
-"""
+"""The parallel filter passes ten times the motion's band. Products of the joints' motions lie above each of
+them."""
 POSITION_OVER_PARALLEL = 5.0
-"""Positions keep a band five times wider.
-
-So that their filter does not bend what the parallel filter passes.
-"""
+"""Positions keep a band five times wider. So that their filter does not bend what the parallel filter
+passes."""
 STILL_SHARE = 0.01
 """A joint stands when it is slower than this share of its RMS speed."""
 TREMBLE_SHARE = 0.01

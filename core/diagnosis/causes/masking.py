@@ -50,10 +50,8 @@ MASKED_BY: dict[str, Masking] = {
         ("external_contact",), "An instant that is slightly off leaves a short wrench on the same link."
     ),
 }
-"""Causes that the remainder of a cause resembles: beside it, they have to be nearly as clear.
-
-Of transient causes only those count that act while it acts.
-"""
+"""Causes that the remainder of a cause resembles: beside it, they have to be nearly as clear. Of transient
+causes only those count that act while it acts."""
 
 EXCLUDED_BY: dict[str, Masking] = {
     "time_delay": Masking(("torque_filter_lag",), _SAME_FIRST_ORDER),

@@ -75,30 +75,26 @@ class Linearisation:
 
 @dataclass(frozen=True)
 class Events:
-    """Decide which short spans hold a contact."""
+    """Decide which short spans hold a contact. All are set by hand unless a source is named."""
 
     level: float = 1e-3
-    """Probability of an event in a log of noise alone. Set by hand."""
+    """Probability of an event in a log of noise alone."""
     trials_of_span: float = 2.0
-    """Factor on the number of spans, for shifting and stretching the best one. Set by hand."""
+    """Factor on the number of spans, for shifting and stretching the best one."""
     spans: int = 1200
     """Spans of a log of half a minute that a contact's p-value is corrected for. Counted from the grid."""
     onsets: int = 120
     """Instants between two of a payload's grid that the refinement distinguishes, for its p-value.
-
-    Counted.
-    """
+    Counted."""
     least_share: float = 0.2
-    """Share of the best event's score that others have to reach. Set by hand."""
+    """Share of the best event's score that others have to reach."""
     shortest: float = 0.2
-    """Seconds: what is shorter is an outlier. Set by hand."""
+    """Seconds: what is shorter is an outlier."""
     longest: float = 3.2
-    """Seconds of the longest span in the grid: what is longer lasts. Set by hand."""
+    """Seconds of the longest span in the grid: what is longer lasts."""
     edge: float = 0.6
     """Standard deviation of an event's edge, in lengths of the event and relative deviations of its force.
-
-    Source: a half sine's edge is known as well as its height, times a little over half its length.
-    """
+    Source: a half sine's edge is known as well as its height, times a little over half its length."""
 
 
 ADMISSIBLE, LINEARISATION, EVENTS = Admissible(), Linearisation(), Events()

@@ -5,78 +5,67 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Alternatives:
-    """Compare a finding with its alternatives."""
+    """Compare a finding with its alternatives. All are set by hand."""
 
     other_share: float = 0.03
-    """Share of a finding's likelihood ratio by which it must lead over any other cause. Set by hand."""
+    """Share of a finding's likelihood ratio by which it must lead over any other cause."""
     similar_share: float = 0.15
-    """The same over a cause with nearly parallel columns: their error grows with the effect. Set by hand."""
+    """The same over a cause with nearly parallel columns: their error grows with the effect."""
     first_order_share: float = 0.4
-    """The same where the two agree to first order in frequency. Set by hand."""
+    """The same where the two agree to first order in frequency."""
     unnamed_share: float = 0.25
-    """Share of a finding's likelihood ratio by which an unnamed pattern has to lead to refute it.
-
-    Set by hand.
-    """
+    """Share of a finding's likelihood ratio by which an unnamed pattern has to lead to refute it."""
     event_share: float = 0.5
-    """Share of its likelihood ratio by which a cause in short spans has to lead over patterns.
-
-    Set by hand.
-    """
+    """Share of its likelihood ratio by which a cause in short spans has to lead over patterns."""
     least_expected: float = 4.0
-    """Likelihood ratio expected on held-out rows below which these decide little. Set by hand."""
+    """Likelihood ratio expected on held-out rows below which these decide little."""
     least_gain: float = 0.5
-    """Per cent by which a cause has to reduce the error on held-out rows. Set by hand."""
+    """Per cent by which a cause has to reduce the error on held-out rows."""
     compared: int = 6
-    """Alternatives that are fitted. Set by hand."""
+    """Alternatives that are fitted."""
     worth_naming: float = 0.1
-    """Share of a finding's likelihood ratio from which a refuted alternative is listed. Set by hand."""
+    """Share of a finding's likelihood ratio from which a refuted alternative is listed."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Decide what is called unexplained."""
+    """Decide what is called unexplained. All are set by hand."""
 
     unexplained_share: float = 0.03
-    """Share of a joint's mean square residual, lower end of the 95 % interval, from which on it is structure.
-
-    Set by hand.
-    """
+    """Share of a joint's mean square residual, lower end of the 95 % interval, from which on it is
+    structure."""
     at_rest: float = 0.9
-    """Share of a joint's rows with free friction from which on it hardly moves. Set by hand."""
+    """Share of a joint's rows with free friction from which on it hardly moves."""
 
 
 @dataclass(frozen=True)
 class Unnamed:
-    """Decide which unnamed patterns are reported."""
+    """Decide which unnamed patterns are reported. All are set by hand."""
 
     tried: int = 3
-    """Best patterns that are fitted. Set by hand."""
+    """Best patterns that are fitted."""
     least_seconds: float = 4.0
-    """Seconds that a log counts for at least when rates are laid out. Set by hand."""
+    """Seconds that a log counts for at least when rates are laid out."""
     most_seconds: float = 60.0
-    """Seconds that it counts for at most: what is slower is drift. Set by hand."""
+    """Seconds that it counts for at most: what is slower is drift."""
     least_rows: int = 200
-    """Usable rows of a joint (for a burst: outside it) from which on it is judged. Set by hand."""
+    """Usable rows of a joint (for a burst: outside it) from which on it is judged."""
     least_changes: int = 2
-    """Changes of level from which on a torque is called switching. Set by hand."""
+    """Changes of level from which on a torque is called switching."""
     most_log_trials: float = 600.0
-    """Natural logarithm of the number of ways to place the changes beyond which none is judged.
-
-    Set by hand.
-    """
+    """Natural logarithm of the number of ways to place the changes beyond which none is judged."""
     level_rows: int = 5
-    """Rows that are averaged before the kurtosis is taken. Set by hand."""
+    """Rows that are averaged before the kurtosis is taken."""
     level_deviations: float = 5.0
-    """Standard deviations below the kurtosis of normal noise from which levels are reported. Set by hand."""
+    """Standard deviations below the kurtosis of normal noise from which levels are reported."""
     burst_seconds: float = 0.3
-    """Seconds of a window in which a burst is sought. Set by hand."""
+    """Seconds of a window in which a burst is sought."""
     burst_distance: float = 0.5
-    """Seconds from a window to the rows that it is compared with. Set by hand."""
+    """Seconds from a window to the rows that it is compared with."""
     burst_ratio: float = 6.0
-    """Ratio of the median size in a window to the RMS elsewhere from which it is a burst. Set by hand."""
+    """Ratio of the median size in a window to the RMS elsewhere from which it is a burst."""
     burst_rows: int = 8
-    """Rows of a window from which on it is judged. Set by hand."""
+    """Rows of a window from which on it is judged."""
 
 
 @dataclass(frozen=True)

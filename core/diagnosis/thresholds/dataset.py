@@ -5,73 +5,67 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Band:
-    """Choose the band of a diagnosis."""
+    """Choose the band of a diagnosis. All are set by hand unless a source is named."""
 
     over_motion: float = 40.0
-    """Ratio of the band to the motion's: compliance, ripple and delays lie above the motion. Set by hand."""
+    """Ratio of the band to the motion's: compliance, ripple and delays lie above the motion."""
     narrowest: float = 10.0
-    """The same at least, as wide as the filter of the identification. Set by hand."""
+    """The same at least, as wide as the filter of the identification."""
     rate: float = 12.0
-    """Ratio of the log's rate to the band at least. Set by hand."""
+    """Ratio of the log's rate to the band at least."""
     position: float = 3.0
-    """Ratio of the positions' cut-off to the band. Set by hand."""
+    """Ratio of the positions' cut-off to the band."""
     position_over_rate: float = 0.4
-    """Ratio of the positions' cut-off to the log's rate at most. Set by hand."""
+    """Ratio of the positions' cut-off to the log's rate at most."""
     rows: float = 2.5
-    """Rows per period of the band's edge. Set by hand."""
+    """Rows per period of the band's edge."""
     states: float = 8.0
-    """States per period of the band's edge: nothing above the position filter is left to alias.
-
-    Set by hand.
-    """
+    """States per period of the band's edge: nothing above the position filter is left to alias."""
     order: int = 2
-    """Order of the Butterworth filter: effects at a reversal ring for one period, not three. Set by hand."""
+    """Order of the Butterworth filter: effects at a reversal ring for one period, not three."""
     noise_share: float = 0.05
-    """Share of a joint's mean square residual that position noise may have. Set by hand."""
+    """Share of a joint's mean square residual that position noise may have."""
     noise_power: float = 0.2
-    """Power of the excess by which the band is narrowed.
-
-    Source: the torque of white position noise grows with the square of frequency, its mean square in a band
-    with the fifth power of the band's edge.
-    """
+    """Power of the excess by which the band is narrowed. Source: the torque of white position noise grows
+    with the square of frequency, its mean square in a band with the fifth power of the band's edge."""
     least_narrowing: float = 0.5
-    """Smallest factor of one narrowing. Set by hand."""
+    """Smallest factor of one narrowing."""
     most_narrowing: float = 0.85
-    """Largest factor of one narrowing. Set by hand."""
+    """Largest factor of one narrowing."""
     narrowings: int = 4
-    """Narrowings at most. Set by hand."""
+    """Narrowings at most."""
     stamp_deviations: float = 6.0
-    """Standard deviations from its neighbours from which a time stamp is off. Set by hand."""
+    """Standard deviations from its neighbours from which a time stamp is off."""
     stamp_share: float = 1e-3
-    """Share of the time step below which no stamp is off. Set by hand."""
+    """Share of the time step below which no stamp is off."""
     few_stamps: float = 0.025
-    """Share of all samples up to which the samples beside stamps that are off are left out. Set by hand."""
+    """Share of all samples up to which the samples beside stamps that are off are left out."""
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Choose the rows of a diagnosis."""
+    """Choose the rows of a diagnosis. All are set by hand unless a source is named."""
 
     seconds: float = 120.0
-    """Seconds of all logs together that are used. Set by hand."""
+    """Seconds of all logs together that are used."""
     stretch_seconds: float = 30.0
-    """Seconds of one stretch of a long log. Set by hand."""
+    """Seconds of one stretch of a long log."""
     reversal_periods: float = 1.0
     """Periods of the cut-off around a reversal in which rows are set apart. Source: the filter's ringing."""
     still_share: float = 0.01
-    """Share of its RMS speed below which a coupled motor rests. Set by hand."""
+    """Share of its RMS speed below which a coupled motor rests."""
     shapes: float = 4.0
-    """Polynomials of stiction per period of the cut-off, twice what an ideal filter passes. Set by hand."""
+    """Polynomials of stiction per period of the cut-off, twice what an ideal filter passes."""
     most_shapes: int = 32
-    """Polynomials of one stretch at rest; a longer one is cut. Set by hand."""
+    """Polynomials of one stretch at rest; a longer one is cut."""
     spike_order: int = 5
-    """Order of the running median that a contact passes and a spike does not. Set by hand."""
+    """Order of the running median that a contact passes and a spike does not."""
     spike_quantile: float = 0.95
     """Quantile of the remainders around a span that says what is usual. Davies & Gather, JASA 88, 1993."""
     spike_ratio: float = 20.0
-    """Ratio of a remainder to that quantile from which it is a spike, even in heavy tails. Set by hand."""
+    """Ratio of a remainder to that quantile from which it is a spike, even in heavy tails."""
     spike_seconds: float = 2.0
-    """Seconds on either side of a span that say what is usual. Set by hand."""
+    """Seconds on either side of a span that say what is usual."""
 
 
 BAND, ROWS = Band(), Rows()
