@@ -2,7 +2,7 @@
 
 from ..diagnosis.causes.protocol import Quantity, Site
 from ..diagnosis.causes.registry import BY_ID
-from ..diagnosis.result import Alternative, Curve, Finding, Gain, NotIdentifiable
+from ..diagnosis.result import Alternative, Finding, Gain, NotIdentifiable
 
 
 def finding_row(finding: Finding) -> dict[str, object]:
@@ -21,7 +21,7 @@ def finding_row(finding: Finding) -> dict[str, object]:
         "ambiguous_with": [_alternative(other) for other in finding.ambiguous_with],
         "refuted": [_alternative(other) for other in finding.refuted if _concerns(other, finding)],
         "gain": None if finding.gain is None else _gain(finding.gain),
-        "curve": None if finding.curve is None else _curve(finding.curve),
+        "curve": None if finding.curve is None else dict(vars(finding.curve)),
     }
 
 
@@ -94,18 +94,4 @@ def _gain(gain: Gain) -> dict[str, object]:
         "improvement_percent": gain.improvement_percent,
         "improvement_total_percent": gain.total_percent,
         "interval_95": gain.interval_95,
-    }
-
-
-def _curve(curve: Curve) -> dict[str, object]:
-    return {
-        "coordinate": curve.coordinate,
-        "unit": curve.unit,
-        "joint": curve.joint,
-        "centre": curve.centre,
-        "before": curve.before,
-        "after": curve.after,
-        "model": curve.model,
-        "standard_error": curve.standard_error,
-        "direction": curve.direction,
     }

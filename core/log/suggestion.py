@@ -78,7 +78,7 @@ def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:
     """Choose columns for every channel; measured ones first, then references that are one per joint."""
     families = _families(names)
     found: dict[str, list[str]] = {}
-    for stem in sorted(families, key=_is_reference):
+    for stem in sorted(families, key=lambda name: bool(_words(name) & REFERENCE_WORDS)):
         channel, columns = _channel(stem, found), families[stem]
         if channel is None or channel in found:
             continue
@@ -127,10 +127,6 @@ def _families(names: Sequence[str]) -> dict[str, list[str]]:
     return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
 
 
-def _is_reference(name: str) -> bool:
-    return bool(_words(name) & REFERENCE_WORDS)
-
-
 def _channel(stem: str, known: Collection[str]) -> str | None:
     """Find the channel of a name; a reference stands for what was measured where nothing else does."""
     words = _words(stem)
@@ -141,11 +137,7 @@ def _channel(stem: str, known: Collection[str]) -> str | None:
         return own[0].name if own else None
     if not words & REFERENCE_WORDS or (measured.need != "optional" and measured.name not in known):
         return measured.name
-    return _reference_to(measured.name)
-
-
-def _reference_to(measured: str) -> str | None:
-    return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured), None)
+    return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured.name), None)
 
 
 def _words(name: str) -> set[str]:

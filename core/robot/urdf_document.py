@@ -6,7 +6,6 @@ URDF XML specification.
 """
 
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, ParseError
 
@@ -221,12 +220,8 @@ def _tag(element: Element) -> str:
     return str(element.tag).rpartition("}")[2]
 
 
-def _children(element: Element, tag: str) -> Iterator[Element]:
-    return (child for child in element if _tag(child) == tag)
-
-
 def _child(element: Element, tag: str) -> Element | None:
-    return next(_children(element, tag), None)
+    return next((child for child in element if _tag(child) == tag), None)
 
 
 def _required(element: Element, tag: str, where: str) -> Element:

@@ -75,15 +75,11 @@ def parse_digests(text: str) -> dict[str, bytes]:
         name, value = member.groups()
         if name in ALGORITHMS:
             try:
-                announced[name] = base64.b64decode(_padded(value), validate=True)
+                whole = value + "=" * (-len(value) % 4)  # the end may be left out (RFC 8941, 4.2.7)
+                announced[name] = base64.b64decode(whole, validate=True)
             except binascii.Error:
                 raise _unreadable(part.strip()) from None
     return announced
-
-
-def _padded(value: str) -> str:
-    """Complete what may be left out at the end (RFC 8941, 4.2.7)."""
-    return value + "=" * (-len(value) % 4)
 
 
 def _announced(scope: Scope) -> dict[str, bytes]:

@@ -136,12 +136,8 @@ def _spot(error: dict[str, object]) -> dict[str, object]:
     else:
         spot["parameter"] = "/".join(location[1:])
     given = error.get("input")
-    spot["given"] = given if _is_scalar(given) else type(given).__name__
+    spot["given"] = given if isinstance(given, str | int | float | bool | None) else type(given).__name__
     return spot
-
-
-def _is_scalar(value: object) -> bool:
-    return value is None or isinstance(value, str | int | float | bool)
 
 
 def _refuse_constant(name: str) -> NoReturn:

@@ -162,7 +162,7 @@ def _tested(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
     left = grams / (size[:, :, None] * size[:, None, :])
     clear = np.clip(np.diagonal(left, axis1=1, axis2=2), 0.0, 1.0).max(axis=1)
     tested = np.isfinite(left).all(axis=(1, 2)) & (clear >= COLUMNS.open)
-    out = [_open(right.shape[1])] * len(right)
+    out = [Score(0.0, 1, np.zeros(right.shape[1]), np.eye(right.shape[1]), 0.0)] * len(right)
     values, vectors = np.linalg.eigh(left[tested])
     inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > COLUMNS.open)
     spread = vectors / size[tested][:, :, None]
@@ -174,7 +174,3 @@ def _tested(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
         freedom = int(np.count_nonzero(inverse[row]))
         out[index] = Score(statistic, freedom, found[row], covariance[row], float(clear[index]))
     return out
-
-
-def _open(width: int) -> Score:
-    return Score(0.0, 1, np.zeros(width), np.eye(width), 0.0)

@@ -10,7 +10,6 @@ import numpy as np
 from ...arrays import JointVector
 from ...dynamics.model import DynamicModel
 from ...dynamics.prediction import Prediction
-from ...dynamics.term import Term
 from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause, Setting, Site
 from ..dataset.dataset import Dataset
@@ -90,7 +89,11 @@ def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Pr
 
     A delay acts on the result, and is not part of it.
     """
-    for joins in (_loads, _acts_inside, _scales):
+    for joins in (
+        lambda term: term.loads,
+        lambda term: not term.loads and not term.channel,
+        lambda term: term.channel,
+    ):
         terms = []
         for index, member in enumerate(found.members):
             term = member.term(dataset, operating_point)
@@ -98,15 +101,3 @@ def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Pr
                 terms.append((term, found.fit.values[found.columns_of(index)]))
         operating_point = replace(operating_point, joined=(*operating_point.joined, *terms))
     return operating_point
-
-
-def _loads(term: Term) -> bool:
-    return term.loads
-
-
-def _acts_inside(term: Term) -> bool:
-    return not term.loads and not term.channel
-
-
-def _scales(term: Term) -> bool:
-    return term.channel

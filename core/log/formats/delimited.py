@@ -203,7 +203,11 @@ def _header(lines: Sequence[str]) -> tuple[int, str, str]:
     delimiter = max(DELIMITERS, key=first.count)
     if commented and commented.count(delimiter) == first.count(delimiter) and not _is_numbers(commented):
         return content[0] - 1, commented, first
-    raise _no_header(first[:120])
+    raise LogError(
+        "the file starts with numbers instead of a header line that names its columns",
+        evidence={"first_line": first[:120]},
+        remedy="put the column names on the first line, such as time,q_1,tau_1",
+    )
 
 
 def _is_numbers(line: str) -> bool:
@@ -253,14 +257,6 @@ def _names(path: Path, header: str, delimiter: str) -> tuple[str, ...]:
     names = tuple(cell.strip() or f"column_{index + 1}" for index, cell in enumerate(cells))
     check_columns(names)
     return names
-
-
-def _no_header(first: str) -> LogError:
-    return LogError(
-        "the file starts with numbers instead of a header line that names its columns",
-        evidence={"first_line": first},
-        remedy="put the column names on the first line, such as time,q_1,tau_1",
-    )
 
 
 def _skip_comments(row: arrow_csv.InvalidRow) -> str:
