@@ -18,8 +18,6 @@ LOCAL = "local"
 """The tenant of whoever needs no key."""
 SCOPES = ("read", "write", "admin")
 """What keys may permit."""
-
-
 Kept = Literal["successful", "failed", "dismissed", "logs", "repeats"]
 """Finished jobs by state, logs that no job names, and requests that carried an Idempotency-Key."""
 

@@ -28,7 +28,6 @@ _SCALARS: Mapping[object, tuple[str, str]] = {
     str: ("text", "a text"),
 }
 """How the scalars of a dataclass are read, and what they must hold."""
-
 Record = TypeVar("Record", bound="DataclassInstance")
 
 

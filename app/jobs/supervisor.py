@@ -30,7 +30,6 @@ STABLE_S = 10.0
 END_S = 15.0
 READY, ALIVE, ENDED = b"ready", b"alive", b"ended"
 """What a worker says; after the last comes how the computation went, as JSON."""
-
 Start = Callable[[Settings], "subprocess.Popen[bytes]"]
 
 

@@ -11,7 +11,6 @@ from .identify import Identify
 from .kind import JobKind
 
 KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose())}
-
 RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
 """The model of a result document of any kind."""
 

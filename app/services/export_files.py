@@ -4,10 +4,8 @@ from ..kinds.registry import KINDS
 
 TRACES_FILE, TRACES_TYPE = "residuals.parquet", "application/vnd.apache.parquet"
 """The one file that is not written from the result: the torques and residuals of every sample."""
-
 ARTIFACTS = {name: form for kind in KINDS.values() for name, form in kind.artifacts.items()}
 """The files of all kinds by name."""
-
 BINARY = ("application/x-matlab-data", TRACES_TYPE)
 
 CONTENT = {

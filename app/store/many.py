@@ -13,7 +13,6 @@ Place = tuple[str, str]
 """Tenant and id of a job."""
 MOST_AT_ONCE = 500
 """Values that one statement takes with room to spare on every database."""
-
 AMONG = JOBS.c.id.in_(bindparam("ids", expanding=True))
 RECORDS = select(JOBS).where(AMONG)
 VERSIONS = select(JOBS.c.tenant, JOBS.c.id, JOBS.c.version).where(AMONG)

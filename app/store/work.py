@@ -15,7 +15,6 @@ from .tables import JOBS, job_record, now
 
 MOST_ATTEMPTS = 3
 """A job whose computation died this often is not tried again."""
-
 Held = tuple[str, int]
 """Id and token of a job that is computed."""
 RUNNING = JOBS.c.state == "running"

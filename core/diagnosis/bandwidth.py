@@ -23,7 +23,6 @@ from .thresholds.dataset import BAND
 _SAMPLES = 65536
 _POINTS = 5
 """Neighbours that a fourth difference is of."""
-
 Fitted = tuple[Dataset, Prediction, tuple[ARNoise, ...]]
 
 

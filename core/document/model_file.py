@@ -23,7 +23,6 @@ from .identified import BaseValue, IdentifiedRobot
 from .terms import term_fields, term_of
 
 FORMAT, FORMAT_VERSION = "veritorque-model", "1.0"
-
 Document = Mapping[str, Any]
 
 

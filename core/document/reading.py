@@ -21,7 +21,6 @@ from .model_file import model_from_document
 from .terms import named_terms
 
 Document = Mapping[str, Any]
-
 _STANDARD_NAME: Mapping[type, str] = {MissingRotor: "rotor_inertia", MissingCoupling: "coupling"}
 """What a term that a diagnosis adds is called once the robot declares it."""
 ESSENTIAL = (

@@ -48,7 +48,6 @@ _SPECIMEN = {
 """A robot that has every parameter of the standard model."""
 _NOT_SCANNED = {"joint", "believed", "robot"}
 _WITHOUT_CAUSE = ("", "unlisted")
-
 Effect = type[OneJointTerm] | type[AllJointsTerm]
 
 

@@ -24,10 +24,8 @@ from .terms.rigid_body import RigidBody
 
 STEPS = (1e-5, 1.0, 1.0)
 """Steps of the differences by position, velocity and acceleration, rad (m), per s, per s2."""
-
 Slopes = tuple[JointSeries, JointSeries, JointSeries]
 """Derivatives of the load by position, velocity and acceleration of one joint."""
-
 InverseDynamics = Callable[[RobotModel, LinkTable, MotionState], JointSeries]
 """Give the torque that moves links of given inertial parameters, N m or N."""
 

@@ -24,7 +24,6 @@ DRIVES = (
 )
 NOTES = (SOURCE, REPRESENTATIVE, FRAMES, BODIES, DRIVES)
 DRIVE_SYMBOLS = ("IA", "FV", "FC", "OFF")
-
 Row = dict[str, object]
 
 

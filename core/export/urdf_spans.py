@@ -6,7 +6,6 @@ from xml.parsers import expat
 
 Span = tuple[int, int]
 """First byte and the one after the last."""
-
 _TAG = re.compile(rb"<(?:\"[^\"]*\"|'[^']*'|[^\"'>])*>")
 _TYPE = re.compile(rb"\stype\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 

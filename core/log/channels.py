@@ -194,7 +194,6 @@ CHANNELS: Final[dict[str, Channel]] = {
     )
 }  # fmt: skip  # a table
 """All channels by name, in the order in which they are listed."""
-
 JOINT_CHANNELS: Final = tuple(channel for channel in CHANNELS.values() if channel.per_joint)
 EFFORTS: Final = tuple(channel.name for channel in JOINT_CHANNELS if channel.need == "effort")
 UNITS: Final = {

@@ -23,7 +23,6 @@ CHUNK_ROWS = 1 << 16
 """Rows read at a time, beside those of one stretch."""
 SHARE_OF_GAPS = 8
 """At most one point in this many marks a gap."""
-
 Rows = Callable[[int, int], tuple[Samples, JointSeries]]
 Stretches = Sequence[tuple[int, int]]
 

@@ -19,7 +19,6 @@ import numpy as np
 from numba import njit
 
 BLOCK = 64
-
 TWO_OVER_PI = 2.0 / np.pi
 HALF_PI_HIGH = float.fromhex("0x1.921fb544p+0")
 """Half of pi to 33 bits, so that its product with a count of quarter turns is exact; the rest follows."""

@@ -20,7 +20,6 @@ from .factor import Factor, FilteredRows, Weigh
 from .memory import LaggedProducts
 
 _POSITIONS_PER_TILE = 32
-
 Progress = Callable[[float], None]
 
 

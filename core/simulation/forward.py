@@ -17,7 +17,6 @@ from .kernel import BLOCK, OPTIONS, ROBOT, mass_of_block, move_block, scratch, t
 
 _TABLE = "float64[:,::1]"
 _NONE = np.empty((0, 0))
-
 Bodies = tuple[np.ndarray, ...]
 """What the kernels need of a robot, in the order of `kernel.ROBOT`."""
 

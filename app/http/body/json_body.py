@@ -16,7 +16,6 @@ from ...problems import Problem
 
 MOST_LEVELS = 32
 LONGEST_REASON = 300
-
 Model = TypeVar("Model", bound=BaseModel)
 
 

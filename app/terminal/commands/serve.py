@@ -20,10 +20,8 @@ if TYPE_CHECKING:
     from ...store.store import Store
 
 DEFAULTS = Settings.model_construct()
-
 OPTIONS = ("host", "port", "data_dir", "workers", "max_upload_bytes", "job_timeout_s")
 """Settings that are options, too."""
-
 OTHERS = ", ".join(PREFIX + name.upper() for name in Settings.model_fields if name not in OPTIONS)
 EPILOG = f"""\b
 Examples:

@@ -21,8 +21,6 @@ from ..output.exit_codes import Exit
 from ..output.streams import say
 
 PAUSE_S = 20.0
-
-
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 

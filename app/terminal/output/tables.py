@@ -10,7 +10,6 @@ from ....core.report.page.units import unit_of_effort
 from .columns import Column, print_table
 
 Document = Mapping[str, Any]
-
 FRICTION: Final = ("OFF", "FC", "FV")
 
 

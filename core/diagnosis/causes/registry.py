@@ -78,10 +78,8 @@ ONLY_CHANGES: tuple[Cause, ...] = tuple(
     change for change in CHANGES if change.id not in {cause.id for cause in CAUSES}
 )
 """Those of them that have no counterpart within a log."""
-
 AGAINST_REFERENCE: tuple[Cause, ...] = (*CHANGES, *CAUSES)
 """Causes that add torque to what a reference predicts."""
-
 SAMPLE_CHECKS: tuple[SampleCheck, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
 """Causes that are found in the raw samples."""
 

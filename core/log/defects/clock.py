@@ -17,10 +17,8 @@ GAP_STEPS = 3.0
 """A step of more than this many median steps is a gap."""
 SHORT_GAP_S = 0.025
 """A gap up to this length (s) is bridged: arms do not move faster than a few hertz."""
-
 UNEVEN = 0.1
 """A step that differs from the median by more than this share is counted as uneven."""
-
 EVEN_DEVIATION = 0.01
 """Steps whose standard deviation is below this share of the median are called even."""
 

@@ -10,7 +10,6 @@ from .stretch import Facts
 
 LARGEST_SPAN = 13.0
 """A revolute joint that moves from minus one turn to plus one spans 12.6 rad."""
-
 LARGEST_TORQUE = 2e4
 RATES_HZ = (2.0, 1e5)
 SHORTEST_SECONDS = 10.0

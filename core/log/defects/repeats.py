@@ -17,7 +17,6 @@ NOTICED = 1e-3
 """A smaller share of repeated rows is not reported."""
 JUMP = 5.0
 """A joint that is farther on after a standstill, in mean increments, has not stood still."""
-
 Rows = tuple[tuple[int, int], ...]
 """(start, stop) rows."""
 

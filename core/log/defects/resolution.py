@@ -15,7 +15,6 @@ from .stretch import Facts, Stretch, sampled_share
 SAMPLED_ROWS = 20_000
 SMALL_STEPS = 20
 """Increments of up to this many steps show the grid; larger ones lose it in rounding."""
-
 FEWEST_INCREMENTS = 50
 ON_GRID = 0.98
 COARSE_POSITION_STEPS = 3.0

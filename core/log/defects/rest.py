@@ -16,7 +16,6 @@ MOST_BLOCKS = 100_000
 SHORTEST_SECONDS = 0.5
 RANGE_SHARE = 2e-4
 """Within a block a joint that moves less than this share of its range rests."""
-
 LSB_SHARE = 1.5
 FROZEN_SPAN = 1e-5
 """A joint whose whole range is below this, in rad or m, never moves."""

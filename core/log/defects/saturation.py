@@ -15,7 +15,6 @@ SHORTEST_PLATEAU = 5
 FEWEST_ROWS = 10
 CROWDING = 5.0
 """The limit must hold this many times more samples than the next level."""
-
 NEAR_LARGEST = 0.9
 """A limit is as far from zero as the torque ever gets, apart from a small asymmetry; zero itself is none."""
 

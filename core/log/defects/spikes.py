@@ -13,7 +13,6 @@ from .stretch import Facts, Stretch, count_text
 
 SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05}
 """Smaller jumps, as a share of the channel's range, are noise to everything that follows."""
-
 NOISE_FACTOR = 20.0
 INCREMENT_FACTOR = 4.0
 RESOLUTION_FACTOR = 3.0

@@ -16,15 +16,12 @@ from ..channels import EFFORTS
 from ..model import Defect, LogSource
 
 Mask = Bool[np.ndarray, " increments"]
-
 STRETCH_ROWS = 32_768
 CONTEXT_ROWS = 4
 """Samples seen before that are given again, as many as a median of five reaches over."""
-
 LEAST_TRAVEL_STEPS = 50.0
 LEAST_TRAVEL = 0.01
 """A joint within this many steps of its resolution, or this many rad or m, is held and not moved."""
-
 SAMPLED_ROWS = 200_000
 """Rows that a statistic may keep which needs all samples at once."""
 

@@ -20,7 +20,6 @@ MAX_MEMBERS = 4 * MAX_COLUMNS
 MAX_DEPTH = 16
 LONGEST_CLASS = 64
 TEXT = (b"char", b"cell")
-
 FILTERS = frozenset({1, 2, 3})
 """Deflate, shuffle and checksum, by HDF5's numbers: what MATLAB writes, and no plug-in."""
 

@@ -14,7 +14,6 @@ from .words import MINUS
 
 _MOST_TICKS = 6
 _MARGIN_LEFT, _MARGIN_RIGHT, _MARGIN_TOP, _MARGIN_BOTTOM = 62.0, 12.0, 26.0, 44.0
-
 Values = Sequence[float]
 
 

@@ -13,7 +13,6 @@ from .svg import Frame, picture, span
 from .words import number, series
 
 Trace = Sequence[float | None]
-
 MOTION = ("position", "velocity")
 MEASURED, FILTERED, ESTIMATED = "torque_measured", "torque_filtered", "torque_estimated"
 PLAIN = (ESTIMATED, "residual")

@@ -5,7 +5,6 @@ joint's number.
 """
 
 LOG, TIME, HELD_OUT, USED = "log", "time", "held_out", "used"
-
 MEASURED = ("position", "velocity", "torque_measured", "torque_filtered")
 PREDICTED = ("torque_estimated", "residual")
 EXTENDED = ("torque_estimated_after", "residual_after")

@@ -23,7 +23,6 @@ GAP_STEPS = 1.5
 """Rows further apart than this many steps have a gap between them."""
 MOST_SPANS = 400
 """Number of spans beyond which neighbours are merged."""
-
 Spans = list[tuple[float, float]]
 
 

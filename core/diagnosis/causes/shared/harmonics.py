@@ -13,7 +13,6 @@ from ..protocol import FittedCause, Quantity, Scalars
 
 Estimate = tuple[float, float]
 """Value and standard deviation."""
-
 DISTINCT = 1.6
 """Two waves whose phases differ by this many radians over the range have a correlation of 0.9."""
 
