@@ -38,9 +38,7 @@ THESE_KEYS = and_(
 THEIR_JOB = and_(JOBS.c.tenant == REPEATS.c.tenant, JOBS.c.id == REPEATS.c.job_id)
 REPEATED = (
     select(REPEATS.c.key, REPEATS.c.digest, JOBS)
-    .join_from(
-        REPEATS, JOBS, and_(JOBS.c.tenant == REPEATS.c.tenant, JOBS.c.id == REPEATS.c.job_id), isouter=True
-    )
+    .join_from(REPEATS, JOBS, THEIR_JOB, isouter=True)
     .where(THESE_KEYS)
 )
 FORGET = delete(REPEATS).where(THESE_KEYS)

@@ -33,15 +33,7 @@ def content(identified: IdentifiedRobot) -> dict[str, object]:
     return {
         "format": "veritorque-parameters",
         "format_version": "1.0",
-        "notes": [
-            SOURCE,
-            REPRESENTATIVE,
-            FRAMES,
-            BODIES,
-            DRIVES,
-            *identified.remarks,
-            *smoothing(identified),
-        ],
+        "notes": [*NOTES, *identified.remarks, *smoothing(identified)],
         "robot": robot.name,
         "gravity": [float(value) for value in robot.gravity],
         "links": [_link(number, link, values) for number, link in enumerate(robot.links, start=1)],

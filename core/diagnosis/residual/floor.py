@@ -26,15 +26,14 @@ _BELOW_NYQUIST, _POINTS = 0.499, 4096
 
 @dataclass(frozen=True, eq=False)
 class NoiseFloor:
-    """Hold the noise per joint in the look's band, N m (N) RMS, by every way that was open."""
+    """Hold the noise per joint in the data set's band, N m (N) RMS."""
 
     rms: JointVector
     source: tuple[FloorSource, ...]
     """The value to use, and which way it came from: repeats before the high band; NaN and ``none`` where
     neither was open."""
-    from_high_band: JointVector
     from_repeats: JointVector
-    """The values of both ways; NaN where a way was not open."""
+    """The values from repeats; NaN where that way was not open."""
     tilt: JointVector
     """Power density of the high band's lower half over its upper half: 1 for white noise, above where noise
     grows towards low frequencies, NaN where there is no high band."""
@@ -43,12 +42,12 @@ class NoiseFloor:
 
 
 def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
-    """Estimate the noise in a look's band from repeats of the motion, and from the raw torque's high band.
+    """Estimate the noise in a data set's band from repeats of the motion and from the torque's high band.
 
     Parameters
     ----------
     residual
-        Measured minus predicted torque at the look's rows, N m or N; only its differences between repeats
+        Measured minus predicted torque at the data set's rows, N m or N; only its differences between repeats
         count, so it may come from any model, or be the torque itself.
     """
     high, tilt = _from_high_band(dataset)
@@ -62,7 +61,6 @@ def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
     return NoiseFloor(
         rms=np.where(use, repeated, high),
         source=source,
-        from_high_band=high,
         from_repeats=repeated,
         tilt=tilt,
         period=None if found is None else found.period,
