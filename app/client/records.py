@@ -32,10 +32,7 @@ class Robot:
     def from_document(cls, document: Document) -> Self:
         """Read an answer of `/v1/robots`."""
         return cls(
-            id=document["id"],
-            name=document["name"],
-            joints=document["joints"],
-            built_in=document["built_in"],
+            **{name: document[name] for name in ("id", "name", "joints", "built_in")},
             suspicions=tuple(document.get("suspicions", ())),
             description=document.get("description", {}),
         )
@@ -80,12 +77,8 @@ class Log:
 
 def _defect(document: Document) -> Defect:
     return Defect(
-        kind=document["kind"],
-        channel=document["channel"],
-        joint=document["joint"],
-        count=document["count"],
+        **{name: document[name] for name in ("kind", "channel", "joint", "count", "statement")},
         intervals=tuple((float(start), float(end)) for start, end in document["intervals"]),
-        statement=document["statement"],
     )
 
 

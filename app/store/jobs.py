@@ -11,23 +11,23 @@ stands in `app.store.queueing`, what workers do to them in `app.store.work`.
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, and_, bindparam, delete, select, update
+from sqlalchemy import Connection, Row, and_, select, update
 
-from .database import Database
 from .queueing import NewJob, Outcome, queue_all
-from .records import UNBOUNDED, UNFINISHED, JobRecord, JobRequestRecord, Quota
+from .records import UNFINISHED, JobRecord, JobRequestRecord
 from .tables import JOBS, job_record, now, request_record
-
-OURS = JOBS.c.tenant == bindparam("tenant")
-FIND = select(JOBS).where(OURS, JOBS.c.id == bindparam("id"))
+from .tenant_records import TenantRecords
 
 
-class JobStore:
+class JobStore(TenantRecords[JobRecord]):
     """Keep one tenant's jobs in the database."""
 
-    def __init__(self, database: Database, tenant: str, quota: Quota = UNBOUNDED) -> None:
-        self._database, self._tenant, self._quota = database, tenant, quota
+    table = JOBS
+
+    def _record(self, row: Row[Any]) -> JobRecord:
+        return job_record(row)
 
     def add(
         self, request: JobRequestRecord, *, key: str | None = None, trace: str | None = None
@@ -62,19 +62,6 @@ class JobStore:
 
         return wait
 
-    def get(self, identity: str) -> JobRecord | None:
-        """Find a job."""
-        return self._database.read(lambda connection: self._find(connection, identity))
-
-    def page(self, *, limit: int, before: int | None = None) -> list[JobRecord]:
-        """List jobs, the newest first, from before a sequence number on."""
-        query = select(JOBS).where(JOBS.c.tenant == self._tenant).order_by(JOBS.c.sequence.desc())
-        if before is not None:
-            query = query.where(JOBS.c.sequence < before)
-        return self._database.read(
-            lambda connection: [job_record(row) for row in connection.execute(query.limit(limit))]
-        )
-
     def dismiss(self, identity: str) -> JobRecord | None:
         """Mark an unfinished job dismissed; give the job as it is then, None where there is none."""
         values = {"state": "dismissed", "finished_at": now(), "version": JOBS.c.version + 1}
@@ -88,10 +75,7 @@ class JobStore:
 
     def remove(self, identity: str) -> bool:
         """Forget a finished job, and say whether there was one."""
-        finished = and_(self._own(identity), JOBS.c.state.not_in(UNFINISHED))
-        return self._database.write(
-            lambda connection: connection.execute(delete(JOBS).where(finished)).rowcount > 0
-        )
+        return self._removed(and_(self._own(identity), JOBS.c.state.not_in(UNFINISHED)))
 
     def unfinished_requests(self) -> list[JobRequestRecord]:
         """List what unfinished jobs need."""
@@ -99,10 +83,3 @@ class JobStore:
         return self._database.read(
             lambda connection: [request_record(text) for text in connection.execute(query).scalars()]
         )
-
-    def _own(self, identity: str) -> ColumnElement[bool]:
-        return and_(JOBS.c.tenant == self._tenant, JOBS.c.id == identity)
-
-    def _find(self, connection: Connection, identity: str) -> JobRecord | None:
-        row = connection.execute(FIND, {"tenant": self._tenant, "id": identity}).one_or_none()
-        return None if row is None else job_record(row)

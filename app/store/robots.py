@@ -2,20 +2,24 @@
 
 import hashlib
 import json
+from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, and_, delete, select
+from sqlalchemy import Connection, Row, select
 
 from ..json_text import canonical_json
-from .database import Database, insert_if_new
+from .database import insert_if_new
 from .records import Document, RobotRecord
 from .tables import ROBOTS, now, robot_record
+from .tenant_records import TenantRecords
 
 
-class RobotStore:
+class RobotStore(TenantRecords[RobotRecord]):
     """Keep one tenant's robots in the database."""
 
-    def __init__(self, database: Database, tenant: str) -> None:
-        self._database, self._tenant = database, tenant
+    table = ROBOTS
+
+    def _record(self, row: Row[Any]) -> RobotRecord:
+        return robot_record(row)
 
     def add(
         self, *, name: str, joints: int, description: Document, suspicions: tuple[str, ...]
@@ -40,26 +44,3 @@ class RobotStore:
             return robot_record(connection.execute(select(ROBOTS).where(self._own(identity))).one())
 
         return self._database.write(work)
-
-    def get(self, identity: str) -> RobotRecord | None:
-        """Find a robot."""
-        query = select(ROBOTS).where(self._own(identity))
-        row = self._database.read(lambda connection: connection.execute(query).one_or_none())
-        return None if row is None else robot_record(row)
-
-    def page(self, *, limit: int, before: int | None = None) -> list[RobotRecord]:
-        """List robots, the newest first, from before a sequence number on."""
-        query = select(ROBOTS).where(ROBOTS.c.tenant == self._tenant).order_by(ROBOTS.c.sequence.desc())
-        if before is not None:
-            query = query.where(ROBOTS.c.sequence < before)
-        return self._database.read(
-            lambda connection: [robot_record(row) for row in connection.execute(query.limit(limit))]
-        )
-
-    def remove(self, identity: str) -> bool:
-        """Forget a robot, and say whether it was there."""
-        gone = delete(ROBOTS).where(self._own(identity))
-        return self._database.write(lambda connection: connection.execute(gone).rowcount > 0)
-
-    def _own(self, identity: str) -> ColumnElement[bool]:
-        return and_(ROBOTS.c.tenant == self._tenant, ROBOTS.c.id == identity)

@@ -6,6 +6,7 @@ order what clocks cannot: a clock may be set back an hour.
 
 import json
 from collections.abc import Iterable
+from dataclasses import fields
 from datetime import UTC, datetime
 from typing import Any
 
@@ -130,6 +131,9 @@ def written(time: datetime) -> str:
     return time.isoformat(timespec="milliseconds")
 
 
+_AS_KEPT = [field.name for field in fields(JobRecord) if field.name not in ("request", "problem")]
+
+
 def request_record(text: str) -> JobRequestRecord:
     """Read what was asked for."""
     asked = json.loads(text)
@@ -139,23 +143,9 @@ def request_record(text: str) -> JobRequestRecord:
 def job_record(row: Row[Any]) -> JobRecord:
     """Read a job."""
     return JobRecord(
-        tenant=row.tenant,
-        id=row.id,
-        sequence=row.sequence,
         request=request_record(row.request),
-        trace=row.trace,
-        state=row.state,
-        stage=row.stage,
-        fraction=row.fraction,
-        attempts=row.attempts,
-        token=row.token,
-        version=row.version,
         problem=None if row.problem is None else json.loads(row.problem),
-        result_sha256=row.result_sha256,
-        traces_sha256=row.traces_sha256,
-        created_at=row.created_at,
-        started_at=row.started_at,
-        finished_at=row.finished_at,
+        **{name: getattr(row, name) for name in _AS_KEPT},
     )
 
 
