@@ -68,17 +68,17 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     ExcitationError
         If the logs are too short to hold anything out.
     """
-    tell = progress or _say_nothing
-    faults, dataset = _checked_samples(problem)
+    tell = progress or _no_progress
+    faults, dataset = _check_samples(problem)
     refuse_too_little(dataset.clear)
-    found = _searched(_fitter(problem, dataset), tell)
+    found = _search_causes(_fitter(problem, dataset), tell)
     tell("compare alternatives", 0.6)
-    found, comparisons = _compared(found)
+    found, comparisons = _compare(found)
     fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
     after = residual(fitter, chosen)
     unnamed = _unnamed_pattern(found, after)
     statistic = 0.0 if unnamed is None else unnamed.statistic
-    unnamed = _clearest(unnamed, burst(dataset, after))
+    unnamed = _most_significant(unnamed, burst(dataset, after))
     findings = [finding(found, own, after, statistic) for own in comparisons] + faults
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)
@@ -110,7 +110,7 @@ def _fitter(problem: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
     return hypothesis_fitter(dataset, problem.plan, causes, prior)
 
 
-def _searched(fitter: HypothesisFitter, tell: Progress) -> SearchState:
+def _search_causes(fitter: HypothesisFitter, tell: Progress) -> SearchState:
     """Search for causes, and on with other blocks held out where one holds what no other shows."""
 
     def progress(done: float) -> None:
@@ -141,7 +141,7 @@ def _search(
     return restart_at_operating_point(found)
 
 
-def _compared(found: SearchState) -> tuple[SearchState, list[Comparison]]:
+def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
     """Keep the causes that hold against their alternatives, and search for what the others kept out."""
     kept, comparisons = compare_alternatives(replace(found, excluded={}))
     if kept.excluded:
@@ -160,7 +160,7 @@ def _residual_before(found: SearchState) -> JointSeries:
     return residual(found.fitter, found.chosen, range(len(found.chosen.members)))
 
 
-def _checked_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
+def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
     """Check the samples at a wide band, then limit the band to where positions are not all noise."""
     fits: list[Fitted] = []
     plain: list[Explained] = []
@@ -216,16 +216,16 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
 def _unnamed_pattern(found: SearchState, left: JointSeries) -> UnnamedPattern | None:
     """Give the clearest pattern that the residual follows and no listed cause has."""
     patterns = (unnamed_candidates(found.fitter), switching_candidates(found.fitter, found.chosen, left))
-    fitted = [_fitted_pattern(found, candidates) for candidates in patterns]
-    return _clearest(*fitted, bounded_residual(found.fitter.dataset, left))
+    fitted = [_fit_pattern(found, candidates) for candidates in patterns]
+    return _most_significant(*fitted, bounded_residual(found.fitter.dataset, left))
 
 
-def _clearest(*patterns: UnnamedPattern | None) -> UnnamedPattern | None:
+def _most_significant(*patterns: UnnamedPattern | None) -> UnnamedPattern | None:
     present = (pattern for pattern in patterns if pattern is not None)
     return max(present, key=lambda pattern: pattern.statistic, default=None)
 
 
-def _fitted_pattern(found: SearchState, candidates: tuple[Candidate, ...]) -> UnnamedPattern | None:
+def _fit_pattern(found: SearchState, candidates: tuple[Candidate, ...]) -> UnnamedPattern | None:
     larger = best_unnamed_pattern(found.fitter, found.chosen, candidates)
     if larger is None:
         return None
@@ -249,15 +249,15 @@ def _verdict(
 
     What faulty samples leave follows patterns, too: not on joints where a sample check explains a part.
     """
-    if unnamed is not None and unnamed.statistic > most and unnamed.joint not in _spoilt(findings):
+    if unnamed is not None and unnamed.statistic > most and unnamed.joint not in _faulty_joints(findings):
         return "unexplained"
     left = [joint for joint in predictable if joint.interval[0] > VERDICT.unexplained_share]
-    if _exceeds(left, findings):
+    if _exceeds_findings(left, findings):
         return "unexplained"
     return "causes_found" if findings else "nothing_found"
 
 
-def _exceeds(left: Sequence[Predictable], findings: Sequence[Finding]) -> bool:
+def _exceeds_findings(left: Sequence[Predictable], findings: Sequence[Finding]) -> bool:
     """Tell whether what is predictable on some joint is more than the findings explain there."""
     if not findings:
         return bool(left)
@@ -265,7 +265,7 @@ def _exceeds(left: Sequence[Predictable], findings: Sequence[Finding]) -> bool:
     return any(joint.share > explained.get(joint.joint, 0.0) for joint in left)
 
 
-def _spoilt(findings: Sequence[Finding]) -> set[int]:
+def _faulty_joints(findings: Sequence[Finding]) -> set[int]:
     """Give the joints on which a sample check explains a part."""
     checks = (finding for finding in findings if finding.member is None)
     return {
@@ -276,5 +276,5 @@ def _spoilt(findings: Sequence[Finding]) -> set[int]:
     }
 
 
-def _say_nothing(_stage: str, _fraction: float) -> None:
+def _no_progress(_stage: str, _fraction: float) -> None:
     pass

@@ -22,7 +22,7 @@ from sklearn.linear_model import LogisticRegression
 from tests.hidden.plan import Order, drawn, orders
 from tests.hidden.score import score
 from tests.plant.cases import Impossible
-from veritorque.core.diagnosis.checks.confidence import CALIBRATION, Calibration, probability, written
+from veritorque.core.diagnosis.checks.confidence import CALIBRATION, Calibration, coefficients, probability
 from veritorque.core.document.diagnosis import diagnosis_document
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
 
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str]) -> int:
         "reliability": reliability(found, checked),
         "command": "python -m tests.hidden calibrate " + " ".join(arguments),
     }
-    text = json.dumps(written(found) | {"provenance": provenance}, indent=2) + "\n"
+    text = json.dumps(coefficients(found) | {"provenance": provenance}, indent=2) + "\n"
     sys.stdout.write(f"before: Brier {brier(Calibration.read(), checked):.4f} on the checked seeds\n{text}")
     if asked.write:
         CALIBRATION.write_text(text, encoding="utf-8")

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from tests.hidden.calibrate import Sample, brier, fit, reliability
-from veritorque.core.diagnosis.checks.confidence import CALIBRATION, Calibration, probability, written
+from veritorque.core.diagnosis.checks.confidence import CALIBRATION, Calibration, coefficients, probability
 
 TRUE = Calibration(offset=-0.5, per_strength=1.2, per_lead=0.4, per_gain=0.3)
 
@@ -17,8 +17,8 @@ def findings(count, seed):
 
 def test_the_calibration_that_findings_were_drawn_from_is_found():
     found = fit(findings(20_000, 0))
-    for name, value in written(TRUE).items():
-        assert written(found)[name] == pytest.approx(value, abs=0.1)
+    for name, value in coefficients(TRUE).items():
+        assert coefficients(found)[name] == pytest.approx(value, abs=0.1)
 
 
 def test_a_calibrated_confidence_is_the_share_of_right_findings():
@@ -30,6 +30,6 @@ def test_a_calibrated_confidence_is_the_share_of_right_findings():
 
 def test_the_file_that_the_code_reads_states_every_coefficient():
     read = Calibration.read()
-    assert all(np.isfinite(list(written(read).values())))
+    assert all(np.isfinite(list(coefficients(read).values())))
     assert 0.0 < probability(read, (-1.0, -1.0, -1.0)) < probability(read, (2.0, 4.0, 1.0)) < 1.0
     assert CALIBRATION.name == "confidence.json"

@@ -8,7 +8,7 @@ import numpy as np
 from ...dynamics.term import Term
 from ...dynamics.terms.external_contact import WRENCH, Contact, Span, pushed
 from ..dataset.dataset import Dataset
-from ..dataset.spikes import spiked
+from ..dataset.spikes import has_spike
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
 from ..thresholds.causes import ADMISSIBLE, EVENTS
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting, Site, number_text
@@ -56,7 +56,7 @@ class ExternalContact(OwnJointCause):
         found = find_events(
             at.dataset.time, push, left, inverse_covariances(at.dataset, left, mask), most=ADMISSIBLE.contacts
         )
-        spans = sorted(span for span in found if not spiked(at.dataset.motions[0].log, span))
+        spans = sorted(span for span in found if not has_spike(at.dataset.motions[0].log, span))
         if not spans:
             return []
         return [

@@ -14,7 +14,7 @@ import numpy as np
 from ..causes.imitation import imitations
 from ..causes.masking import excludes
 from ..result import Alternative, Gain
-from ..search.confounding import keeps_beside, masked_by_last
+from ..search.confounding import is_masked_by_last, keeps_beside
 from ..search.entry_test import passes_holdout, with_candidate
 from ..search.fitter import HypothesisFitter
 from ..search.holdout import holdout_share
@@ -60,7 +60,7 @@ def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparis
     while True:
         comparisons = [_comparison(state, index, unnamed) for index in range(len(state.chosen.members))]
         most = max((own.statistic for own in comparisons), default=0.0)
-        weak = [own for own in comparisons if _falls(state, own, alone=own.statistic >= most)]
+        weak = [own for own in comparisons if _is_dropped(state, own, alone=own.statistic >= most)]
         if not weak:
             return state, comparisons
         least = min(weak, key=lambda own: own.statistic)
@@ -74,13 +74,13 @@ def _comparison(state: SearchState, index: int, unnamed: tuple[Candidate, ...]) 
     return replace(own, over_unnamed=_over_unnamed(state.fitter, own, unnamed))
 
 
-def _falls(state: SearchState, own: Comparison, *, alone: bool) -> bool:
+def _is_dropped(state: SearchState, own: Comparison, *, alone: bool) -> bool:
     """Tell whether a member is inadmissible or a surrogate."""
     return (
-        not state.chosen.allows(own.index)
+        not state.chosen.admits(own.index)
         or (own.margin < -SELECTION.undecided and not alone)
         or _reduces_no_error(state.fitter, state.chosen, own, alone=alone)
-        or _beaten_by_unnamed(own)
+        or _pattern_is_better(own)
     )
 
 
@@ -95,7 +95,7 @@ def _reduces_no_error(fitter: HypothesisFitter, chosen: Hypothesis, own: Compari
     gains = list(_gains(fitter, chosen, own))
     if alone or expected < ALTERNATIVES.least_expected:
         return any(there.interval_95[1] < 0.0 for there, _ in gains)
-    return bool(gains) and all(starmap(_refuted_unseen, gains))
+    return bool(gains) and all(starmap(_holdout_refutes, gains))
 
 
 def _gains(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison) -> Iterator[tuple[Gain, Gain]]:
@@ -111,7 +111,7 @@ def _gains(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison) -> Ite
             yield there, here
 
 
-def _refuted_unseen(there: Gain, here: Gain) -> bool:
+def _holdout_refutes(there: Gain, here: Gain) -> bool:
     """Tell whether held-out rows show no gain, and contradict that of the fitted rows if there is one."""
     low, high = there.interval_95
     none = there.total_percent < 0.0 and here.total_percent < 0.0
@@ -128,7 +128,7 @@ def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Cand
     return np.inf if unnamed_pattern is None else own.bic_gain - bic_gain(own.without, unnamed_pattern)
 
 
-def _beaten_by_unnamed(own: Comparison) -> bool:
+def _pattern_is_better(own: Comparison) -> bool:
     """Tell whether an unnamed pattern explains much more than a member in its place."""
     if own.member.cause.traits.transient:
         return own.over_unnamed < ALTERNATIVES.event_share * own.statistic
@@ -144,18 +144,18 @@ def compare_member(state: SearchState, index: int) -> Comparison:
     own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
     for trial in _trials(state, without):
         other, ratio = trial.members[-1], likelihood_ratio(without, trial)
-        if keeps_beside(fitter, own, other, ratio) or masked_by_last(fitter, own, other):
+        if keeps_beside(fitter, own, other, ratio) or is_masked_by_last(fitter, own, other):
             continue
         behind = own_gain - bic_gain(without, trial)
-        why = _inadmissible(fitter, without, trial)
+        why = _objection(fitter, without, trial)
         if not why:
             margin = min(margin, behind)
         # One that explains no more besides than position noise might refutes nobody.
-        like = _by_position_noise(fitter, own, (member, other))
-        if not why and behind < max(like, _undecided_below(member, other, own_ratio)):
-            ambiguous.append(_undecided(member, other, ratio, behind, like))
+        like = _noise_statistic(fitter, own, (member, other))
+        if not why and behind < max(like, _undecided_bound(member, other, own_ratio)):
+            ambiguous.append(_undecided_alternative(member, other, ratio, behind, like))
         elif ratio > ALTERNATIVES.worth_naming * own_ratio:
-            refuted.append(_refuted(other, ratio, own_ratio, why))
+            refuted.append(_refuted_alternative(other, ratio, own_ratio, why))
     return Comparison(
         index, member, own_ratio, own_gain, float(margin), tuple(ambiguous), tuple(refuted), without
     )
@@ -175,12 +175,12 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 
 
-def _undecided_below(member: Candidate, other: Candidate, own_ratio: float) -> float:
+def _undecided_bound(member: Candidate, other: Candidate, own_ratio: float) -> float:
     known = imitations(member.cause.id).get(other.cause.id)
     return max(SELECTION.undecided, (known.share if known else ALTERNATIVES.other_share) * own_ratio)
 
 
-def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
+def _noise_statistic(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Candidate, ...]) -> float:
     """Give the statistic that position noise may give two candidates: none where one is unlike it."""
     if not all(candidate.cause.traits.like_position_noise for candidate in both):
         return 0.0
@@ -191,7 +191,7 @@ def _by_position_noise(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Ca
     return min(max(worth[joint - 1] for joint in candidate.site or every) for candidate in both)
 
 
-def _undecided(
+def _undecided_alternative(
     member: Candidate, other: Candidate, statistic: float, behind: float, like: float
 ) -> Alternative:
     known = imitations(member.cause.id).get(other.cause.id)
@@ -203,14 +203,14 @@ def _undecided(
     )
 
 
-def _inadmissible(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis) -> str:
+def _objection(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis) -> str:
     """Say why an alternative cannot take a finding's place; empty where it can."""
-    if not trial.possible:
+    if not trial.admissible:
         return "fits only with a sign or size that is not physically admissible"
     return "" if passes_holdout(fitter, without, trial) else "does not help on held-out data"
 
 
-def _refuted(other: Candidate, statistic: float, own: float, inadmissible: str) -> Alternative:
+def _refuted_alternative(other: Candidate, statistic: float, own: float, inadmissible: str) -> Alternative:
     why = (
         f"{inadmissible} (log-likelihood ratio statistic {statistic:.1f})"
         if inadmissible

@@ -38,7 +38,7 @@ def switching_candidates(
         rows = int(np.count_nonzero(usable))
         if rows < UNNAMED.least_rows or dataset.log.any():
             continue
-        ways = list(_ways(dataset.time, joint, np.where(usable, series, 0.0), rows))
+        ways = list(_change_sets(dataset.time, joint, np.where(usable, series, 0.0), rows))
         chances = [
             log_chi2_tail(scored.statistic, scored.freedom) + np.log(way.trials)
             for scored, way in zip(fitter.score(now, ways), ways, strict=True)
@@ -48,7 +48,7 @@ def switching_candidates(
     return tuple(found)
 
 
-def _ways(time: Samples, joint: int, series: Samples, rows: int) -> Iterator[Candidate]:
+def _change_sets(time: Samples, joint: int, series: Samples, rows: int) -> Iterator[Candidate]:
     """Give a joint's sets of change points that are neither too few nor too many to be tested."""
     for changes in _changes(series):
         trials = _log_trials(len(changes), rows / BAND.rows)

@@ -41,7 +41,7 @@ class Calibration:
         return Calibration(*(fields.number(name) for name in scalar_meanings(Calibration)))
 
 
-def written(found: Calibration) -> dict[str, object]:
+def coefficients(found: Calibration) -> dict[str, object]:
     """Give the coefficients as they stand in the file."""
     return {name: round(value, 4) for name, value in asdict(found).items()}
 

@@ -43,7 +43,7 @@ def curve(
     joint = max(torque, key=lambda joint: _share(torque[joint], left[0][:, joint], dataset.usable[:, joint]))
     name = STAND_IN.get(member.cause.coordinate, member.cause.coordinate)
     if name == "other_velocity":
-        name = _of_other(joint, member.site)
+        name = _other_velocity(joint, member.site)
     along = coordinate(dataset, operating_point, name, joint + 1) or coordinate(
         dataset, operating_point, "time", joint + 1
     )
@@ -51,7 +51,7 @@ def curve(
         return None
     rows = np.flatnonzero(dataset.clear[:, joint])
     own, forward = torque[joint][rows], dataset.state.velocity[rows, joint] > 0.0
-    together, apart = _binned(rows, along.values), _apart(rows, forward, along.values)
+    together, apart = _bins(rows, along.values), _bins_by_direction(rows, forward, along.values)
     share, share_apart = _explained_by_means(own, rows, together), _explained_by_means(own, rows, apart)
     split = share < TOLD and share_apart > share
     groups = apart if split else together
@@ -59,33 +59,33 @@ def curve(
         coordinate=along.name,
         unit=along.unit,
         joint=joint + 1,
-        centre=_over(groups, along.values, np.median),
-        before=_over(groups, left[0][:, joint], np.mean),
-        after=_over(groups, left[1][:, joint], np.mean),
-        model=_over(groups, torque[joint], np.mean),
-        standard_error=_over(groups, left[1][:, joint], np.std) / np.sqrt(list(map(len, groups))),
-        direction=_over(groups, np.sign(dataset.state.velocity[:, joint]), np.median)
+        centre=_bin_values(groups, along.values, np.median),
+        before=_bin_values(groups, left[0][:, joint], np.mean),
+        after=_bin_values(groups, left[1][:, joint], np.mean),
+        model=_bin_values(groups, torque[joint], np.mean),
+        standard_error=_bin_values(groups, left[1][:, joint], np.std) / np.sqrt(list(map(len, groups))),
+        direction=_bin_values(groups, np.sign(dataset.state.velocity[:, joint]), np.median)
         if split
         else np.zeros(len(groups)),
     )
 
 
-def _of_other(joint: int, site: Site) -> str:
+def _other_velocity(joint: int, site: Site) -> str:
     """Name the velocity of the other joint of a pair."""
     others = [other for other in site if other != joint + 1]
     return f"velocity_of_joint_{others[0]}" if others else "velocity"
 
 
-def _binned(rows: Indices, along: Vector, bins: int = BINS) -> list[Indices]:
+def _bins(rows: Indices, along: Vector, bins: int = BINS) -> list[Indices]:
     """Sort rows along a coordinate into groups of equal size."""
     order = rows[np.argsort(along[rows], kind="stable")]
     return [group for group in np.array_split(order, bins) if len(group) >= 2]
 
 
-def _apart(rows: Indices, forward: np.ndarray, along: Vector) -> list[Indices]:
+def _bins_by_direction(rows: Indices, forward: np.ndarray, along: Vector) -> list[Indices]:
     """Do the same for backward and for forward motion, one after the other."""
     return [
-        group for part in (rows[~forward], rows[forward]) for group in _binned(part, along, max(BINS // 2, 1))
+        group for part in (rows[~forward], rows[forward]) for group in _bins(part, along, max(BINS // 2, 1))
     ]
 
 
@@ -98,7 +98,7 @@ def _explained_by_means(torque: Vector, rows: Indices, groups: list[Indices]) ->
     return 1.0 - within / max(total, 1e-300)
 
 
-def _over(groups: list[Indices], values: Vector, measure: Callable[[Weights], np.floating]) -> Weights:
+def _bin_values(groups: list[Indices], values: Vector, measure: Callable[[Weights], np.floating]) -> Weights:
     return np.array([float(measure(values[group])) for group in groups])
 
 

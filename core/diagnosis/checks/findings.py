@@ -35,7 +35,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         finding's, the finding may be no more than its trace.
     """
     fitter, chosen, index = found.fitter, found.chosen, own.index
-    dataset, left = fitter.dataset, (_without(fitter, chosen, index, own), after)
+    dataset, left = fitter.dataset, (_baseline(fitter, chosen, index, own), after)
     member, solved = chosen.members[index], chosen.in_joint_units(index, fitter.dataset.robot)
     cause = member.cause
     columns = fitter.columns([member])[0]
@@ -55,7 +55,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         confidence=confidence(evidence),
         predictors=evidence,
         p_value=float(np.exp(log_p)),
-        explained_fraction=_explained(left, dataset.usable & ~dataset.held_out[:, None], joints),
+        explained_fraction=_fraction(left, dataset.usable & ~dataset.held_out[:, None], joints),
         evidence=(*_evidence(own, log_p, member.trials), *_on_holdout(fitter, chosen, index, own)),
         ambiguous_with=own.ambiguous,
         refuted=own.refuted,
@@ -114,7 +114,7 @@ def _over_unnamed(own: Comparison) -> tuple[Evidence, ...]:
     return (Evidence(statement, "lead over the nameless", own.over_unnamed),)
 
 
-def _explained(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
+def _fraction(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:
     """Give the share of the residual's mean square that a finding explains on the joint it helps most."""
     sums = [(series**2 * mask).sum(axis=0)[list(joints)] for series in left]
     return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
@@ -143,6 +143,6 @@ def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -
     )
 
 
-def _without(fitter: HypothesisFitter, chosen: Hypothesis, index: int, own: Comparison) -> JointSeries:
+def _baseline(fitter: HypothesisFitter, chosen: Hypothesis, index: int, own: Comparison) -> JointSeries:
     """Give the residual without a finding: all else fitted again, or, against a reference, kept as it is."""
     return residual(fitter, own.without) if fitter.prior is None else residual(fitter, chosen, (index,))

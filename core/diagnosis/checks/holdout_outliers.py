@@ -14,7 +14,7 @@ import numpy as np
 from ...arrays import Indices, Vector
 from ..dataset.dataset import Dataset
 from ..regression.prewhitening import prewhitened_residual
-from ..regression.rows import extended
+from ..regression.rows import append_columns
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 from ..thresholds.search import HOLDOUT
@@ -25,7 +25,7 @@ Explained = tuple[HypothesisFitter, Hypothesis]
 
 def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
     """Tell whether the error of a held-out block is far larger than that of any fitted one."""
-    holdout = extended(fitter.rows.held_out, fitter.columns(found.members))
+    holdout = append_columns(fitter.rows.held_out, fitter.columns(found.members))
     for part, fitted, seen in zip(holdout, found.fit.joints, fitter.rows.fitted, strict=True):
         missed = (part.torque - part.columns @ found.fit.values)[:, None]
         left = prewhitened_residual(part, fitted.noise, missed)[:, 0]

@@ -31,14 +31,14 @@ def best_unnamed_pattern(
 ) -> Hypothesis | None:
     """Give a hypothesis with the pattern that explains most of what another leaves; None where none does."""
     scans = fitter.scan(now, unnamed)[: UNNAMED.tried]
-    trials = [fitter.fit_with(now, _finest(fitter, now, scan.candidate)) for scan in scans]
+    trials = [fitter.fit_with(now, _refine_pattern(fitter, now, scan.candidate)) for scan in scans]
     clear = [trial for trial in trials if is_significant(fitter, now, trial, fitter.dataset.joints)]
     whole = [fitter.fit(trial.members, trial) for trial in clear]
     ranked = sorted(whole, key=lambda trial: -bic_gain(now, trial))
     return next((trial for trial in ranked if passes_holdout(fitter, now, trial)), None)
 
 
-def _finest(fitter: HypothesisFitter, now: Hypothesis, found: Candidate) -> Candidate:
+def _refine_pattern(fitter: HypothesisFitter, now: Hypothesis, found: Candidate) -> Candidate:
     """Refine a pattern: give the likeliest around one."""
     around = [replace(found, scalars=scalars) for scalars in _UNLISTED.finer(fitter.dataset, found.scalars)]
     best = max(zip(fitter.score(now, around), around, strict=True), key=lambda pair: pair[0].statistic)[1]

@@ -45,7 +45,7 @@ class UnnamedPatternCause(OwnJointCause):
         """List all patterns with their numbers."""
         return [
             _scalars(name, numbers)
-            for name, numbers in _fixed(at.dataset.joints, at.joint, _seconds(at.dataset))
+            for name, numbers in _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
         ]
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
@@ -71,11 +71,11 @@ class UnnamedPatternCause(OwnJointCause):
 
     def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
-        return f"The residual of joint {solved.site[0]} follows {_words(*_read(solved.scalars))}"
+        return f"The residual of joint {solved.site[0]} follows {_pattern_words(*_read(solved.scalars))}"
 
 
 @cache
-def _fixed(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], ...]:
+def _patterns(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers], ...]:
     others = [joint for joint in range(1, joints + 1) if joint != own]
     out: list[tuple[str, Numbers]] = [
         ("speeds", (float(joint), float(other)))
@@ -115,7 +115,7 @@ def _read(scalars: Scalars) -> tuple[str, Numbers]:
     )
 
 
-def _words(pattern: str, numbers: Numbers) -> str:
+def _pattern_words(pattern: str, numbers: Numbers) -> str:
     if pattern == "speeds":
         first, second = (int(joint) for joint in numbers)
         return (

@@ -123,7 +123,7 @@ class Dataset:
             for entries, width in shapes
         ]
         for stretch in self.stretches:
-            for index, filtered in _filtered(terms, self.robot, stretch):
+            for index, filtered in _filter(terms, self.robot, stretch):
                 for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
                     out[index][joint][stretch.rows, parameter] += row
         return out
@@ -232,7 +232,7 @@ def _options(log: JointLog, width: float) -> FilterOptions:
     )
 
 
-def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+def _filter(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
     """Filter the series of some terms over a stretch; give each term's with its number."""
     batch: dict[int, Series] = {}
     for index, term in enumerate(terms):
@@ -241,13 +241,13 @@ def _filtered(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Ite
             continue
         batch[index] = term.series(robot, stretch.state)
         if sum(len(series) for series in batch.values()) >= BATCH:
-            yield from _filtered_together(batch, stretch)
+            yield from _filter_batch(batch, stretch)
             batch.clear()
     if batch:
-        yield from _filtered_together(batch, stretch)
+        yield from _filter_batch(batch, stretch)
 
 
-def _filtered_together(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+def _filter_batch(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
     ends = np.cumsum([len(series) for series in batch.values()])[:-1]
     filtered = stretch.filtered(np.vstack(list(batch.values())))
     yield from zip(batch, np.split(filtered, ends), strict=True)

@@ -18,7 +18,7 @@ from ...signals.segment import Segment
 from ...signals.state import MotionState
 from ..thresholds.dataset import BAND, ROWS
 from .spikes import without_spikes
-from .stiction import resting, sticking
+from .stiction import rest_mask, stiction_columns
 from .stretch import Stretch
 
 
@@ -47,16 +47,17 @@ def segments_of(number: int, motion: Motion, robot: RobotModel, share: float) ->
         size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
         firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
         out += [
-            _piece(number, motion, robot, segment, (int(first), int(first) + size), done) for first in firsts
+            _segment(number, motion, robot, segment, (int(first), int(first) + size), done)
+            for first in firsts
         ]
         done += segment.kept
     return out
 
 
-def _piece(
+def _segment(
     number: int, motion: Motion, robot: RobotModel, segment: Segment, kept: tuple[int, int], done: int
 ) -> DatasetSegment:
-    recipe = motion.recipe
+    recipe, still = motion.recipe, motion.recipe.still_speed
     tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
     thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
     begin = tile.first % thin
@@ -71,25 +72,25 @@ def _piece(
     return DatasetSegment(
         log=number,
         stretch=stretch,
-        sticking=sticking(stretch, resting(state, robot, recipe.still_speed), recipe.cutoff_hz),
+        sticking=stiction_columns(stretch, rest_mask(state, robot, still), recipe.cutoff_hz),
         time=tile.time,
         block=np.minimum((fraction * motion.blocks).astype(int), motion.blocks - 1),
-        torque=tile.filtered(np.ascontiguousarray(_spikeless(motion.log, tile.torque).T)).T,
+        torque=tile.filtered(np.ascontiguousarray(_torque_without_spikes(motion.log, tile.torque).T)).T,
         usable=tile.usable,
-        clear=_clear(resting(tile.state, robot, recipe.still_speed), at, segment.rate_hz / recipe.cutoff_hz),
+        clear=_clear(rest_mask(tile.state, robot, still), at, segment.rate_hz / recipe.cutoff_hz),
         state=tile.state.at(at),
     )
 
 
-def _spikeless(log: JointLog, torque: JointSeries) -> JointSeries:
+def _torque_without_spikes(log: JointLog, torque: JointSeries) -> JointSeries:
     """Give torque without the spikes of those joints whose channel is known to have some."""
-    own = [defect.joint - 1 for defect in log.defects if _spiky(defect) and defect.joint is not None]
+    own = [defect.joint - 1 for defect in log.defects if _is_outlier(defect) and defect.joint is not None]
     torque = torque.copy()
     torque[:, own] = without_spikes(torque[:, own])
     return torque
 
 
-def _spiky(defect: Defect) -> bool:
+def _is_outlier(defect: Defect) -> bool:
     return (defect.kind, defect.channel) == ("outliers", "torque")
 
 

@@ -13,7 +13,7 @@ from ...signals.derivative import median
 from ..thresholds.dataset import ROWS
 
 
-def spiked(log: JointLog, span: Span) -> bool:
+def has_spike(log: JointLog, span: Span) -> bool:
     """Tell whether a raw sample within a span of a log is a spike of some joint's torque."""
     first = float(log.source.rows(0, 1).time[0])
     begin, end = (
@@ -24,7 +24,7 @@ def spiked(log: JointLog, span: Span) -> bool:
     effort = rows.current if rows.torque is None else rows.torque
     if effort is None or len(rows.time) <= ROWS.spike_order:
         return False
-    _, spikes = _split(effort)
+    _, spikes = _median_and_spikes(effort)
     inside = (rows.time >= span[0]) & (rows.time <= span[1])
     return bool(spikes[inside].any())
 
@@ -33,11 +33,11 @@ def without_spikes(torque: JointSeries) -> JointSeries:
     """Put the running median in the place of spikes; all other samples stay as they are."""
     if len(torque) <= ROWS.spike_order:
         return torque
-    middle, spikes = _split(torque)
+    middle, spikes = _median_and_spikes(torque)
     return np.where(spikes, middle, torque)
 
 
-def _split(torque: JointSeries) -> tuple[JointSeries, JointMask]:
+def _median_and_spikes(torque: JointSeries) -> tuple[JointSeries, JointMask]:
     """Give the running median, and mark what stands apart from it; the ends are their own."""
     reach = ROWS.spike_order // 2
     middle = torque.copy()

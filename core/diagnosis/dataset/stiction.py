@@ -20,21 +20,21 @@ from ..thresholds.dataset import ROWS
 from .stretch import Stretch
 
 
-def resting(state: MotionState, robot: RobotModel, still: JointVector) -> np.ndarray:
+def rest_mask(state: MotionState, robot: RobotModel, still: JointVector) -> np.ndarray:
     """Mark, samples x joints, where a joint or a motor coupled to it rests or turns round."""
-    marks = _rests(state.velocity, still)
+    marks = _is_at_rest(state.velocity, still)
     for coupling in robot.couplings:
         speed = motor_speed(coupling, state)[:, None]
-        motor = _rests(speed, ROWS.still_share * np.sqrt(np.mean(speed**2, axis=0)))
+        motor = _is_at_rest(speed, ROWS.still_share * np.sqrt(np.mean(speed**2, axis=0)))
         marks[:, [joint - 1 for joint in coupling.joints]] |= motor
     return marks
 
 
-def sticking(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_array, ...]:
+def stiction_columns(stretch: Stretch, marks: np.ndarray, band_hz: float) -> tuple[csr_array, ...]:
     """Give, per joint, filtered columns for the friction of every stretch of time in which it rests."""
     band = band_hz * step_of(stretch.state)
     longest = int(ROWS.most_shapes / (ROWS.shapes * band))
-    runs = [_cut(_runs(marks[:, joint]), longest) for joint in range(marks.shape[1])]
+    runs = [_cut_runs(_runs(marks[:, joint]), longest) for joint in range(marks.shape[1])]
     return tuple(_columns(stretch, spans, band) for spans in runs)
 
 
@@ -50,7 +50,7 @@ def _columns(stretch: Stretch, runs: list[tuple[int, int]], band: float) -> csr_
     return by_column.T.tocsr()
 
 
-def _rests(velocity: np.ndarray, still: np.ndarray) -> np.ndarray:
+def _is_at_rest(velocity: np.ndarray, still: np.ndarray) -> np.ndarray:
     marks = np.abs(velocity) <= still
     marks[1:] |= np.sign(velocity[1:]) != np.sign(velocity[:-1])
     return np.asarray(marks)
@@ -76,12 +76,12 @@ def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
     ]
 
 
-def _cut(runs: list[tuple[int, int]], longest: int) -> list[tuple[int, int]]:
+def _cut_runs(runs: list[tuple[int, int]], longest: int) -> list[tuple[int, int]]:
     """Cut long runs into equal parts.
 
     Examples
     --------
-    >>> _cut([(0, 3), (5, 11)], 3)
+    >>> _cut_runs([(0, 3), (5, 11)], 3)
     [(0, 3), (5, 8), (8, 11)]
     """
     edges = [np.linspace(begin, end, 1 + -(-(end - begin) // longest)).astype(int) for begin, end in runs]

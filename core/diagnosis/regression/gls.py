@@ -20,7 +20,7 @@ from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from ...estimate.gaussian_prior import GaussianPrior
 from ..thresholds.regression import NOISE
 from .ar_noise import ARNoise, fit_ar_noise
-from .prewhitening import Prewhitened, whitened
+from .prewhitening import Prewhitened, prewhiten
 from .rows import JointRows
 
 RIDGE = 1e-10
@@ -57,7 +57,7 @@ class Fit:
 
     def solve(self, right: Matrix) -> Matrix:
         """Give Gram^-1 times right-hand sides."""
-        return _solution(self.factor, self.scale[:, None], right)
+        return _solve_scaled(self.factor, self.scale[:, None], right)
 
     @cached_property
     def covariance(self) -> SquareMatrix:
@@ -86,26 +86,26 @@ def fit(
     """
     size = _size(joints)
     if noise is not None:
-        return _iterated(joints, _solved(_prewhitened(joints, noise), size, prior), None, rounds)
+        return _iterate(joints, _solve(_prewhiten(joints, noise), size, prior), None, rounds)
     if ordinary:
-        plain = _ordinary(joints, prior)
-        return _iterated(joints, replace(plain, plain=plain), None, rounds + 1)
+        plain = _fit_ordinary(joints, prior)
+        return _iterate(joints, replace(plain, plain=plain), None, rounds + 1)
     first = _white_noise(joints, [rows.torque for rows in joints])
-    return _iterated(joints, _solved(_prewhitened(joints, first), size, prior), None, rounds + 1)
+    return _iterate(joints, _solve(_prewhiten(joints, first), size, prior), None, rounds + 1)
 
 
 def noise_absorbs_effect(joints: tuple[JointRows, ...], found: Fit) -> bool:
     """Tell whether a fit leaves much more residual on some joint than an ordinary fit does."""
-    plain = _ordinary(joints, found.prior)
-    pairs = zip(_left(joints, found), _left(joints, plain), strict=True)
+    plain = _fit_ordinary(joints, found.prior)
+    pairs = zip(_residuals(joints, found), _residuals(joints, plain), strict=True)
     return any(float(ours @ ours) > NOISE.absorbed**2 * float(theirs @ theirs) for ours, theirs in pairs)
 
 
-def _ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit:
+def _fit_ordinary(joints: tuple[JointRows, ...], prior: GaussianPrior | None) -> Fit:
     """Fit by ordinary least squares, with each joint weighted by its residual."""
     size = _size(joints)
-    first = _solved(_prewhitened(joints, _white_noise(joints, [rows.torque for rows in joints])), size, prior)
-    return _solved(_prewhitened(joints, _white_noise(joints, _left(joints, first))), size, prior)
+    first = _solve(_prewhiten(joints, _white_noise(joints, [rows.torque for rows in joints])), size, prior)
+    return _solve(_prewhiten(joints, _white_noise(joints, _residuals(joints, first))), size, prior)
 
 
 def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tuple[ARNoise, ...]:
@@ -116,12 +116,12 @@ def _size(joints: tuple[JointRows, ...]) -> int:
     return int(joints[0].columns.shape[1])
 
 
-def _left(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
+def _residuals(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
     return [part.residual(rows, found.values) for part, rows in zip(found.joints, joints, strict=True)]
 
 
-def _prewhitened(joints: tuple[JointRows, ...], noise: tuple[ARNoise, ...]) -> tuple[Prewhitened, ...]:
-    return tuple(whitened(rows, model) for rows, model in zip(joints, noise, strict=True))
+def _prewhiten(joints: tuple[JointRows, ...], noise: tuple[ARNoise, ...]) -> tuple[Prewhitened, ...]:
+    return tuple(prewhiten(rows, model) for rows, model in zip(joints, noise, strict=True))
 
 
 def refit(
@@ -146,19 +146,19 @@ def refit(
         for old, rows in zip(before.joints, joints, strict=True)
     )
     plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
-    return _iterated(joints, _solved(parts, _size(joints), before.prior, plain), touched, rounds)
+    return _iterate(joints, _solve(parts, _size(joints), before.prior, plain), touched, rounds)
 
 
-def _iterated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
+def _iterate(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None, rounds: int) -> Fit:
     """Estimate the noise of some or all joints again until the likelihood hardly rises."""
     for _ in range(rounds):
-        before, found = found, _reestimated(joints, found, touched)
+        before, found = found, _reestimate_noise(joints, found, touched)
         if found is before:
             break
     return found
 
 
-def _reestimated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
+def _reestimate_noise(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[int] | None) -> Fit:
     """Estimate the noise of some or all joints from their residual; fit again where it changed."""
     parts, seen = list(found.joints), found.plain or found
     for joint in range(len(joints)) if touched is None else touched:
@@ -166,10 +166,10 @@ def _reestimated(joints: tuple[JointRows, ...], found: Fit, touched: frozenset[i
         residual = seen.joints[joint].residual(rows, seen.values)
         estimated = fit_ar_noise(residual, rows.run_index, taken=degrees_of_freedom(rows, joints))
         if estimated.departure(known.noise, residual, rows.run_index) > NOISE.settled:
-            parts[joint] = whitened(rows, estimated)
+            parts[joint] = prewhiten(rows, estimated)
     if tuple(parts) == found.joints:
         return found
-    return _solved(tuple(parts), _size(joints), found.prior, found.plain)
+    return _solve(tuple(parts), _size(joints), found.prior, found.plain)
 
 
 def degrees_of_freedom(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
@@ -188,7 +188,7 @@ def _gram(joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | Non
     return gram
 
 
-def _solved(
+def _solve(
     joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | None, plain: Fit | None = None
 ) -> Fit:
     """Solve the normal equations with iterative refinement: the ridge and rounding bias one step."""
@@ -204,7 +204,7 @@ def _solved(
             slope[part.acting] += part.columns.T @ rest
         if prior is not None:
             slope += prior.slope(values)
-        step = _solution(factor, scale, slope)
+        step = _solve_scaled(factor, scale, slope)
         if float(slope @ step) < EXACT:
             break
         values = values + step
@@ -215,7 +215,7 @@ def _solved(
     return Fit(joints, left, values, factor, scale, by_joint, prior, plain)
 
 
-def _solution(factor: SquareMatrix, scale: np.ndarray, right: np.ndarray) -> np.ndarray:
+def _solve_scaled(factor: SquareMatrix, scale: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Solve the equations of a scaled Gram matrix, of which the lower factor is given."""
     solved, _ = dpotrs(factor, right / scale, lower=1)
     return np.asarray(solved / scale)

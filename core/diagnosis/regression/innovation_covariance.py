@@ -40,21 +40,21 @@ def inverse_covariances(dataset: Dataset, left: JointSeries, mask: np.ndarray) -
         rows = np.flatnonzero(mask[:, joint])
         run_index = run_indices(dataset.follows(rows))
         new = fit_ar_noise(left[rows, joint], run_index).innovations(left[rows, joint], run_index)
-        quiet = rows[_quiet(dataset, new, rows)]
+        quiet = rows[_quiet_rows(dataset, new, rows)]
         noise = fit_ar_noise(left[quiet, joint], run_indices(dataset.follows(quiet)))
         white = noise.whitening(run_index)
-        size = MIDDLE * _middle(noise.innovations(left[rows, joint], run_index))
+        size = MIDDLE * _median_size(noise.innovations(left[rows, joint], run_index))
         white = csr_array((white.data / size, rows[white.indices], white.indptr), (len(rows), len(left)))
         out.append((white.T @ white).tocsr())
     return tuple(out)
 
 
-def _middle(values: Vector) -> float:
+def _median_size(values: Vector) -> float:
     """Give the median size, one where there is none: a dead channel has no noise."""
     return float(np.median(np.abs(values))) or 1.0 if len(values) else 1.0
 
 
-def _quiet(dataset: Dataset, left: Vector, rows: Indices) -> UsableRows:
+def _quiet_rows(dataset: Dataset, left: Vector, rows: Indices) -> UsableRows:
     """Mark the rows of the blocks in which what is left is smaller than in half of them."""
     if not len(rows):
         return np.zeros(0, dtype=bool)

@@ -79,7 +79,7 @@ def nuisance_of(columns: csr_array) -> Nuisance:
     columns
         In the order of time: what lies apart in the order must not overlap much.
     """
-    scaled = _scaled(columns)
+    scaled = _unit_columns(columns)
     products = banded(
         scaled.data, scaled.indices.astype(np.int32), scaled.indptr.astype(np.int32), scaled.shape[1]
     )
@@ -88,21 +88,21 @@ def nuisance_of(columns: csr_array) -> Nuisance:
     return Nuisance(scaled, scaled.T.tocsr(), factor, _sizes(columns))
 
 
-def independent(columns: csr_array) -> csr_array:
+def independent_columns(columns: csr_array) -> csr_array:
     """Keep those columns that are neither nothing nor spanned by others, in the order they came in.
 
     Stretches of rest that touch share samples, and so do their polynomials, exactly.
 
     Examples
     --------
-    >>> independent(csr_array(np.array([[1.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]]))).toarray().shape
+    >>> independent_columns(csr_array(np.array([[1.0, 2.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]]))).toarray().shape
     (2, 2)
     """
     acting = columns[:, _sizes(columns) > LEAST]
-    scaled = _scaled(acting)
+    scaled = _unit_columns(acting)
     gram = (scaled.T @ scaled).tocsr()
     kept = []
-    for begin, end in _apart(gram):
+    for begin, end in _disjoint_groups(gram):
         first = 1.0 - EARLIER * np.arange(end - begin)
         group = gram[begin:end, begin:end].toarray() * np.outer(first, first)
         _, order, rank, _ = dpstrf(group, tol=LEAST**2, lower=1)
@@ -110,7 +110,7 @@ def independent(columns: csr_array) -> csr_array:
     return acting[:, np.concatenate(kept)] if kept else acting
 
 
-def _apart(gram: csr_array) -> list[tuple[int, int]]:
+def _disjoint_groups(gram: csr_array) -> list[tuple[int, int]]:
     """Cut columns, in the order of time, into groups that share no row with each other."""
     if not gram.nnz:
         return []
@@ -119,7 +119,7 @@ def _apart(gram: csr_array) -> list[tuple[int, int]]:
     return list(pairwise([0, *ends.tolist()]))
 
 
-def _scaled(columns: csr_array) -> csr_array:
+def _unit_columns(columns: csr_array) -> csr_array:
     """Give columns of unit size."""
     scaled = columns.data / _sizes(columns)[columns.indices]
     return csr_array((scaled, columns.indices, columns.indptr), columns.shape)

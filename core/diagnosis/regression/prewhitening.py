@@ -63,7 +63,7 @@ class Prewhitened:
                 inside=inside_before,
                 gram=self.gram[:own, :own],
             )
-        new, white, inside = _white(self.whitening, self.nuisance, further)
+        new, white, inside = _whiten(self.whitening, self.nuisance, further)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]
         gram[:own, own:] = before.T @ white - inside_before.T @ inside
@@ -78,10 +78,10 @@ class Prewhitened:
         )
 
 
-def whitened(rows: JointRows, noise: ARNoise) -> Prewhitened:
+def prewhiten(rows: JointRows, noise: ARNoise) -> Prewhitened:
     """Whiten one joint's rows."""
     whitening, nuisance = _noise_of(rows, noise)
-    acting, columns, inside = _white(whitening, nuisance, rows.columns)
+    acting, columns, inside = _whiten(whitening, nuisance, rows.columns)
     torque = nuisance.without_nuisance((whitening @ rows.torque)[:, None])[:, 0]
     return Prewhitened(
         noise=noise,
@@ -108,7 +108,7 @@ def _noise_of(rows: JointRows, noise: ARNoise) -> tuple[csr_array, Nuisance]:
     return whitening, nuisance_of(whitening @ rows.nuisance.columns)
 
 
-def _white(
+def _whiten(
     whitening: csr_array, nuisance: Nuisance, columns: Matrix
 ) -> tuple[Indices, EquationRows, EquationRows]:
     """List the columns that act at all, and give them white, with what free ones span of them."""

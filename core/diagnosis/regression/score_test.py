@@ -72,7 +72,7 @@ class _Alike:
             for joint in range(len(joints))
         ]
         self._columns = [
-            _side_by_side([candidates[index][joint] for index in present], rows.rows)
+            _stack_columns([candidates[index][joint] for index in present], rows.rows)
             for joint, (rows, present) in enumerate(zip(joints, self._present, strict=True))
         ]
 
@@ -96,10 +96,10 @@ class _Alike:
             grams[present] += whole - _grams(inside, width)
         flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
         reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
-        return _tested(grams - _grams(reduced, width), right, squares)
+        return _test_scores(grams - _grams(reduced, width), right, squares)
 
 
-def _side_by_side(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
+def _stack_columns(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
     """Put columns beside each other, and take some of their rows."""
     return np.hstack(columns)[rows] if columns else np.zeros((len(rows), 0))
 
@@ -147,7 +147,7 @@ def _scores_from(
         cross[:, own.acting] += sums[3]
     flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
     reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
-    return _tested(grams - _grams(reduced, width), right, squares)
+    return _test_scores(grams - _grams(reduced, width), right, squares)
 
 
 def _grams(columns: Matrix, width: int) -> np.ndarray:
@@ -156,7 +156,7 @@ def _grams(columns: Matrix, width: int) -> np.ndarray:
     return np.asarray(np.swapaxes(parts, 1, 2) @ parts)
 
 
-def _tested(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
+def _test_scores(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Score]:
     """Test candidates by their projected Gram matrices and their products with the residual."""
     size = np.sqrt(np.maximum(squares, 1e-300))
     left = grams / (size[:, :, None] * size[:, None, :])

@@ -68,8 +68,8 @@ def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Sha
     reach = float(student.ppf(PREDICTION.quantile, len(gain) - 1)) * deviation
     scaled = np.full(len(prediction), np.nan)
     scaled[judged] = factor[number] * guess
-    return Share(_within(share), (_within(share - reach), _within(share + reach)), scaled)
+    return Share(_clip(share), (_clip(share - reach), _clip(share + reach)), scaled)
 
 
-def _within(share: float) -> float:
+def _clip(share: float) -> float:
     return float(np.clip(share, 0.0, 1.0))

@@ -17,7 +17,7 @@ from ...arrays import JointSeries, JointVector, Vector
 from ...signals.zero_phase import gain
 from ..dataset.dataset import Dataset
 from ..thresholds.residual import FLOOR
-from .period import Repeats, both_clear, later_by, repeating, repeats
+from .period import Repeats, clear_pairs, repeat_mask, repeats, shift_rows
 
 FloorSource = Literal["repeats", "high_band", "none"]
 WINDOW_SECONDS = 0.5
@@ -67,7 +67,7 @@ def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
     )
 
 
-def passed(dataset: Dataset, frequency_hz: Vector) -> Vector:
+def passed_power(dataset: Dataset, frequency_hz: Vector) -> Vector:
     """Give the share of white noise's power that the look's parallel filter passes at some frequencies."""
     motion = dataset.motions[0]
     below = np.clip(frequency_hz, 0.0, _BELOW_NYQUIST * motion.log.rate_hz)
@@ -82,7 +82,7 @@ def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
         for segment in motion.segments:
             last = min(segment.kept, int(FLOOR.segment_seconds * segment.rate_hz / motion.recipe.decimation))
             torque = segment.tile(motion.effort_scale, 0, last, 0).torque
-            density = _halves(torque, segment.rate_hz, motion.recipe.cutoff_hz)
+            density = _bands(torque, segment.rate_hz, motion.recipe.cutoff_hz)
             if density is not None:
                 low, high = low + len(torque) * density[0], high + len(torque) * density[1]
                 rows += len(torque)
@@ -90,12 +90,12 @@ def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
         return np.full(dataset.joints, np.nan), np.full(dataset.joints, np.nan)
     low, high = low / rows, high / rows
     grid = np.linspace(0.0, _BELOW_NYQUIST * dataset.motions[0].log.rate_hz, _POINTS)
-    width = float(np.trapezoid(passed(dataset, grid), grid))
+    width = float(np.trapezoid(passed_power(dataset, grid), grid))
     tilt = np.divide(low, high, out=np.full(dataset.joints, np.nan), where=high > 0.0)
     return np.sqrt(0.5 * (low + high) * width), tilt
 
 
-def _halves(torque: JointSeries, rate_hz: float, cutoff_hz: float) -> tuple[JointVector, JointVector] | None:
+def _bands(torque: JointSeries, rate_hz: float, cutoff_hz: float) -> tuple[JointVector, JointVector] | None:
     """Give the mean power density of the high band's lower and upper half per joint."""
     size = int(WINDOW_SECONDS * rate_hz)
     begin, end = FLOOR.over_band * cutoff_hz, FLOOR.end * rate_hz
@@ -112,9 +112,9 @@ def _halves(torque: JointSeries, rate_hz: float, cutoff_hz: float) -> tuple[Join
 def _from_repeats(dataset: Dataset, residual: JointSeries, found: Repeats) -> JointVector:
     total, count = np.zeros(dataset.joints), np.zeros(dataset.joints)
     for stretch in dataset.stretches:
-        later = later_by(residual[stretch.rows], found.rows)
-        same = repeating(dataset, stretch, found)
-        both = both_clear(dataset, stretch, found, len(later)) & same[:, None]
+        later = shift_rows(residual[stretch.rows], found.rows)
+        same = repeat_mask(dataset, stretch, found)
+        both = clear_pairs(dataset, stretch, found, len(later)) & same[:, None]
         difference = later - residual[stretch.rows][: len(later)]
         total += np.sum(np.where(both, difference**2, 0.0), axis=0)
         count += both.sum(axis=0)

@@ -79,15 +79,15 @@ def predictable_share(
     # Next to reversals every motion leaves structure: a measured velocity's sign is not friction's direction.
     mask = dataset.clear
     rows = refuse_too_little(mask)
-    block, shared = row_blocks(dataset), _shared(dataset)
+    block, shared = row_blocks(dataset), _shared_features(dataset)
     found = []
     for joint in range(dataset.joints):
         if rows[joint] < PREDICTION.least_rows:
             found.append(_not_judged(joint + 1, len(dataset.time)))
             continue
-        features = np.column_stack([shared, _own(dataset, operating_point, joint)])
+        features = np.column_stack([shared, _joint_features(dataset, operating_point, joint)])
         gap = _gap(noise[joint], block)
-        prediction = _unseen(features, residual[:, joint], mask[:, joint], block, gap)
+        prediction = _predict_held_out(features, residual[:, joint], mask[:, joint], block, gap)
         judged = share_on_blocks(prediction, residual[:, joint], block)
         found.append(_predictable(dataset, operating_point, joint + 1, residual[:, joint], judged))
     return tuple(found)
@@ -117,7 +117,7 @@ def _not_judged(joint: int, rows: int) -> Predictable:
     return Predictable(joint, np.nan, (np.nan, np.nan), np.nan, (), np.full(rows, np.nan))
 
 
-def _unseen(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:
+def _predict_held_out(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:
     """Predict every row that counts from blocks it does not lie in nor near."""
     from sklearn.ensemble import HistGradientBoostingRegressor
     from threadpoolctl import threadpool_limits
@@ -148,12 +148,12 @@ def _gap(noise: ARNoise, block: Indices) -> int:
     return max(1, min(memory(noise), int(longest)))
 
 
-def _shared(dataset: Dataset) -> Matrix:
+def _shared_features(dataset: Dataset) -> Matrix:
     state = dataset.state
     return np.column_stack([state.position, state.velocity, state.acceleration, dataset.time])
 
 
-def _own(dataset: Dataset, operating_point: Prediction, joint: int) -> Matrix:
+def _joint_features(dataset: Dataset, operating_point: Prediction, joint: int) -> Matrix:
     names = ("load", "torque", "travel", "temperature")
     series = [coordinate_series(dataset, operating_point, name) for name in names]
     direction = np.sign(dataset.state.velocity[:, joint])

@@ -38,29 +38,29 @@ def repeats(dataset: Dataset) -> Repeats | None:
     step = float(np.mean(np.diff(dataset.time[stretch.rows])))
     moving = np.std(position, axis=0) > FLOOR.moving * np.std(position, axis=0).max()
     mismatch = _mismatch(position[:, moving])
-    for valley in _valleys(mismatch):
-        lag = _refined(
+    for valley in _minima(mismatch):
+        lag = _refine_lag(
             position[:, moving], dataset.state.velocity[stretch.rows][:, moving] * step, float(valley)
         )
         found = Repeats(lag, lag * step)
-        same = repeating(dataset, stretch, found)
+        same = repeat_mask(dataset, stretch, found)
         if same.sum() * step >= FLOOR.repeat_seconds and same.mean() >= FLOOR.repeat_share:
             return found
     return None
 
 
-def repeating(dataset: Dataset, stretch: Stretch, found: Repeats) -> np.ndarray:
+def repeat_mask(dataset: Dataset, stretch: Stretch, found: Repeats) -> np.ndarray:
     """Mark the instants of a stretch, from its first on, that the motion repeats a period later."""
     same = None
     for series in (dataset.state.position[stretch.rows], dataset.state.velocity[stretch.rows]):
-        later = later_by(series, found.rows)
+        later = shift_rows(series, found.rows)
         swing = np.maximum(np.std(series, axis=0), FLOOR.moving * np.std(series, axis=0).max())
         near = np.all(np.abs(later - series[: len(later)]) <= FLOOR.same * swing, axis=1)
         same = near if same is None else same & near
     return np.zeros(0, dtype=bool) if same is None else same
 
 
-def later_by(series: Rows, rows: float) -> Rows:
+def shift_rows(series: Rows, rows: float) -> Rows:
     """Give the series some rows later, whole or not, for as many rows as have a value.
 
     Between rows it is interpolated by a windowed sinc, which keeps the power of all that lies below the
@@ -68,7 +68,7 @@ def later_by(series: Rows, rows: float) -> Rows:
 
     Examples
     --------
-    >>> later_by(np.arange(30.0)[:, None], 2.0)[:3, 0]
+    >>> shift_rows(np.arange(30.0)[:, None], 2.0)[:3, 0]
     array([2., 3., 4.])
     """
     whole = int(np.floor(rows))
@@ -87,7 +87,7 @@ def later_by(series: Rows, rows: float) -> Rows:
     return np.asarray(windows @ weights)
 
 
-def both_clear(dataset: Dataset, stretch: Stretch, found: Repeats, rows: int) -> JointMask:
+def clear_pairs(dataset: Dataset, stretch: Stretch, found: Repeats, rows: int) -> JointMask:
     """Mark, for the first rows of a stretch, where row and repeat are clear of reversals and ends."""
     clear = dataset.clear[stretch.rows]
     later = int(np.floor(found.rows))
@@ -113,7 +113,7 @@ def _mismatch(position: JointSeries) -> Vector:
     return np.asarray(np.mean(both - 2.0 * product, axis=1) / (2.0 * (count - lags)))
 
 
-def _valleys(mismatch: Vector) -> list[int]:
+def _minima(mismatch: Vector) -> list[int]:
     """List the lags of low minima beyond the first rise, shortest first."""
     last = int(FLOOR.longest_lag * len(mismatch))
     risen = np.flatnonzero(mismatch[:last] > FLOOR.risen)
@@ -125,7 +125,7 @@ def _valleys(mismatch: Vector) -> list[int]:
     return [int(lag) for lag in inner[low]]
 
 
-def _refined(position: JointSeries, slope: JointSeries, lag: float) -> float:
+def _refine_lag(position: JointSeries, slope: JointSeries, lag: float) -> float:
     """Settle a lag between the rows by Newton's steps on the better half of the instants.
 
     A motion that grows out of rest does not repeat where it grows; that half decides nothing.
@@ -133,7 +133,7 @@ def _refined(position: JointSeries, slope: JointSeries, lag: float) -> float:
     last = _LONGEST_LAG * (len(position) - 1)
     scale = np.std(position, axis=0)
     for _ in range(NEWTON_STEPS):
-        later = later_by(position, lag)
+        later = shift_rows(position, lag)
         missed = (later - position[: len(later)]) / scale
         size = np.sum(missed**2, axis=1)
         better = size <= np.median(size)

@@ -12,7 +12,7 @@ from scipy.signal import welch
 
 from ...arrays import JointSeries, Vector
 from ..dataset.dataset import Dataset
-from .floor import NoiseFloor, passed
+from .floor import NoiseFloor, passed_power
 
 LONGEST = 256
 SHORTEST = 32
@@ -43,7 +43,7 @@ def residual_spectra(
             continue
         size = min(LONGEST, max(run.stop - run.start for run in runs))
         frequency, density = _welch([residual[run, joint] for run in runs], _rate(dataset, runs[0]), size)
-        shape = passed(dataset, frequency)
+        shape = passed_power(dataset, frequency)
         width = float(np.trapezoid(shape, frequency))
         level = floor.rms[joint] ** 2 / max(width, 1e-300)
         found.append(ResidualSpectrum(joint + 1, frequency, density, level * shape))

@@ -53,7 +53,7 @@ def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, other: Candidate, al
     return fitter.scan(own, [other])[0].statistic > MASKING.beside * alone
 
 
-def masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) -> bool:
+def is_masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) -> bool:
     """Tell whether a candidate is transient and the last member leaves it, as by torque at its limit."""
     if not other.cause.traits.transient or other.cause.id not in masks(own.members[-1].cause.id):
         return False

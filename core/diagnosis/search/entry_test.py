@@ -80,7 +80,7 @@ def _significant(
             continue
         trial = with_candidate(fitter, now, scored)
         gains = bic_gain(now, trial)
-        if trial.possible and gains > least and _passes_entry_test(fitter, now, trial, kinds):
+        if trial.admissible and gains > least and _passes_entry_test(fitter, now, trial, kinds):
             likely.append(trial)
             best = best if scored.candidate.cause.traits.transient else max(best, gains)
     return sorted(likely, key=lambda trial: -bic_gain(now, trial)), left
@@ -103,7 +103,7 @@ def _best_on_holdout(
     deserves = (
         trial
         for trial in ranked
-        if trial.possible
+        if trial.admissible
         and bic_gain(now, trial) > least
         and likelihood_ratio(now, trial) > excluded_kinds.get(trial.members[-1].key, 0.0)
         and passes_holdout(fitter, now, trial)
@@ -123,7 +123,7 @@ def _passes_entry_test(
 
 def passes_exit_test(fitter: HypothesisFitter, without: Hypothesis, now: Hypothesis, index: int) -> bool:
     """Tell whether a member is admissible, and would enter beside the others again."""
-    if not now.allows(index):
+    if not now.admits(index):
         return False
     if not without.members:
         return bool(wald_statistic(now, index) > -2.0 * np.log(ENTRY.level))
@@ -160,7 +160,7 @@ def is_significant(
         level = ENTRY.further_level if now.members else ENTRY.event_level if rare else ENTRY.level
     hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_likelihood_ratio(now, trial, index), index)
-    return bool(chance < hurdle and _share(now, trial) > _least_share(fitter, trial.members[index]))
+    return bool(chance < hurdle and _explained_share(now, trial) > _least_share(fitter, trial.members[index]))
 
 
 def _acts_rarely(trial: Hypothesis, index: int) -> bool:
@@ -199,7 +199,7 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
     return kept[key]
 
 
-def _share(now: Hypothesis, trial: Hypothesis) -> float:
+def _explained_share(now: Hypothesis, trial: Hypothesis) -> float:
     rows = min((len(joint.torque) for joint in trial.fit.joints if len(joint.torque)), default=1)
     return likelihood_ratio(now, trial) / rows
 

@@ -21,7 +21,7 @@ from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause
 from ..dataset.dataset import Dataset
 from ..regression.gls import Fit, fit, noise_absorbs_effect, refit
-from ..regression.rows import Columns, JointRows, extended, rows_of_joints
+from ..regression.rows import Columns, JointRows, append_columns, rows_of_joints
 from ..regression.score_test import Panel, Score, score, score_onsets
 from ..thresholds.regression import NOISE
 from ..thresholds.search import REFINEMENT, SEARCH
@@ -190,10 +190,10 @@ class HypothesisFitter:
         from the beginning.
         """
         columns = self.columns(members)
-        rows = extended(self.rows.fitted, columns)
+        rows = append_columns(self.rows.fitted, columns)
         if start is not None:
             found = self._hypothesis(members, columns, refit(rows, start.fit, self._base_columns))
-            if found.possible or start.members == members:
+            if found.admissible or start.members == members:
                 return found
         return self._hypothesis(members, columns, fit(rows, prior=self.prior, ordinary=self.ordinary_noise))
 
@@ -215,12 +215,12 @@ class HypothesisFitter:
         """
         members = (*start.members, candidate)
         columns = self.columns(members)
-        rows = extended(self.rows.fitted, columns)
+        rows = append_columns(self.rows.fitted, columns)
         kept, touched = len(start.fit.values), frozenset(columns[-1])
         found = self._hypothesis(
             members, columns, refit(rows, start.fit, kept, touched, rounds=NOISE.trial_rounds)
         )
-        if found.possible or not candidate.cause.admissible(found.solved(len(start.members))):
+        if found.admissible or not candidate.cause.admissible(found.solved(len(start.members))):
             return found
         return self.fit(members)
 
@@ -233,7 +233,7 @@ class HypothesisFitter:
         kept = trial.columns_of(index).start
         columns = self.columns(members)
         return self._hypothesis(
-            members, columns, refit(extended(self.rows.fitted, columns), trial.fit, kept, rounds=0)
+            members, columns, refit(append_columns(self.rows.fitted, columns), trial.fit, kept, rounds=0)
         )
 
     @property
@@ -251,7 +251,7 @@ class HypothesisFitter:
 
         Never where noise is estimated from ordinary residuals already.
         """
-        rows = extended(self.rows.fitted, self.columns(under.members))
+        rows = append_columns(self.rows.fitted, self.columns(under.members))
         return not self.ordinary_noise and noise_absorbs_effect(rows, under.fit)
 
 

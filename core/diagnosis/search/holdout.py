@@ -6,7 +6,7 @@ Source: Stone, J. R. Stat. Soc. B 36(2), 1974, on judging by data that the choic
 import numpy as np
 
 from ..regression.prewhitening import prewhitened_residual
-from ..regression.rows import JointRows, extended
+from ..regression.rows import JointRows, append_columns
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis
 
@@ -46,7 +46,7 @@ def holdout_share(fitter: HypothesisFitter, trial: Hypothesis, index: int = -1) 
 def _ratio_on(
     fitter: HypothesisFitter, joints: tuple[JointRows, ...], now: Hypothesis, trial: Hypothesis, share: float
 ) -> float:
-    rows = [extended(joints, fitter.columns(under.members)) for under in (now, trial)]
+    rows = [append_columns(joints, fitter.columns(under.members)) for under in (now, trial)]
     squares = np.zeros(2)
     for parts, joint in zip(zip(*rows, strict=True), trial.fit.joints, strict=True):
         fits = zip(parts, (now.fit, trial.fit), strict=True)

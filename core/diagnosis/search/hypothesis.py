@@ -119,11 +119,11 @@ class Hypothesis:
         return replace(found, slides=bool(found.site) and is_prismatic(robot, found.site[0]))
 
     @property
-    def possible(self) -> bool:
+    def admissible(self) -> bool:
         """Tell whether all members are physically admissible."""
-        return all(self.allows(index) for index in range(len(self.members)))
+        return all(self.admits(index) for index in range(len(self.members)))
 
-    def allows(self, index: int) -> bool:
+    def admits(self, index: int) -> bool:
         """Tell whether one member is physically admissible."""
         return self.members[index].cause.admissible(self.solved(index))
 
@@ -133,7 +133,7 @@ class Hypothesis:
         return {member.key: index for index, member in enumerate(self.members)}
 
 
-def allowed(candidate: Candidate, judged: Score) -> bool:
+def admits(candidate: Candidate, judged: Score) -> bool:
     """Tell whether the estimates of a score test are physically admissible."""
     solved = FittedCause(candidate.site, judged.values, judged.covariance, candidate.scalars, {})
     return candidate.cause.admissible(solved)
@@ -147,7 +147,7 @@ def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Sc
     best = []
     for indices in kinds.values():
         ranked = sorted(indices, key=lambda index: -found[index].statistic)
-        likeliest = next((index for index in ranked if allowed(asked[index], found[index])), ranked[0])
+        likeliest = next((index for index in ranked if admits(asked[index], found[index])), ranked[0])
         judged = found[likeliest]
         best.append(
             ScoredCandidate(

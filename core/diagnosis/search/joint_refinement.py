@@ -23,14 +23,14 @@ def refine_jointly(state: SearchState) -> SearchState:
     scalars are refined, at the operating point as it is.
     """
     chosen = state.chosen
-    now = _refined_once(state)
-    inadmissible = chosen.possible and not now.chosen.allows(-1)
+    now = _refine_once(state)
+    inadmissible = chosen.admissible and not now.chosen.admits(-1)
     if inadmissible or _costs_too_much(state.fitter, chosen, now.chosen):
-        return state.at(state.fitter, _with_refined(state.fitter, chosen, len(chosen.members) - 1))
+        return state.at(state.fitter, _refine_member(state.fitter, chosen, len(chosen.members) - 1))
     for _ in range(REFINEMENT.rounds - 1):
-        again = _refined_once(now)
+        again = _refine_once(now)
         gained = likelihood_ratio(now.chosen, again.chosen)
-        if gained < SELECTION.undecided or (now.chosen.possible and not again.chosen.possible):
+        if gained < SELECTION.undecided or (now.chosen.admissible and not again.chosen.admissible):
             break
         now = again
     return now
@@ -44,21 +44,21 @@ def _costs_too_much(fitter: HypothesisFitter, before: Hypothesis, after: Hypothe
     return likelihood_ratio(without, after) < REFINEMENT.kept * likelihood_ratio(without, before)
 
 
-def _refined_once(state: SearchState) -> SearchState:
+def _refine_once(state: SearchState) -> SearchState:
     """Linearise at the chosen hypothesis, and refine all members' scalars there, the last one's first."""
     fitter = state.fitter.linearised_at(state.chosen)
     now, last = fitter.fit(state.chosen.members, state.chosen), len(state.chosen.members) - 1
     for index in (last, *range(last)):
-        now = _with_refined(fitter, now, index)
+        now = _refine_member(fitter, now, index)
     return state.at(fitter, now)
 
 
-def _with_refined(fitter: HypothesisFitter, now: Hypothesis, index: int) -> Hypothesis:
+def _refine_member(fitter: HypothesisFitter, now: Hypothesis, index: int) -> Hypothesis:
     """Refine one member; where that would be inadmissible, leave it and only give its deviations."""
     member, beneath = now.members[index], fitter.fit_beneath(now, index)
     found = fitter.scan(beneath, [*fitter.at.of(member.cause, member.site), member])[0]
     moved = fitter.fit(_put(now.members, index, refine_scalars(fitter, beneath, found.candidate)), now)
-    if moved.possible or not now.possible:
+    if moved.admissible or not now.admissible:
         return moved
     return replace(now, members=_put(now.members, index, with_deviations(fitter, beneath, member)))
 

@@ -14,7 +14,7 @@ import numpy as np
 from ...arrays import Weights
 from ..regression.ar_noise import fit_ar_noise
 from ..regression.gls import Fit, degrees_of_freedom
-from ..regression.rows import JointRows, extended
+from ..regression.rows import JointRows, append_columns
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis, ScoredCandidate
 
@@ -26,7 +26,7 @@ def predicted_likelihood_ratios(
     fitter: HypothesisFitter, now: Hypothesis, scans: Sequence[ScoredCandidate]
 ) -> list[float]:
     """Predict the likelihood ratio statistic of each candidate of a scan."""
-    rows = extended(fitter.rows.fitted, fitter.columns(now.members))
+    rows = append_columns(fitter.rows.fitted, fitter.columns(now.members))
     columns = fitter.columns([scored.candidate for scored in scans])
     effects = (
         {joint: own[rows[joint].rows] @ scored.values for joint, own in kind.items()}

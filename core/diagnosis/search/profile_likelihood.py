@@ -16,7 +16,7 @@ from ...numerics.chi2_tail import log_chi2_tail
 from ..regression.score_test import Score
 from ..thresholds.search import REFINEMENT
 from .fitter import HypothesisFitter
-from .hypothesis import Candidate, Hypothesis, allowed
+from .hypothesis import Candidate, Hypothesis, admits
 
 RELATIVE_STEP, LEAST_STEP, WIDENINGS = 1e-3, 1e-9, 7
 """Least step over which a curvature is read, relative and absolute, and how often it is doubled at most."""
@@ -44,7 +44,7 @@ def refine_scalars(
         if name in candidate.cause.traits.self_consistent:
             candidate = _self_consistent(fitter, under, candidate, name)
         elif name not in candidate.cause.traits.discrete:
-            candidate, seen = _refined(fitter, under, candidate, name)
+            candidate, seen = _refine(fitter, under, candidate, name)
             if not on_trial:
                 candidate = _with_deviation(fitter, under, candidate, name, seen)
     return candidate
@@ -55,7 +55,7 @@ def with_deviations(fitter: HypothesisFitter, under: Hypothesis, candidate: Cand
     for name, here in candidate.scalars.items():
         if name not in (*candidate.cause.traits.self_consistent, *candidate.cause.traits.discrete):
             points, _ = _grid(fitter, candidate, name)
-            trials = [_at(candidate, name, value) for value in (*between(*neighbours(points, here)), here)]
+            trials = [_at(candidate, name, value) for value in (*subdivide(*neighbours(points, here)), here)]
             found = fitter.score(under, trials)
             seen = {trial.scalars[name]: score.statistic for trial, score in zip(trials, found, strict=True)}
             candidate = _with_deviation(fitter, under, candidate, name, seen)
@@ -80,7 +80,7 @@ def _self_consistent(
     return _at(candidate, name, float(found.root))
 
 
-def _refined(
+def _refine(
     fitter: HypothesisFitter, under: Hypothesis, candidate: Candidate, name: str
 ) -> tuple[Candidate, Mapping[float, float]]:
     """Refine one scalar, and give the statistics of all values that were tried."""
@@ -93,10 +93,10 @@ def _refined(
         low, high = here - _row(fitter), here + _row(fitter)
     seen: dict[float, float] = {}
     for _ in range(2):
-        values = between(low, high)
+        values = subdivide(low, high)
         trials = [_at(candidate, name, value) for value in (*values, here)]
         found = fitter.score(under, trials)
-        ranks = [(allowed(trial, score), score.statistic) for trial, score in zip(trials, found, strict=True)]
+        ranks = [(admits(trial, score), score.statistic) for trial, score in zip(trials, found, strict=True)]
         best = ranks.index(max(ranks))
         here = trials[best].scalars[name]
         seen |= {trial.scalars[name]: rank[1] for trial, rank in zip(trials, ranks, strict=True)}
@@ -120,7 +120,7 @@ def _at_likeliest_onset(
     worth = np.array([score.statistic for score in fitter.score_onsets(under, throughout, some, rows)])
     trials = [candidate, *(_at(candidate, name, instant) for instant in _peaks(time[rows], worth))]
     found = fitter.score(under, trials)
-    ranks = [(allowed(trial, score), score.statistic) for trial, score in zip(trials, found, strict=True)]
+    ranks = [(admits(trial, score), score.statistic) for trial, score in zip(trials, found, strict=True)]
     return trials[ranks.index(max(ranks))]
 
 
@@ -232,18 +232,18 @@ def neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
     index = points.index(here)
     if len(points) == 1:
         return 0.5 * here, 2.0 * here
-    low = points[index - 1] if index else _mirrored(here, points[index + 1])
-    high = points[index + 1] if index + 1 < len(points) else _mirrored(here, points[index - 1])
+    low = points[index - 1] if index else _mirror(here, points[index + 1])
+    high = points[index + 1] if index + 1 < len(points) else _mirror(here, points[index - 1])
     return low, high
 
 
-def _mirrored(here: float, other: float) -> float:
+def _mirror(here: float, other: float) -> float:
     if here > 0.0 and other > 0.0:
         return here * here / other
     return 2.0 * here - other
 
 
-def between(low: float, high: float) -> list[float]:
+def subdivide(low: float, high: float) -> list[float]:
     """Give points between two: in equal ratios where both are positive."""
     if low > 0.0:
         return [float(point) for point in np.geomspace(low, high, FINER + 2)[1:-1]]

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ...arrays import JointSeries, JointVector
-from ..regression.rows import extended
+from ..regression.rows import append_columns
 from ..thresholds.checks import VERDICT
 from .fitter import HypothesisFitter
 from .hypothesis import Hypothesis
@@ -19,7 +19,7 @@ def residual(fitter: HypothesisFitter, under: Hypothesis, without: Iterable[int]
     without
         Indices of members whose torque is left out of the prediction, all else kept as it is.
     """
-    rows = extended(fitter.rows.everywhere, fitter.columns(under.members))
+    rows = append_columns(fitter.rows.everywhere, fitter.columns(under.members))
     values = under.fit.values.copy()
     for index in without:
         values[under.columns_of(index)] = 0.0
@@ -32,7 +32,7 @@ def stiction_share(fitter: HypothesisFitter, under: Hypothesis) -> JointVector:
     Less what as many arbitrary columns would take; not a number where a joint hardly moves.
     """
     shares = []
-    for part in extended(fitter.rows.everywhere, fitter.columns(under.members)):
+    for part in append_columns(fitter.rows.everywhere, fitter.columns(under.members)):
         count, taken = len(part.torque), part.nuisance.count
         whole = part.torque - part.columns @ under.fit.values
         left = part.residual(under.fit.values)

@@ -34,14 +34,14 @@ def _restarts(found: SearchState) -> Iterator[SearchState]:
     for cause in found.fitter.causes:
         if cause.id in present or sum(map(masks(cause.id).__contains__, present)) < SEARCH.several:
             continue
-        start = _started_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
+        start = _start_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
         if start is not None:
             other = continue_search(start, known=found.through)
             if other.chosen is start.chosen or other.keys not in found.through:
                 yield other
 
 
-def _started_from(found: SearchState, cause: str, replaced: set[str]) -> SearchState | None:
+def _start_from(found: SearchState, cause: str, replaced: set[str]) -> SearchState | None:
     """Put one cause of the whole robot in the place of others; None where it is not significant."""
     fitter = found.fitter.linearised_at(found.chosen)
     kept = tuple(member for member in found.chosen.members if member.cause.id not in replaced)

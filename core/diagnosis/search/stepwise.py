@@ -24,7 +24,7 @@ def search_stepwise(
     fitter: HypothesisFitter, progress: Callable[[float], None] | None = None, start: Sequence[Candidate] = ()
 ) -> SearchState:
     """Search for the causes that explain the rows, from known ones if there are any."""
-    return continue_search(_started(fitter, start), progress)
+    return continue_search(_start(fitter, start), progress)
 
 
 def confirm(
@@ -33,7 +33,7 @@ def confirm(
     """Search on from what was found under another noise; None where not all of that stays."""
     if not found.chosen.members:
         return None
-    begun = _started(fitter, found.chosen.members)
+    begun = _start(fitter, found.chosen.members)
     if _exit_or_swap(begun) is not None:
         return None
     begun = replace(begun, steps=(*found.steps, *begun.steps), through=frozenset({found.keys}))
@@ -61,7 +61,7 @@ def continue_search(
         entered, statistic = better.members[-1], likelihood_ratio(state.chosen, better)
         before = state.recorded("added", entered, statistic)
         larger = refine_jointly(before.at(state.fitter, better))
-        if before.chosen.members and before.chosen.possible and not larger.chosen.possible:
+        if before.chosen.members and before.chosen.admissible and not larger.chosen.admissible:
             # Beside it what was found before would be inadmissible.
             before = before.at(state.fitter.linearised_at(before.chosen), before.chosen)
             state = before.recorded("dropped", entered, statistic).excluding(entered.key)
@@ -75,7 +75,7 @@ def continue_search(
     return state
 
 
-def _started(fitter: HypothesisFitter, start: Sequence[Candidate]) -> SearchState:
+def _start(fitter: HypothesisFitter, start: Sequence[Candidate]) -> SearchState:
     """Start a search with causes that are known; with none, from the standard model."""
     none = fitter.fit(())
     state = SearchState(fitter.linearised_at(none), none, none)
@@ -86,10 +86,10 @@ def _started(fitter: HypothesisFitter, start: Sequence[Candidate]) -> SearchStat
 
 def start_with(state: SearchState, cause: str) -> SearchState | None:
     """Add one cause of the whole robot to a hypothesis; None where it is not significant."""
-    fitter, now = state.fitter, state.chosen
+    fitter, now, kinds = state.fitter, state.chosen, state.fitter.kinds
     scans = fitter.scan(now, fitter.at.of_kind((cause, ())))
     trials = [with_candidate(fitter, now, scored) for scored in scans]
-    clear = (trial for trial in trials if trial.possible and is_significant(fitter, now, trial, fitter.kinds))
+    clear = (trial for trial in trials if trial.admissible and is_significant(fitter, now, trial, kinds))
     first = next(clear, None)
     return None if first is None else refine_jointly(state.at(fitter, first))
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, look_at_arm, measured_arm
-from veritorque.core.diagnosis.dataset.spikes import spiked, without_spikes
+from veritorque.core.diagnosis.dataset.spikes import has_spike, without_spikes
 
 SPAN = (6.0, 6.8)
 
@@ -41,7 +41,7 @@ def nothing(count):
 @pytest.mark.parametrize("noise", [normal, heavy])
 @pytest.mark.parametrize(("disturbed", "expected"), [(one_sample, True), (push, False), (nothing, False)])
 def test_only_a_sample_that_stands_out_is_a_spike(disturbed, noise, expected):
-    assert spiked(look_with(disturbed, noise).motions[0].log, SPAN) is expected
+    assert has_spike(look_with(disturbed, noise).motions[0].log, SPAN) is expected
 
 
 def test_without_spikes_a_series_is_what_it_was_but_for_their_samples():

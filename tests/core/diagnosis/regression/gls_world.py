@@ -10,7 +10,7 @@ from tests.core.diagnosis.processes import SLOW, WAVY, WHITE, dense_covariance, 
 from tests.core.diagnosis.scenes import eventful_scene
 from veritorque.core.diagnosis.dataset.dataset import Dataset
 from veritorque.core.diagnosis.regression.ar_noise import ARNoise
-from veritorque.core.diagnosis.regression.rows import Columns, JointRows, extended, rows_of_joints
+from veritorque.core.diagnosis.regression.rows import Columns, JointRows, append_columns, rows_of_joints
 
 PROCESSES = (WHITE, SLOW, WAVY)
 NOISE: tuple[ARNoise, ...] = tuple(exact_noise(weights) for weights in PROCESSES)
@@ -56,7 +56,7 @@ class Equations:
 
     def with_columns(self, *columns: Columns) -> tuple[JointRows, ...]:
         """Append candidates' columns."""
-        return extended(self.joints, columns)
+        return append_columns(self.joints, columns)
 
     def dense(self, *columns: Columns) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Write all columns (base, candidates', free), torque and covariance of all joints' rows at once."""

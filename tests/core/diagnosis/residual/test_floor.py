@@ -9,7 +9,7 @@ from tests.core.diagnosis.residual.worlds import RATE_HZ, drawn, on_joint, world
 from tests.core.estimate.worlds import planar_robot
 from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
 from veritorque.core.diagnosis.residual.floor import noise_floor
-from veritorque.core.diagnosis.residual.period import later_by, repeats
+from veritorque.core.diagnosis.residual.period import repeats, shift_rows
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.log.reader import log_from_arrays
 
@@ -110,7 +110,7 @@ def test_where_no_way_is_open_the_floor_is_unknown():
 def test_a_series_between_its_rows_is_that_of_its_spectrum(shift):
     rows = np.arange(400.0)
     series = np.column_stack([np.sin(0.3 * rows), np.cos(2.0 * rows)])
-    later = later_by(series, shift)
+    later = shift_rows(series, shift)
     exact = np.column_stack([np.sin(0.3 * (rows + shift)), np.cos(2.0 * (rows + shift))])[: len(later)]
     # 2 rad per row is two thirds of the Nyquist frequency, where the parallel filter ends.
     np.testing.assert_allclose(later[30:], exact[30:], atol=2e-3)

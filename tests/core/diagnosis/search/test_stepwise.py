@@ -226,7 +226,7 @@ def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rival
     fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
     none = nothing_found(fitter)
     forbidden = fitter.fit((candidate(cause),))
-    assert not forbidden.possible
+    assert not forbidden.admissible
     kept, comparisons = compare_alternatives(SearchState(fitter, none, forbidden))
     assert (names(kept), comparisons) == ([], [])
     assert not passes_exit_test(fitter, none, forbidden, 0)
