@@ -21,8 +21,8 @@ from .dynamics.model import DynamicModel, standard_model
 from .errors import OptionError, SolverError, VeritorqueError
 from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
-from .extension.cure import all_proven, cures, extended_base, places_among_all, sizes, taken_along
-from .extension.fold import folded
+from .extension.cure import corrections, extended_base, global_indices, input_note, sizes, with_proven
+from .extension.fold import fold
 from .extension.gain import JointGain, gains
 from .extension.result import Extension
 from .extension.verification import verify
@@ -86,18 +86,18 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     task = _Task(request, parse_options(request.options))
-    found = _identify(task, progress or _say_nothing)
+    found = _identify(task, progress or _no_progress)
     write_traces(task.asked.traces, found)
     return identification_document(found, version=_version(), options=task.options.given)
 
 
 def identify_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Identification:
     """Identify a robot and give every chapter's result."""
-    return _identify(_Task(request, parse_options(request.options)), progress or _say_nothing)
+    return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)
 
 
 def _identify(task: _Task, tell: Progress) -> Identification:
-    problem = _prepared(task, tell)
+    problem = _prepare(task, tell)
     return judge(task.asked.logs, task.options, fit(problem, task.options, tell), tell, task.asked.mapper)
 
 
@@ -112,12 +112,12 @@ def check_reference(request: IdentifyRequest) -> None:
         If the robot's own bodies are to be compared with and it brings none.
     """
     task = _Task(request, parse_diagnose_options(request.options))
-    _earlier(task)
+    _read_reference(task)
     if task.options.reference == PRIOR:
         reference_from_prior(base_model(standard_model(task.asked.robot, task.options.terms)))
 
 
-def _earlier(task: _Task) -> Reference | None:
+def _read_reference(task: _Task) -> Reference | None:
     """Read the earlier result that logs are compared with; None where they are compared with none."""
     options, name = task.options, task.options.reference
     if name is None or name == PRIOR:
@@ -142,35 +142,35 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     task = _Task(request, parse_diagnose_options(request.options))
-    found = _diagnose(task, progress or _say_nothing)
+    found = _diagnose(task, progress or _no_progress)
     write_traces(task.asked.traces, found.before, found)
     return diagnosis_document(found, version=_version(), options=task.options.given)
 
 
 def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Extension:
     """Identify, diagnose, extend and identify again; give every chapter's result."""
-    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _say_nothing)
+    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _no_progress)
 
 
 def _diagnose(task: _Task, tell: Progress) -> Extension:
-    options, reference = task.options, _earlier(task)
-    problem = _prepared(task, tell, reference)
+    options, reference = task.options, _read_reference(task)
+    problem = _prepare(task, tell, reference)
     if options.reference == PRIOR:
         reference = reference_from_prior(problem.base)
-    first, last = _within(tell, 0.0, 0.3), _within(tell, 0.8, 0.15)
+    first, last = _scale_progress(tell, 0.0, 0.3), _scale_progress(tell, 0.8, 0.15)
     before = judge(task.asked.logs, options, fit(problem, options, first), first, task.asked.mapper)
     question = DiagnosisProblem(
         problem.plan, task.asked.logs, problem.held_out, options.validation.blocks, reference
     )
-    found = find_causes(question, _within(tell, 0.3, 0.5))
+    found = find_causes(question, _scale_progress(tell, 0.3, 0.5))
     plain = problem if reference is None else replace(problem, prior=reference.prior)
-    found, proof = _proven(found, options, plain, tell)
+    found, proof = _verify(found, options, plain, tell)
     parts = before.observation.parts(problem.held_out)
     as_it_is = None if reference is None else score_reference(reference, before, parts)
-    if not cures(found):
+    if not corrections(found):
         return Extension(before, found, None, (), None, "nothing joined the model", as_it_is)
     try:
-        extended = proof or fit(_extended(found, plain), options, last)
+        extended = proof or fit(_extend(found, plain), options, last)
         after = judge(task.asked.logs, options, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
@@ -182,24 +182,24 @@ def _diagnose(task: _Task, tell: Progress) -> Extension:
     return Extension(before, found, after, gained, motion, note, as_it_is)
 
 
-def _extended(found: Diagnosis, problem: Problem) -> Problem:
+def _extend(found: Diagnosis, problem: Problem) -> Problem:
     """Let the causes whose gain is beyond doubt join the model."""
-    return replace(problem, base=extended_base(problem.base, cures(found)), sizes=sizes(found))
+    return replace(problem, base=extended_base(problem.base, corrections(found)), sizes=sizes(found))
 
 
-def _proven(
+def _verify(
     found: Diagnosis, options: IdentifyOptions, problem: Problem, tell: Progress
 ) -> tuple[Diagnosis, Fit | None]:
     """Identify again with causes whose gain the search leaves in doubt; give the last such fit if any."""
 
     @cache
     def observed() -> Observation:
-        whole = _extended(all_proven(found), problem)
+        whole = _extend(with_proven(found), problem)
         return whole.observed(lambda _done: tell("verify", 0.78))
 
     def tried(trial: Diagnosis) -> Fit:
-        joined = _extended(trial, problem)
-        seen = observed().over(joined.plan, places_among_all(trial, problem.base))
+        joined = _extend(trial, problem)
+        seen = observed().over(joined.plan, global_indices(trial, problem.base))
         return fit(joined, options, lambda _stage, _done: tell("verify", 0.78), seen)
 
     def gained(*fits: Fit) -> tuple[JointGain, ...]:
@@ -209,7 +209,7 @@ def _proven(
     return verify(found, tried, gained)
 
 
-def _within(tell: Progress, begin: float, share: float) -> Progress:
+def _scale_progress(tell: Progress, begin: float, share: float) -> Progress:
     return lambda stage, done: tell(stage, begin + share * done)
 
 
@@ -219,14 +219,14 @@ def _motion(
     """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
     try:
         old, new = (
-            mechanism_of(*robot) for robot in (before, folded(after.base.model, after.estimate.standard))
+            mechanism_of(*robot) for robot in (before, fold(after.base.model, after.estimate.standard))
         )
-        return compare(old, new, problem.motions, chosen=problem.held_out or None), taken_along(found)
+        return compare(old, new, problem.motions, chosen=problem.held_out or None), input_note(found)
     except VeritorqueError as error:
         return None, str(error)
 
 
-def _prepared(task: _Task, tell: Progress, reference: Reference | None = None) -> Problem:
+def _prepare(task: _Task, tell: Progress, reference: Reference | None = None) -> Problem:
     """Condition the logs, set blocks aside, and group the model's parameters; a reference has its own."""
     tell("condition", 0.02)
     options = task.options
@@ -254,7 +254,7 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
     return {key: plain(value) for key, value in document.items()}
 
 
-def _say_nothing(_stage: str, _fraction: float) -> None:
+def _no_progress(_stage: str, _fraction: float) -> None:
     pass
 
 

@@ -42,7 +42,7 @@ def _diagnosis(found: Extension) -> dict[str, object]:
         "before": _side(found.before if found.compared is None else found.compared),
         "after": {"validation": [], "base_parameters": []}
         if found.after is None
-        else _side(found.after) | _extended(found.before, found.after),
+        else _side(found.after) | _extension(found.before, found.after),
         "repairs": listed,
         "repaired_robot": repaired_description(diagnosis.dataset.robot, listed),
         "simulation": _simulation(found.motion, found.motion_note),
@@ -106,7 +106,7 @@ def _side(found: Identification | ReferenceScore) -> dict[str, object]:
     }
 
 
-def _extended(before: Identification, after: Identification) -> dict[str, object]:
+def _extension(before: Identification, after: Identification) -> dict[str, object]:
     old = set(before.base.names)
     solution = after.estimate.solution
     return {
@@ -117,11 +117,11 @@ def _extended(before: Identification, after: Identification) -> dict[str, object
             "objective": after.estimate.objective,
             "objective_ols": after.estimate.objective_unconstrained,
         },
-        "model": model_document(_identified(after)),
+        "model": model_document(_identified_robot(after)),
     }
 
 
-def _identified(found: Identification) -> IdentifiedRobot:
+def _identified_robot(found: Identification) -> IdentifiedRobot:
     """Give what was identified as files want it."""
     base = found.base
     rows = range(len(base.kept))
@@ -142,15 +142,15 @@ def _simulation(motion: Comparison | None, note: str) -> dict[str, object]:
     return {
         "held_out": True,
         "note": note,
-        "before": _moved(motion.before),
-        "after": _moved(motion.after),
+        "before": _position_errors(motion.before),
+        "after": _position_errors(motion.after),
         "improvement_percent": motion.gain_percent,
         "improvement_total_percent": motion.total_gain_percent,
         "interval_95": motion_intervals(motion),
     }
 
 
-def _moved(found: MultiStep) -> dict[str, object]:
+def _position_errors(found: MultiStep) -> dict[str, object]:
     """Tabulate errors by horizon (rows) and joint (columns); `steady_rms` is that of keeping the velocity."""
     return {
         "horizons_s": found.horizons,

@@ -19,7 +19,7 @@ from ..robot.writing import to_description
 from ..signals.condition import Motion
 from .bodies import body_rows
 from .numbers import plain
-from .reference import written_factor
+from .reference import write_factor
 from .terms import named_terms
 
 SCHEMA_VERSION = "1.0"
@@ -78,7 +78,7 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
     drawn = interval_95(found.draws) if len(found.draws) else None
     return [
         {
-            **_named(found.base, row),
+            **_name_row(found.base, row),
             "value": estimate.base[row],
             "value_ols": estimate.unconstrained[row],
             "standard_deviation": deviation[row],
@@ -87,7 +87,7 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
             "bootstrap_interval_95": None if drawn is None else drawn[row],
             "own_share": found.excitation.own_share[row],
             "essential": row in essential,
-            **_grouped(found.base, row),
+            **_grouping(found.base, row),
         }
         for row in range(len(found.base.kept))
     ]
@@ -95,15 +95,15 @@ def base_parameter_rows(found: Identification) -> list[dict[str, object]]:
 
 def grouping_row(base: BaseModel, row: int) -> dict[str, object]:
     """Name a base parameter, and say in words and as data what is grouped in it."""
-    return {**_named(base, row), **_grouped(base, row)}
+    return {**_name_row(base, row), **_grouping(base, row)}
 
 
-def _named(base: BaseModel, row: int) -> dict[str, object]:
+def _name_row(base: BaseModel, row: int) -> dict[str, object]:
     parameter = base.parameter(row)
     return {"name": base.names[row], "unit": parameter.unit, "joint": parameter.joint}
 
 
-def _grouped(base: BaseModel, row: int) -> dict[str, object]:
+def _grouping(base: BaseModel, row: int) -> dict[str, object]:
     return {"grouping": base.in_words(row), "relation": base.relation(row)}
 
 
@@ -164,14 +164,14 @@ def _precision(found: Identification) -> dict[str, object]:
         "equations": system.rows,
         "noise": system.noise,
         "memory_factor": found.precision.memory_factor,
-        "information_factor": written_factor(found.precision.root),
-        "left_out_percent": 100.0 * (1.0 - _used(found.observation)),
+        "information_factor": write_factor(found.precision.root),
+        "left_out_percent": 100.0 * (1.0 - _used_share(found.observation)),
         "bootstrap_draws": len(found.draws),
         "bootstrap_seed": found.seed,
     }
 
 
-def _used(observation: Observation) -> float:
+def _used_share(observation: Observation) -> float:
     rows = sum(factor.rows for factor in observation.joint_factors())
     return rows / max(observation.kept * len(observation.columns_of), 1)
 

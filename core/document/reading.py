@@ -12,7 +12,7 @@ from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.rotor_inertia_missing import MissingRotor
 from ..errors import RobotError
 from ..estimate.smoothing import with_widths
-from ..extension.fold import folded
+from ..extension.fold import fold
 from ..robot.description import robot_from_description
 from ..robot.frames import nearest_rotation
 from ..robot.model import Coupling, RobotModel
@@ -37,8 +37,8 @@ def identified_model(document: Document) -> IdentifiedRobot:
     RobotError
         If the document's robot or model cannot be used.
     """
-    extended = _extended(document)
-    return _standing(document) if extended is None else extended
+    extended = _extended_model(document)
+    return _uncorrected_model(document) if extended is None else extended
 
 
 def identified_robot(document: Document) -> IdentifiedRobot:
@@ -52,9 +52,9 @@ def identified_robot(document: Document) -> IdentifiedRobot:
     RobotError
         If the document's robot or model cannot be used.
     """
-    extended = _extended(document)
+    extended = _extended_model(document)
     if extended is None:
-        return _standing(document)
+        return _uncorrected_model(document)
     diagnosis = document["diagnosis"]
     repaired = diagnosis.get("repaired_robot") or document["robot"]
     corrected = [repair for repair in diagnosis.get("repairs", ()) if repair["mends"] == "robot"]
@@ -80,7 +80,7 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
     return with_widths(standard_model(robot, tuple(names)), tuple(document["coulomb_smoothing_widths"]))
 
 
-def _standing(document: Document) -> IdentifiedRobot:
+def _uncorrected_model(document: Document) -> IdentifiedRobot:
     """Give the model as it was identified, before any correction."""
     model = model_of_result(document, _robot(document["robot"]))
     rows = {row["name"]: row for row in document["standard_parameters"]}
@@ -98,22 +98,22 @@ def _standing(document: Document) -> IdentifiedRobot:
     )
 
 
-def _extended(document: Document) -> IdentifiedRobot | None:
+def _extended_model(document: Document) -> IdentifiedRobot | None:
     """Read the model that a diagnosis extended; None where nothing joined it."""
     diagnosis = document.get("diagnosis") or {}
     written = diagnosis.get("after", {}).get("model")
     if written is None:
         return None
     extended = model_from_document(written)
-    model = replace(extended.model, robot=_squared(extended.robot))
+    model = replace(extended.model, robot=_orthonormal(extended.robot))
     return replace(extended, model=model)
 
 
 def _robot(description: object) -> RobotModel:
-    return _squared(robot_from_description(description))
+    return _orthonormal(robot_from_description(description))
 
 
-def _squared(robot: RobotModel) -> RobotModel:
+def _orthonormal(robot: RobotModel) -> RobotModel:
     """Make rotations of matrices that a document holds with ten digits: files hold exact angles."""
     links = tuple(
         link if link.row is not None else replace(link, rotation=nearest_rotation(link.rotation))
@@ -126,7 +126,7 @@ def _standard_part(
     extended: IdentifiedRobot, robot: RobotModel, repaired: set[str], remarks: list[str]
 ) -> IdentifiedRobot:
     """Take the standard terms out of an extended model, with what belongs into their parameters."""
-    model, standard = folded(extended.model, extended.standard)
+    model, standard = fold(extended.model, extended.standard)
     known = dict(
         zip((parameter.name for parameter in extended.model.parameters), extended.identifiable, strict=True)
     )
@@ -141,10 +141,10 @@ def _standard_part(
             values |= dict(zip(names, map(float, own), strict=True))
             held_terms.add(_STANDARD_NAME.get(type(term), term.name))
             widths = getattr(term, "widths", ()) if isinstance(term, Coulomb) else widths
-            couplings += _undeclared(term, couplings)
+            couplings += _new_couplings(term, couplings)
         elif getattr(term, "kind", "") not in repaired:
             beyond.append(term.name)
-    whole = _declaring(robot, values, tuple(couplings))
+    whole = _declare(robot, values, tuple(couplings))
     every = standard_model(whole)
     named = tuple(name for name in named_terms(every) if name in held_terms)
     held = with_widths(standard_model(whole, named), widths)
@@ -159,13 +159,13 @@ def _standard_part(
     )
 
 
-def _undeclared(term: object, couplings: list[Coupling]) -> list[Coupling]:
+def _new_couplings(term: object, couplings: list[Coupling]) -> list[Coupling]:
     if not isinstance(term, MissingCoupling):
         return []
     return [] if term.coupling.number in {known.number for known in couplings} else [term.coupling]
 
 
-def _declaring(robot: RobotModel, values: Mapping[str, float], couplings: tuple[Coupling, ...]) -> RobotModel:
+def _declare(robot: RobotModel, values: Mapping[str, float], couplings: tuple[Coupling, ...]) -> RobotModel:
     """Let a robot declare the rotors and couplings that have numbers."""
     joints = tuple(
         replace(joint, rotor_inertia=f"IA{number}" in values)

@@ -62,12 +62,12 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
     )
 
 
-def written_factor(rows: Matrix) -> list[list[float]]:
+def write_factor(rows: Matrix) -> list[list[float]]:
     """Write a triangular factor without the zeros below its diagonal.
 
     Examples
     --------
-    >>> written_factor(np.array([[2.0, 1.0], [0.0, 3.0]]))
+    >>> write_factor(np.array([[2.0, 1.0], [0.0, 3.0]]))
     [[2.0, 1.0], [3.0]]
     """
     return [[float(entry) for entry in row[index:]] for index, row in enumerate(rows)]

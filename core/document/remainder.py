@@ -52,9 +52,9 @@ def dependence_rows(atlas: Atlas) -> list[dict[str, object]]:
             "coordinate": dependence.coordinate,
             "joint": dependence.joint,
             "unit": dependence.unit,
-            "centre": _short(dependence.centre),
-            "mean": _short(dependence.mean),
-            "standard_error": _short(dependence.standard_error),
+            "centre": _round(dependence.centre),
+            "mean": _round(dependence.mean),
+            "standard_error": _round(dependence.standard_error),
             "count": dependence.count,
             "statistic": dependence.statistic,
             "degrees_of_freedom": dependence.degrees_of_freedom,
@@ -69,13 +69,13 @@ def spectrum_rows(atlas: Atlas) -> list[dict[str, object]]:
     return [
         {
             "joint": spectrum.joint,
-            "frequency_hz": _short(spectrum.frequency_hz),
-            "density": _short(spectrum.density),
-            "floor": _short(spectrum.floor),
+            "frequency_hz": _round(spectrum.frequency_hz),
+            "density": _round(spectrum.density),
+            "floor": _round(spectrum.floor),
         }
         for spectrum in atlas.spectra
     ]
 
 
-def _short(values: np.ndarray) -> list[float]:
+def _round(values: np.ndarray) -> list[float]:
     return [float(f"{value:.{SHOWN_DIGITS}g}") for value in values]

@@ -44,7 +44,7 @@ def named_terms(model: DynamicModel) -> list[str]:
 
 def term_fields(term: Term, predictions: list[Prediction]) -> dict[str, object]:
     """Write what a term was made with; predictions are appended to `predictions` unless they are there."""
-    return {name: _plain(getattr(term, name), predictions) for name, _ in _own_fields(type(term))}
+    return {name: _json_value(getattr(term, name), predictions) for name, _ in _own_fields(type(term))}
 
 
 def term_of(kind: str, values: Mapping[str, Any], predictions: Sequence[Prediction]) -> Term:
@@ -86,13 +86,13 @@ def _place(prediction: Prediction, predictions: list[Prediction]) -> int:
     return next(index for index, known in enumerate(predictions) if known is prediction)
 
 
-def _plain(value: object, predictions: list[Prediction]) -> object:
+def _json_value(value: object, predictions: list[Prediction]) -> object:
     if isinstance(value, Prediction):
         return _place(value, predictions)
     if isinstance(value, Coupling):
         return asdict(value)
     if isinstance(value, tuple):
-        return [_plain(entry, predictions) for entry in value]
+        return [_json_value(entry, predictions) for entry in value]
     if isinstance(value, float | np.floating):
         return float(value) if np.isfinite(value) else str(float(value))  # JSON knows no infinity
     return value

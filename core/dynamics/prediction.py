@@ -62,7 +62,7 @@ class Prediction:
         """Give the torque of all the model's terms, N m or N."""
         if state not in self._torques:
             others = (part for part in self._parts if not isinstance(part[0], RigidBody))
-            self._torques[state] = _kept(self.load(state) + self._sum(others, state))
+            self._torques[state] = _contiguous(self.load(state) + self._sum(others, state))
         return self._torques[state]
 
     def transmitted(self, state: MotionState, robot: RobotModel | None = None) -> JointSeries:
@@ -96,7 +96,7 @@ class Prediction:
         if robot is not None and robot is not self.model.robot:
             return self._moved_bodies(robot, state)
         if state not in self._loads:
-            self._loads[state] = _kept(self._moved_bodies(self.model.robot, state))
+            self._loads[state] = _contiguous(self._moved_bodies(self.model.robot, state))
         return self._loads[state]
 
     def rotor(self, joint: int) -> float:
@@ -153,7 +153,7 @@ class Prediction:
     def _joined(self, which: str, state: MotionState, parts: Iterable[tuple[Term, Weights]]) -> JointSeries:
         known = self._sums.setdefault(state, {})
         if which not in known:
-            known[which] = _kept(self._sum(parts, state))
+            known[which] = _contiguous(self._sum(parts, state))
         return known[which]
 
     def _moved_bodies(self, robot: RobotModel, state: MotionState) -> JointSeries:
@@ -168,12 +168,13 @@ class Prediction:
         ones = np.ones((len(state.position), 1))
         ahead, behind = (
             self._moved_bodies(
-                self.model.robot, moved(state, joint, MotionState(*(side * size * ones for size in step)))
+                self.model.robot,
+                shift_joint(state, joint, MotionState(*(side * size * ones for size in step))),
             )
             for side in (1.0, -1.0)
         )
         # Joint after joint in memory, because the factor is one column.
-        return _kept(np.asfortranarray((ahead - behind) / (2.0 * sum(step))))
+        return _contiguous(np.asfortranarray((ahead - behind) / (2.0 * sum(step))))
 
     def _sum(self, parts: Iterable[tuple[Term, Weights]], state: MotionState) -> JointSeries:
         torque = np.zeros_like(state.position, dtype=float)
@@ -187,12 +188,12 @@ class Prediction:
         return self.model.split(self.standard)
 
 
-def _kept(series: JointSeries) -> JointSeries:
+def _contiguous(series: JointSeries) -> JointSeries:
     series.setflags(write=False)
     return series
 
 
-def moved(state: MotionState, joint: int, shift: MotionState) -> MotionState:
+def shift_joint(state: MotionState, joint: int, shift: MotionState) -> MotionState:
     """Add a shift (one column) to the motion of one joint, counted from 0."""
     position, velocity, acceleration = (
         series.copy() for series in (state.position, state.velocity, state.acceleration)

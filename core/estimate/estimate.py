@@ -69,7 +69,7 @@ def estimate(
     """
     check_links(options.bounds, base.model)
     if essential is not None:
-        system = _restricted(system, essential)
+        system = _restrict(system, essential)
     unconstrained = system.solved()
     if not options.method.feasible:
         return Estimate(
@@ -93,7 +93,7 @@ def solve(programme: Programme, solver: str) -> Solution:
     return solve_with_cvxpy(programme)
 
 
-def _restricted(system: System, kept: Indices) -> System:
+def _restrict(system: System, kept: Indices) -> System:
     triangle = np.zeros_like(system.triangle)
     triangle[:, kept] = system.triangle[:, kept]
     return replace(system, triangle=triangle)

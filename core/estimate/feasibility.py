@@ -60,12 +60,10 @@ def feasibility(base: BaseModel, values: BaseParameters, prior: Prior) -> Feasib
     rows += [signs, cap]
     right += [-lower[bounded] / scale[bounded], np.array([_CAP])]
     cones.append(clarabel.NonnegativeConeT(len(bounded) + 1))
-    return _maximised(rows, right, cones, size)
+    return _maximise(rows, right, cones, size)
 
 
-def _maximised(
-    rows: list[np.ndarray], right: list[np.ndarray], cones: list[object], size: int
-) -> Feasibility:
+def _maximise(rows: list[np.ndarray], right: list[np.ndarray], cones: list[object], size: int) -> Feasibility:
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.max_threads = 1

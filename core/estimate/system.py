@@ -80,7 +80,7 @@ def stacked(
     inner = whole[:base]
     rest = whole[base:, -1]
     return System(
-        triangle=_excited(inner[:, :-1]),
+        triangle=_zero_unexcited(inner[:, :-1]),
         target=inner[:, -1],
         rest=float(rest @ rest),
         rows=sum(factor.rows for factor in factors),
@@ -139,12 +139,12 @@ def column_scale(matrix: Matrix) -> Vector:
     return np.where(norms > 0.0, norms, 1.0)
 
 
-def _excited(columns: Matrix) -> Matrix:
+def _zero_unexcited(columns: Matrix) -> Matrix:
     """Set columns to zero that are nothing but rounding beside the largest.
 
     Examples
     --------
-    >>> _excited(np.array([[3.0, 1e-15], [4.0, 1e-15]]))
+    >>> _zero_unexcited(np.array([[3.0, 1e-15], [4.0, 1e-15]]))
     array([[3., 0.],
            [4., 0.]])
     """

@@ -55,7 +55,7 @@ FILES_OPENING = """
 def guide() -> str:
     """Write the document in Markdown."""
     forms = "".join(
-        f"| {form.name} | {_listed(form.media_types)} | {_listed(form.suffixes)} |\n" for form in FORMS
+        f"| {form.name} | {_names(form.media_types)} | {_names(form.suffixes)} |\n" for form in FORMS
     )
     units = "".join(_unit(channel, unit) for channel in CHANNELS.values() for unit in channel.quantity.units)
     profiles = "".join(_profile(name) for name in PROFILES)
@@ -84,7 +84,7 @@ def _column(pattern: Pattern) -> str:
     return f"`{pattern.column}`{f' in {pattern.unit}' if pattern.unit else ''}"
 
 
-def _listed(names: tuple[str, ...]) -> str:
+def _names(names: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 

@@ -66,11 +66,11 @@ def movers(robot: RobotModel) -> tuple[Mover, ...]:
     placed: list[Mover] = []
     for index, link in enumerate(robot.links):
         if index in owners:
-            placed.append(_owning(link, owners[index]))
+            placed.append(_own_mover(link, owners[index]))
         else:
             name = free_name(link.name, taken)
             taken.append(name)
-            placed.append(_mimicking(link, robot.joints[link.joint - 1], name))
+            placed.append(_mimic_mover(link, robot.joints[link.joint - 1], name))
     return tuple(placed)
 
 
@@ -102,7 +102,7 @@ def _owner(robot: RobotModel, number: int) -> int:
     return index
 
 
-def _owning(link: Link, joint: Joint) -> Mover:
+def _own_mover(link: Link, joint: Joint) -> Mover:
     rotation, translation = link.rotation, link.translation
     if link.offset and link.kind == "revolute":
         rotation = np.asarray(rotation @ rotation_z(link.offset))
@@ -111,7 +111,7 @@ def _owning(link: Link, joint: Joint) -> Mover:
     return Mover(joint.name, link, link.kind, link.antecedent, rotation, translation, link.ratio, joint, None)
 
 
-def _mimicking(link: Link, joint: Joint, name: str) -> Mover:
+def _mimic_mover(link: Link, joint: Joint, name: str) -> Mover:
     following = Following(joint.name, link.ratio, link.offset)
     return Mover(
         name, link, link.kind, link.antecedent, link.rotation, link.translation, 1.0, joint, following

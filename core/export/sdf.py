@@ -33,10 +33,10 @@ def write_sdf(identified: IdentifiedRobot) -> str:
     RobotError
         If a joint's coordinate is scaled, which SDFormat cannot say.
     """
-    names, placed = _named(movers(identified.robot))
+    names, placed = _sdf_names(movers(identified.robot))
     version = "1.11" if any(mover.following for mover in placed) else "1.7"
     root = ET.Element("sdf", {"version": version, "xmlns:drake": "drake.mit.edu"})
-    model = child(root, "model", name=_allowed(identified.robot.name))
+    model = child(root, "model", name=_sdf_name(identified.robot.name))
     size = float(np.linalg.norm(identified.robot.gravity))
     gravity = f"Gravity is {size!r} m/s2 along -z of the model's frame."
     comment(
@@ -68,7 +68,7 @@ def _of_rotors(identified: IdentifiedRobot) -> tuple[str, ...]:
     return (sentence,) if listed else ()
 
 
-def _named(placed: Sequence[Mover]) -> tuple[list[str], list[Mover]]:
+def _sdf_names(placed: Sequence[Mover]) -> tuple[list[str], list[Mover]]:
     """Give the links' names, the base's first, and the movers by names that SDFormat takes.
 
     Links and joints share one set of names. Joints keep theirs, by which logs and controllers call them; a
@@ -76,8 +76,8 @@ def _named(placed: Sequence[Mover]) -> tuple[list[str], list[Mover]]:
     """
     joints: dict[str, str] = {}
     for mover in placed:
-        joints[mover.name] = free_name(_allowed(mover.name), list(joints.values()))
-    wanted = [_allowed(mover.link.name) for mover in placed]
+        joints[mover.name] = free_name(_sdf_name(mover.name), list(joints.values()))
+    wanted = [_sdf_name(mover.link.name) for mover in placed]
     names = [free_name("base", [*joints.values(), *wanted])]
     for name in wanted:
         taken = [*joints.values(), *names]
@@ -93,12 +93,12 @@ def _named(placed: Sequence[Mover]) -> tuple[list[str], list[Mover]]:
     ]
 
 
-def _allowed(name: str) -> str:
+def _sdf_name(name: str) -> str:
     """Write a name as SDFormat takes one: ``world`` and ``__name__`` are its own, ``::`` parts nested names.
 
     Examples
     --------
-    >>> _allowed("left::elbow"), _allowed("world"), _allowed("__model__"), _allowed("joint_1")
+    >>> _allowed("left::elbow"), _allowed("world"), _allowed("__model__"), _sdf_name("joint_1")
     ('left_elbow', 'world_', 'model', 'joint_1')
     """
     plain = name.replace("::", "_")

@@ -61,9 +61,9 @@ def urdf_with_inertials(
         (elements.root.inside, _header(identified)),
         *_bodies(document, elements.links, dict(zip(names, identified.bodies, strict=True)), carriers),
         *_drives(elements.joints, identified, own),
-        *_frozen(document, elements.joints, carriers, set(names)),
+        *_fix_joints(document, elements.joints, carriers, set(names)),
     ]
-    return _edited(text, edits)
+    return _apply_edits(text, edits)
 
 
 def _check_alike(own: RobotModel, identified: RobotModel) -> None:
@@ -105,9 +105,9 @@ def _bodies(
             part = ET.Element("link")
             write_inertial(part, transform_body(bodies[name], rotation_to(axes[name]), np.zeros(3)))
             ET.indent(part, level=1)
-            yield element.parts.get("inertial", element.inside), _inner(part)
+            yield element.parts.get("inertial", element.inside), _inner_xml(part)
         elif name in carriers and "inertial" in element.parts:
-            yield element.parts["inertial"], _remark(f"its body is part of link {carriers[name]}'s")
+            yield element.parts["inertial"], _comment(f"its body is part of link {carriers[name]}'s")
 
 
 def _drives(joints: dict[str, Element], identified: IdentifiedRobot, own: RobotModel) -> Iterable[Edit]:
@@ -121,7 +121,7 @@ def _drives(joints: dict[str, Element], identified: IdentifiedRobot, own: RobotM
             yield element.parts.get("dynamics", element.inside), written
 
 
-def _frozen(
+def _fix_joints(
     document: UrdfDocument, joints: dict[str, Element], carriers: dict[str, str], moving: set[str]
 ) -> Iterable[Edit]:
     """Fix joints beside a chosen chain: their links were identified at zero, with what carries them."""
@@ -129,25 +129,25 @@ def _frozen(
         if joint.kind != "fixed" and joint.child not in moving and joint.child in carriers:
             element = joints[joint.name]
             yield element.kind, "fixed"
-            yield element.inside, _remark(f"was {joint.kind}: its links were identified at zero")
+            yield element.inside, _comment(f"was {joint.kind}: its links were identified at zero")
 
 
 def _header(identified: IdentifiedRobot) -> str:
     part = ET.Element("robot")
     comment(part, (*caveats(identified), *left_out(identified, "URDF")))
-    return _inner(part)
+    return _inner_xml(part)
 
 
-def _inner(part: ET.Element) -> str:
+def _inner_xml(part: ET.Element) -> str:
     """Write what an element holds."""
     return "\n  " + "".join(ET.tostring(child, encoding="unicode") for child in part).strip() + "\n  "
 
 
-def _remark(sentence: str) -> str:
+def _comment(sentence: str) -> str:
     return "<!-- " + re.sub("-(?=-)", "- ", sentence) + " -->"
 
 
-def _edited(text: bytes, edits: Iterable[Edit]) -> bytes:
+def _apply_edits(text: bytes, edits: Iterable[Edit]) -> bytes:
     """Replace spans, the last one first; an empty element that is filled is opened."""
     for (start, stop), written in sorted(edits, reverse=True):
         new = written.encode("ascii", "xmlcharrefreplace")

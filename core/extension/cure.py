@@ -16,12 +16,12 @@ from ..dynamics.term import Term
 from ..reduction.base import BaseModel
 
 
-def cures(diagnosis: Diagnosis) -> tuple[Term, ...]:
+def corrections(diagnosis: Diagnosis) -> tuple[Term, ...]:
     """Give the terms of the findings whose gain on held-out rows is significant or verified."""
-    return tuple(term for _, term in _joining(diagnosis))
+    return tuple(term for _, term in _entering_terms(diagnosis))
 
 
-def _joining(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
+def _entering_terms(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
     for finding in diagnosis.findings:
         if finding.member is not None and enters(finding):
             yield finding, finding.member.term(diagnosis.dataset, diagnosis.operating_point)
@@ -53,28 +53,28 @@ def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
     return replace(base, model=model, kept=(*base.kept, *range(old, new)), grouping=grouping)
 
 
-def all_proven(diagnosis: Diagnosis) -> Diagnosis:
+def with_proven(diagnosis: Diagnosis) -> Diagnosis:
     """Give the diagnosis with every finding verified, so that all of them enter."""
     return replace(diagnosis, findings=tuple(replace(finding, proven=True) for finding in diagnosis.findings))
 
 
-def places_among_all(diagnosis: Diagnosis, base: BaseModel) -> Indices:
+def global_indices(diagnosis: Diagnosis, base: BaseModel) -> Indices:
     """Give the indices of an extended model's base parameters in the model with all findings."""
     indices = list(range(len(base.kept)))
     members = (finding for finding in diagnosis.findings if finding.member is not None)
     stop = len(indices)
-    for finding, (_, term) in zip(members, _joining(all_proven(diagnosis)), strict=True):
+    for finding, (_, term) in zip(members, _entering_terms(with_proven(diagnosis)), strict=True):
         start, stop = stop, stop + len(term.parameters(base.model.robot))
         if enters(finding):
             indices += range(start, stop)
     return np.array(indices)
 
 
-def taken_along(diagnosis: Diagnosis) -> str:
+def input_note(diagnosis: Diagnosis) -> str:
     """Say which findings are inputs to a simulation of the extended model, and how; nothing where none is."""
-    joined = list(_joining(diagnosis))
-    past = [_called(finding) for finding, term in joined if term.remembers and not term.channel]
-    channel = [_called(finding) for finding, term in joined if term.channel]
+    joined = list(_entering_terms(diagnosis))
+    past = [_label(finding) for finding, term in joined if term.remembers and not term.channel]
+    channel = [_label(finding) for finding, term in joined if term.channel]
     parts = [f"the torque of {' and '.join(past)} is the one along the measured motion"] if past else []
     if channel:
         parts.append(
@@ -83,7 +83,7 @@ def taken_along(diagnosis: Diagnosis) -> str:
     return "; ".join(parts)
 
 
-def _called(finding: Finding) -> str:
+def _label(finding: Finding) -> str:
     if len(finding.joints) != 1:
         return finding.cause
     return f"{finding.cause} at joint {finding.joints[0]}"

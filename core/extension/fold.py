@@ -13,7 +13,7 @@ from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
 
 
-def folded(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Weights]:
+def fold(model: DynamicModel, standard: Parameters) -> tuple[DynamicModel, Weights]:
     """Add the terms' parameters to those they change, and leave the terms out.
 
     Terms that change parameters which the model does not have stay.

@@ -61,11 +61,11 @@ def _repair(finding: Finding, diagnosis: Diagnosis, robot: RobotModel) -> Repair
     if not enters(finding):
         return Repair(finding.cause, finding.joints, "nothing", NOT_SURE, {})
     cause = finding.member.cause
-    numbers = cause.numbers(diagnosis.dataset, _solved(diagnosis, finding.member))
+    numbers = cause.numbers(diagnosis.dataset, _fitted_cause(diagnosis, finding.member))
     what = cause.repair(robot, finding.joints, numbers)
     return Repair(finding.cause, finding.joints, corrects(cause), what, numbers)
 
 
-def _solved(diagnosis: Diagnosis, member: Candidate) -> FittedCause:
+def _fitted_cause(diagnosis: Diagnosis, member: Candidate) -> FittedCause:
     chosen = diagnosis.chosen
     return chosen.solved(chosen.members.index(member))

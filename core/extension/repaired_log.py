@@ -17,7 +17,7 @@ from ..errors import LogError
 from ..log.model import JointLog, LogRows, rows_at
 from ..robot.model import RobotModel
 from ..signals.condition import effort_scale
-from ..signals.resample import dropped
+from ..signals.resample import dropped_mask
 from .repair import Repair
 
 NEIGHBOURS = 40
@@ -45,7 +45,7 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
         If the log holds currents, and the robot does not say what torque a current gives; if no stretch of it
         is long enough to be corrected.
     """
-    corrections = _in_order(repairs)
+    corrections = _sort_corrections(repairs)
     if not corrections:
         return log
     reach = sum(int(np.ceil(cause.reach(repair.numbers) * log.rate_hz)) for repair, cause in corrections)
@@ -60,7 +60,7 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
     return replace(log, name=f"{log.name}, repaired", source=source, segments=inner, sha256="")
 
 
-def _in_order(repairs: Iterable[Repair]) -> tuple[tuple[Repair, CorrectsLog], ...]:
+def _sort_corrections(repairs: Iterable[Repair]) -> tuple[tuple[Repair, CorrectsLog], ...]:
     """Give the repairs of a log with their causes, in the order in which they are carried out.
 
     The catalogue has a channel's scale before its zero and both before their lateness: the last goes first.
@@ -95,12 +95,12 @@ class RepairedSource:
         read = self.log.source.rows(low, high)
         borders = {border - low for segment in self.log.segments for border in segment if low < border < high}
         cuts = sorted({0, high - low} | borders)
-        parts = [self._mended(rows_at(read, slice(*cut))) for cut in pairwise(cuts)]
-        return rows_at(_joined(parts), slice(start - low, stop - low))
+        parts = [self._correct(rows_at(read, slice(*cut))) for cut in pairwise(cuts)]
+        return rows_at(_concatenate(parts), slice(start - low, stop - low))
 
-    def _mended(self, rows: LogRows) -> LogRows:
+    def _correct(self, rows: LogRows) -> LogRows:
         """Correct a stretch without gaps; rows that repeat the row before do so again."""
-        fresh = ~dropped(rows)
+        fresh = ~dropped_mask(rows)
         if np.count_nonzero(fresh) < FEWEST:
             return rows
         corrected = self._with_torque(rows_at(rows, fresh))
@@ -121,6 +121,6 @@ class RepairedSource:
         return replace(corrected, torque=None, current=corrected.torque / self.effort_scale)
 
 
-def _joined(parts: list[LogRows]) -> LogRows:
+def _concatenate(parts: list[LogRows]) -> LogRows:
     channels = {field.name: [getattr(part, field.name) for part in parts] for field in fields(LogRows)}
     return LogRows(**{name: np.concatenate(own) for name, own in channels.items() if own[0] is not None})

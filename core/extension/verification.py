@@ -46,13 +46,13 @@ def verify(
             then = tried(trial)
         except SolverError:  # with it there is no answer
             continue
-        if shown := _shown(finding, gained(now, then)):
+        if shown := _gain_evidence(finding, gained(now, then)):
             findings[index] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
             diagnosis, now = replace(diagnosis, findings=tuple(findings)), then
     return diagnosis, now
 
 
-def _shown(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:
+def _gain_evidence(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:
     """Give the evidence per joint that is predicted better; none where the others lose as much."""
     if sum(gain.improvement_percent for gain in found) <= 0.0:
         return ()

@@ -111,7 +111,7 @@ def reference_from_prior(base: BaseModel) -> Reference:
     unknown = [column for column in range(len(standard)) if column not in known]
     combinations = null_space(base.grouping[:, unknown].T).T if unknown else np.eye(len(base.kept))
     values = base.base_of(standard)
-    return Reference(PRIOR, base, standard, values, _whitened(combinations, np.hstack(spread)))
+    return Reference(PRIOR, base, standard, values, _whiten(combinations, np.hstack(spread)))
 
 
 def _body_spread(body: LinkParameters) -> EquationRows:
@@ -126,7 +126,7 @@ def _body_spread(body: LinkParameters) -> EquationRows:
     return np.array(directions).T
 
 
-def _whitened(combinations: EquationRows, spread: EquationRows) -> EquationRows:
+def _whiten(combinations: EquationRows, spread: EquationRows) -> EquationRows:
     """Give combinations of base parameters in units of their deviation; those without one are left out."""
     values, vectors = np.linalg.eigh(combinations @ spread @ spread.T @ combinations.T)
     kept = values > 1e-12 * max(float(values[-1]), 1e-300) if len(values) else np.zeros(0, dtype=bool)

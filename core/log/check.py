@@ -13,7 +13,7 @@ from ..arrays import JointVector
 from ..errors import LogError
 from .layout import Binding, Layout
 from .model import JointLog
-from .reader import lay_out, open_table, read_table
+from .reader import bind_columns, open_table, read_table
 from .suggestion import suggest_mapping, suggest_units
 
 PIECE_ROWS = 1 << 16
@@ -58,7 +58,7 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
     """
     form, table = open_table(path)
     try:
-        layout = lay_out(table, mapping)
+        layout = bind_columns(table, mapping)
     except LogError as error:
         suggestion = None if mapping else suggest_mapping(table)
         return LogCheck(form.name, table.names, refusal=error, suggestion=suggestion)

@@ -80,16 +80,16 @@ class Contract:
     def _wraps(self, stretch: Stretch) -> None:
         """Count steps of a whole turn between samples that otherwise move by a fraction of one."""
         with np.errstate(invalid="ignore"):  # values that are not finite are refused by name elsewhere
-            steps = np.abs(np.diff(stretch.position[:, stretch.seam :], axis=1))
-            waits = np.diff(stretch.time[stretch.seam :])
+            steps = np.abs(np.diff(stretch.position[:, stretch.first_new :], axis=1))
+            waits = np.diff(stretch.time[stretch.first_new :])
         prompt = waits < 3.0 * np.median(waits)
         turns = (np.abs(steps - 2.0 * np.pi) < WHOLE_TURN_TOLERANCE) & prompt
         if not turns.any():
             return
         for joint in np.flatnonzero(turns.any(axis=1)):
             if np.median(steps[joint]) < WHOLE_TURN_TOLERANCE:
-                count, first = self._wrapped.get(int(joint), (0, float(stretch.time[stretch.seam + 1])))
-                at = float(stretch.time[stretch.seam + int(np.argmax(turns[joint])) + 1])
+                count, first = self._wrapped.get(int(joint), (0, float(stretch.time[stretch.first_new + 1])))
+                at = float(stretch.time[stretch.first_new + int(np.argmax(turns[joint])) + 1])
                 self._wrapped[int(joint)] = (count + int(turns[joint].sum()), first if count else at)
 
     def _check_wraps(self) -> None:
@@ -105,7 +105,7 @@ class Contract:
         )
 
     def _order(self, stretch: Stretch) -> None:
-        time = stretch.time[stretch.seam :]
+        time = stretch.time[stretch.first_new :]
         if not np.isfinite(time).all():
             new = stretch.time[stretch.context :]
             self._count(self._time_name, ~np.isfinite(new), stretch.first + stretch.context)
@@ -120,7 +120,7 @@ class Contract:
             self._duplicates += int(np.count_nonzero(time[1:] == time[:-1]))
             self._backwards += int(np.count_nonzero(time[1:] < time[:-1]))
             at = int(disorder[0])
-            row = stretch.first + stretch.seam + at + 2
+            row = stretch.first + stretch.first_new + at + 2
             self._first_disorder = self._first_disorder or (row, float(time[at]), float(time[at + 1]))
 
     @property

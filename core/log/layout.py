@@ -117,7 +117,7 @@ def bind(table: Table, mapping: LogMapping) -> Layout:
     _require(table, channels)
     channels = tuple(channel for channel in channels if not _is_other(channel, channels[0], mapping))
     _one_column_per_joint(channels)
-    used = _used_once((*channels, time) if time else channels)
+    used = _used_columns((*channels, time) if time else channels)
     ignored = tuple(name for name in table.names if name not in used)
     return Layout(time, mapping.rate_hz or 0.0, channels, ignored)
 
@@ -180,7 +180,7 @@ def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     return tuple(wanted)
 
 
-def _absent(wanted: Sequence[str], present: Sequence[str]) -> list[str]:
+def _missing(wanted: Sequence[str], present: Sequence[str]) -> list[str]:
     return [name for name in wanted if name not in present]
 
 
@@ -205,7 +205,7 @@ def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
 
 def _bind_request(channel: str, request: ChannelRequest, table: Table) -> Binding:
     """Turn a request into gains; default names are SI, others must have declared their unit."""
-    if _absent(request.columns, table.names):
+    if _missing(request.columns, table.names):
         raise _missing_error(channel, list(request.columns), table, "map columns that the file has")
     default = re.compile(CHANNELS[channel].prefix + ("(_[1-9][0-9]*)?" if channel != TIME else ""))
     named = zip(request.columns, request.units, strict=True)
@@ -245,7 +245,7 @@ def _one_column_per_joint(channels: Sequence[Binding]) -> None:
     wanted = _default_names(CHANNELS[odd.name], usual)
     evidence: dict[str, object] = {"columns": counts}
     if set(odd.columns) < set(wanted):
-        evidence["absent"] = _absent(wanted, odd.columns)
+        evidence["absent"] = _missing(wanted, odd.columns)
     remedy = f"log {odd.name} of every joint; {OTHER_NAME}"
     if _is_dispensable(odd.name, counts):
         remedy += f'; "{odd.name}": null in the mapping leaves it out'
@@ -257,7 +257,7 @@ def _is_dispensable(channel: str, present: Collection[str]) -> bool:
     return need in ("optional", "reference") or (need == "effort" and set(EFFORTS) <= set(present))
 
 
-def _used_once(channels: Sequence[Binding]) -> list[str]:
+def _used_columns(channels: Sequence[Binding]) -> list[str]:
     """Give the columns in use; refuse one that serves two channels."""
     columns = [column for channel in channels for column in channel.columns]
     twice = sorted({column for column in columns if columns.count(column) > 1})
@@ -271,7 +271,7 @@ def _used_once(channels: Sequence[Binding]) -> list[str]:
 
 
 def _missing_error(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
-    absent = _absent(wanted, table.names)
+    absent = _missing(wanted, table.names)
     candidates = [name for name in table.names if not _DEFAULT_NAME.fullmatch(name)]
     nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
     shown, there = wanted[:SHOWN_COLUMNS], list(table.names[:SHOWN_COLUMNS])

@@ -71,7 +71,7 @@ def read_log(
         If the file cannot be read, a column is missing or of unknown unit, or the samples cannot be used.
     """
     table = open_table(path, media_type)[1]
-    layout = lay_out(table, mapping)
+    layout = bind_columns(table, mapping)
     return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
 
 
@@ -87,7 +87,7 @@ def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:
     return form, OPENERS[form](path)
 
 
-def lay_out(table: Table, mapping: Mapping[str, object] | None) -> Layout:
+def bind_columns(table: Table, mapping: Mapping[str, object] | None) -> Layout:
     """Bind columns to channels and joints.
 
     Raises

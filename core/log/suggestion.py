@@ -47,7 +47,7 @@ def suggest_mapping(table: Table) -> dict[str, object] | None:
 
 
 def _clock(table: Table) -> dict[str, object]:
-    time = next((name for name in table.names if _words(name) & set(CHANNELS[TIME].words)), None)
+    time = next((name for name in table.names if _name_words(name) & set(CHANNELS[TIME].words)), None)
     return {RATE: UNKNOWN} if time is None else {TIME: {"column": time, "unit": _unit(TIME, table, time)}}
 
 
@@ -76,9 +76,9 @@ def _in_plausible_unit(channel: Binding, joint: int | None, table: Table) -> dic
 
 def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:
     """Choose columns for every channel; measured ones first, then references that are one per joint."""
-    families = _families(names)
+    families = _column_families(names)
     found: dict[str, list[str]] = {}
-    for stem in sorted(families, key=lambda name: bool(_words(name) & REFERENCE_WORDS)):
+    for stem in sorted(families, key=lambda name: bool(_name_words(name) & REFERENCE_WORDS)):
         channel, columns = _channel(stem, found), families[stem]
         if channel is None or channel in found:
             continue
@@ -115,7 +115,7 @@ def _own_clock(profile: str, table: Table) -> dict[str, object]:
     return {} if unit in (UNKNOWN, clock["unit"]) else {TIME: clock | {"unit": unit}}
 
 
-def _families(names: Sequence[str]) -> dict[str, list[str]]:
+def _column_families(names: Sequence[str]) -> dict[str, list[str]]:
     """Gather columns that differ in their last number only, in the order of that number."""
     families: dict[str, list[tuple[int, str]]] = {}
     for name in names:
@@ -129,7 +129,7 @@ def _families(names: Sequence[str]) -> dict[str, list[str]]:
 
 def _channel(stem: str, known: Collection[str]) -> str | None:
     """Find the channel of a name; a reference stands for what was measured where nothing else does."""
-    words = _words(stem)
+    words = _name_words(stem)
     by_trust = sorted(JOINT_CHANNELS, key=lambda channel: channel.name == "position")  # "joint" says least
     own = list(filter(lambda channel: not words.isdisjoint(channel.words), by_trust))
     measured = next((channel for channel in own if channel.need != "reference"), None)
@@ -140,7 +140,7 @@ def _channel(stem: str, known: Collection[str]) -> str | None:
     return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured.name), None)
 
 
-def _words(name: str) -> set[str]:
+def _name_words(name: str) -> set[str]:
     """Cut a name at its signs, numbers and capitals."""
     return {word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
 

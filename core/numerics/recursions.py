@@ -84,7 +84,7 @@ def innovate(residual, past, weights, innovations) -> None:  # pragma: no cover 
 
 
 @njit("float64[:,::1](float64[::1], int32[::1], int32[::1], int64)", **_SUMS)
-def banded(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover  (compiled)
+def banded_gram(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover  (compiled)
     """Give the products of so many sparse columns with each other and with those behind them: band x columns.
 
     Parameters
@@ -107,7 +107,7 @@ def banded(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover  (co
 
 
 @njit(**_PART)
-def _new_of(row, known, columns, weights) -> np.ndarray:
+def _innovate_row(row, known, columns, weights) -> np.ndarray:
     """Give what is new in one row of columns, of which so many rows before it are not zero."""
     new = np.zeros(columns.shape[1])
     for lag in range(known + 1):
@@ -121,7 +121,7 @@ def _add_row(row, known, rows, sums, products) -> None:
     """Add the products of one row of columns, of which so many rows before it are not zero."""
     columns, past, weights, left, fitted, sizes, loose, begins = rows
     right, squares, grams, cross = sums
-    white = _new_of(row, known, columns, weights[min(past[row], len(weights) - 1)])
+    white = _innovate_row(row, known, columns, weights[min(past[row], len(weights) - 1)])
     width = len(white)
     for tested in range(width):
         right[tested] += left[row] * white[tested]
@@ -149,7 +149,7 @@ def _solve(products, factor, low, high) -> None:
 
 
 @njit(**_PART)
-def _take_spanned(sums, products, inside, low, high) -> None:
+def _subtract_spanned(sums, products, inside, low, high) -> None:
     """Take out what some orthonormal columns span, of which the products with them are given."""
     _, _, grams, cross = sums
     width = products.shape[1]
@@ -206,7 +206,7 @@ _PRODUCTS = "Tuple((float64[:,::1], float64[:,::1], float64[:,:,::1], float64[:,
 
 
 @njit(f"void({_ROWS}, float64[:,::1], float64[:,::1], int64[::1], {_PRODUCTS})", **_SUMS)
-def sum_begun(rows, factor, inside, first, products) -> None:  # pragma: no cover  (compiled)
+def sum_from_onsets(rows, factor, inside, first, products) -> None:  # pragma: no cover  (compiled)
     """Write the products of columns that are zero before some row, made white, for many such rows.
 
     From as many rows on as the noise remembers, what is white is what is white all along: those rows are
@@ -244,7 +244,7 @@ def sum_begun(rows, factor, inside, first, products) -> None:  # pragma: no cove
         while not group[high]:
             high += 1
         _solve(seen, factor, high, known)
-        _take_spanned(sums, seen, inside, high, known)
+        _subtract_spanned(sums, seen, inside, high, known)
         known = min(known, high)
         own = (products[0][number], products[1][number], products[2][number], products[3][number])
         _copy_sums(sums, own)
@@ -254,11 +254,11 @@ def sum_begun(rows, factor, inside, first, products) -> None:  # pragma: no cove
         for row in range(begin, summed):
             _add_row(row, min(rows[1][row], most, row - begin), rows, own, parts)
         _solve(parts, factor, low, high)
-        _take_spanned(own, parts, inside, low, high)
+        _subtract_spanned(own, parts, inside, low, high)
 
 
 @njit("void(float64[::1], float64, float64, float64[::1])", **_EXACT)
-def fly(pulls, step, half_width, twist) -> None:  # pragma: no cover  (compiled)
+def move_between_stops(pulls, step, half_width, twist) -> None:  # pragma: no cover  (compiled)
     """Write where something is between two stops that neither bounce nor pull: it rests there or flies.
 
     Parameters

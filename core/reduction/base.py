@@ -99,7 +99,7 @@ def base_model(model: DynamicModel) -> BaseModel:
     The states are drawn with a fixed seed and ignore the joint limits: what is sought holds for every motion.
     """
     order = khalil_order(model)
-    ideal = replace(model, robot=_idealised(model.robot))
+    ideal = replace(model, robot=_idealise(model.robot))
     matrix = dense(all_columns(ideal), _random_states(model.robot, len(order)))[:, list(order)]
     kept, relation = _first_independent(matrix)
     grouping = np.zeros((len(kept), len(order)))
@@ -134,16 +134,16 @@ def _link_of(robot: RobotModel, joint: int) -> int:
     return next(number for number, link in enumerate(robot.links, start=1) if link.joint == joint)
 
 
-def _idealised(robot: RobotModel) -> RobotModel:
+def _idealise(robot: RobotModel) -> RobotModel:
     """Take right angles that were written with a few digits (1.5708) for right angles.
 
     Such a robot has base parameters that differ from their neighbours by a few millionths and cannot be
     told from them; only what is grouped is decided on the ideal robot, torque is computed with the given one.
     """
-    return replace(robot, links=tuple(_squared(link) for link in robot.links))
+    return replace(robot, links=tuple(_square_link(link) for link in robot.links))
 
 
-def _squared(link: Link) -> Link:
+def _square_link(link: Link) -> Link:
     whole = np.round(link.rotation)
     near = np.abs(link.rotation - whole) < RIGHT_ANGLE_TOLERANCE
     if near.sum() < _RIGHT_ANGLE_ENTRIES:
@@ -177,10 +177,10 @@ def _first_independent(matrix: Matrix) -> tuple[list[int], Rows]:
             kept.append(int(column))
     coordinates = np.linalg.solve(basis.T @ scaled[:, kept], basis.T @ scaled)
     relation = coordinates * np.where(used, scale, 0.0) / scale[kept][:, None]
-    return kept, _tidied(relation)
+    return kept, _round_relation(relation)
 
 
-def _tidied(relation: Matrix) -> Matrix:
+def _round_relation(relation: Matrix) -> Matrix:
     """Remove the rounding from coefficients.
 
     Anything below 1e-9 is none, anything within 1e-9 of a whole number is it.

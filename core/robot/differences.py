@@ -21,7 +21,7 @@ def differences(first: RobotModel, second: RobotModel) -> tuple[str, ...]:
         return ("the number of joints or links",)
     found = []
     for number, (link, other) in enumerate(zip(first.links, second.links, strict=True), start=1):
-        if not _alike(link, other):
+        if not _same_link(link, other):
             found.append(f"the placement of link {number}")
     for number, (joint, other_joint) in enumerate(zip(first.joints, second.joints, strict=True), start=1):
         if (joint.rotor_inertia, set(joint.friction)) != (
@@ -29,24 +29,24 @@ def differences(first: RobotModel, second: RobotModel) -> tuple[str, ...]:
             set(other_joint.friction),
         ):
             found.append(f"the declared rotor inertia or friction of joint {number}")
-    if not _near(first.gravity, second.gravity):
+    if not _is_close(first.gravity, second.gravity):
         found.append("gravity")
-    if _coupled(first) != _coupled(second):
+    if _coupling_rows(first) != _coupling_rows(second):
         found.append("the couplings")
     return tuple(found)
 
 
-def _coupled(robot: RobotModel) -> list[tuple[object, ...]]:
+def _coupling_rows(robot: RobotModel) -> list[tuple[object, ...]]:
     return [(coupling.number, coupling.joints, coupling.weights) for coupling in robot.couplings]
 
 
-def _alike(link: Link, other: Link) -> bool:
+def _same_link(link: Link, other: Link) -> bool:
     same = (link.kind, link.antecedent, link.joint) == (other.kind, other.antecedent, other.joint)
     numbers = [
         np.array([*own.rotation.ravel(), *own.translation, own.ratio, own.offset]) for own in (link, other)
     ]
-    return same and _near(*numbers)
+    return same and _is_close(*numbers)
 
 
-def _near(values: np.ndarray, others: np.ndarray) -> bool:
+def _is_close(values: np.ndarray, others: np.ndarray) -> bool:
     return bool(np.abs(values - others).max() <= TOLERANCE)

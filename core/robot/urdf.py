@@ -92,12 +92,12 @@ def _order(
                 evidence={"link": link[:80], "links": list(document.links)[:20]},
                 remedy="choose base_link and tip_link among the URDF's links",
             )
-    joints = _outwards(children, base)
+    joints = _depth_first(children, base)
     chain = set(map(attrgetter("name"), joints)) if tip_link is None else _chain(joints, base, tip_link)
     return [(joint, joint.kind != "fixed" and joint.name in chain) for joint in joints]
 
 
-def _outwards(children: Mapping[str, Sequence[UrdfJoint]], base: str) -> list[UrdfJoint]:
+def _depth_first(children: Mapping[str, Sequence[UrdfJoint]], base: str) -> list[UrdfJoint]:
     """List all joints from a link outwards, depth first."""
     joints: list[UrdfJoint] = []
     waiting = list(reversed(children[base]))
@@ -178,7 +178,7 @@ def _chain(joints: list[UrdfJoint], base: str, tip: str) -> set[str]:
     return chain
 
 
-def _moving(order: list[tuple[UrdfJoint, bool]]) -> dict[str, UrdfJoint]:
+def _drivers(order: list[tuple[UrdfJoint, bool]]) -> dict[str, UrdfJoint]:
     moving = {joint.name: joint for joint, moves in order if moves}
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise RobotError(
@@ -190,7 +190,7 @@ def _moving(order: list[tuple[UrdfJoint, bool]]) -> dict[str, UrdfJoint]:
 
 
 def _assemble(document: UrdfDocument, order: list[tuple[UrdfJoint, bool]], gravity: Vector3) -> RobotModel:
-    by_name = _moving(order)
+    by_name = _drivers(order)
     joints = tuple(Joint(joint.name, joint.limits) for joint in by_name.values() if joint.mimic is None)
     numbers = {joint.name: number for number, joint in enumerate(joints, start=1)}
     links: list[Link] = []

@@ -124,8 +124,8 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)
     highest = min(0.4 * rate, 0.9 * nyquist)
-    cutoff = _asked_or_chosen(options.cutoff_hz, min(PARALLEL_OVER_MOTION * band, highest / 2.0))
-    position = _asked_or_chosen(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
+    cutoff = _or_default(options.cutoff_hz, min(PARALLEL_OVER_MOTION * band, highest / 2.0))
+    position = _or_default(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
         if not LOWEST_SHARE * band < value < nyquist:
             raise OptionError(
@@ -158,7 +158,7 @@ def _still_speed(speeds: JointVector) -> JointVector:
     return np.where(trembling, TREMBLE_SHARE * speeds.max(), STILL_SHARE * speeds)
 
 
-def _asked_or_chosen(asked: float | None, chosen: float) -> float:
+def _or_default(asked: float | None, chosen: float) -> float:
     return chosen if asked is None else asked
 
 

@@ -33,7 +33,7 @@ def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointS
     if effort is None:
         effort = np.zeros_like(rows.position)
     even = is_uniform(rows.time, rate_hz)
-    if even and not dropped(rows).any():
+    if even and not dropped_mask(rows).any():
         return rows.time, rows.position, effort
     count = int((rows.time[-1] - rows.time[0]) * rate_hz + 1e-6) + 1
     grid = rows.time if even else rows.time[0] + np.arange(count) / rate_hz
@@ -42,7 +42,7 @@ def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointS
 
 def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[InstantSeries, InstantSeries]:
     """Interpolate position and effort at the instants of a grid inside the rows' time span."""
-    fresh = ~dropped(rows)
+    fresh = ~dropped_mask(rows)
     time = rows.time[fresh]
     torque = np.column_stack([np.interp(grid, time, column) for column in effort[fresh].T])
     if len(time) < 4:
@@ -50,17 +50,17 @@ def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[Instant
     return np.asarray(CubicSpline(time, rows.position[fresh], axis=0)(grid)), torque
 
 
-def bridged(rows: LogRows, grid: Instants, longest: float) -> SampleMask:
+def gap_mask(rows: LogRows, grid: Instants, longest: float) -> SampleMask:
     """Mark the instants of a grid that lie where nothing was measured for longer than so many seconds.
 
     There interpolation only guesses at what moved meanwhile.
     """
-    fresh = rows.time[~dropped(rows)]
+    fresh = rows.time[~dropped_mask(rows)]
     after = np.clip(np.searchsorted(fresh, grid), 1, len(fresh) - 1)
     return np.asarray(fresh[after] - fresh[after - 1] > longest)
 
 
-def dropped(rows: LogRows) -> SampleMask:
+def dropped_mask(rows: LogRows) -> SampleMask:
     """Mark the repeats that stand for dropped samples; never the last row, beyond which nothing is known."""
     repeats = repeated_rows(rows)
     starts = np.flatnonzero(np.diff(repeats, prepend=False) & repeats)

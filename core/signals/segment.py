@@ -17,7 +17,7 @@ from ..log.model import JointLog, LogRows
 from .derivative import centred_difference, median
 from .parallel import ParallelFilter
 from .recipe import Recipe
-from .resample import bridged, dropped, is_uniform, on_grid
+from .resample import dropped_mask, gap_mask, is_uniform, on_grid
 from .state import MotionState
 from .tile import Tile
 from .zero_phase import kernel, reach_of
@@ -79,7 +79,7 @@ class Segment:
         begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
         # A standstill is known by its length, so the look for it reaches that much further than the filter.
         early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
-        wide, torque, unknown = self._conditioned(early, late)
+        wide, torque, unknown = self._condition(early, late)
         inner = slice(begin - early, end - early)
         now = self.begin_time + np.arange(begin, end) / self.rate_hz
         state = MotionState(
@@ -98,7 +98,7 @@ class Segment:
             follows=first_kept > 0,
         )
 
-    def _conditioned(self, begin: int, end: int) -> tuple[MotionState, JointSeries, SampleMask]:
+    def _condition(self, begin: int, end: int) -> tuple[MotionState, JointSeries, SampleMask]:
         """Give state, torque, and what rests on instants at which nothing was measured."""
         halo = self.recipe.median_order // 2 + len(self.low_pass) // 2 + 2
         left, right = max(0, begin - halo), min(self.samples, end + halo)
@@ -121,20 +121,20 @@ class Segment:
         near = np.searchsorted(self.stamps, grid[[0, -1]])
         low, high = max(0, int(near[0]) - _NEIGHBOURS), min(len(self.stamps), int(near[1]) + _NEIGHBOURS)
         rows = self.log.source.rows(self.start + low, self.start + high)
-        return self._bridging(rows, grid)
+        return self._interpolate(rows, grid)
 
     def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries, SampleMask]:
         """Take even samples as they are, unless some of them only repeat the one before."""
         low, high = max(0, begin - _NEIGHBOURS), min(self.samples, end + _NEIGHBOURS)
         rows = self.log.source.rows(self.start + low, self.start + high)
         inner = slice(begin - low, end - low)
-        if not dropped(rows).any():
+        if not dropped_mask(rows).any():
             return rows.position[inner], _effort(rows)[inner], np.zeros(end - begin, dtype=bool)
-        return self._bridging(rows, rows.time[inner])
+        return self._interpolate(rows, rows.time[inner])
 
-    def _bridging(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
+    def _interpolate(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
         """Interpolate at the instants of a grid; copied rows are worth as much as a gap in the stamps."""
-        unknown = bridged(rows, grid, max(SHORT_GAP_S, GAP_STEPS / self.rate_hz))
+        unknown = gap_mask(rows, grid, max(SHORT_GAP_S, GAP_STEPS / self.rate_hz))
         return *on_grid(rows, _effort(rows), grid), unknown
 
     def _temperature(self, now: Instants) -> InstantSeries | None:
@@ -154,10 +154,10 @@ class Segment:
         index = np.arange(begin, begin + len(velocity))
         ends: SampleMask = (index < self.reach) | (index >= self.samples - self.reach)
         slow = np.abs(velocity) <= self.recipe.still_speed
-        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._silent)
+        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._unmeasured)
 
     @cached_property
-    def _silent(self) -> np.ndarray:
+    def _unmeasured(self) -> np.ndarray:
         """Mark the joints whose torque was not measured, though other joints' was."""
         silent = np.zeros(self.log.joints, dtype=bool)
         for defect in self.log.defects:

@@ -14,19 +14,19 @@ from .share import Share
 from .windows import Stretch
 
 
-def remembered(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
+def memory_torque(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
     """Give the torque (N m or N) that depends on the motion before, along the measured motion."""
     return _along(mechanism.remembered, stretch)
 
 
-def logged_only(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
+def channel_torque(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
     """Give what the torque channel shows besides the torque of the drives (N m or N)."""
     return _along(mechanism.channel, stretch)
 
 
-def driving(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
+def driving_torque(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
     """Give the torque that moves what is simulated: the measured one, less both of these."""
-    return np.asarray(stretch.torque - remembered(mechanism, stretch) - logged_only(mechanism, stretch))
+    return np.asarray(stretch.torque - memory_torque(mechanism, stretch) - channel_torque(mechanism, stretch))
 
 
 def _along(share: Share, stretch: Stretch) -> JointSeries:

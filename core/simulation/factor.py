@@ -18,14 +18,14 @@ INLINE = {**PART, "forceinline": True, "fastmath": {"contract", "nsz", "arcp"}, 
 
 
 @njit(**INLINE)
-def less(out, row, table, other, factor, count) -> None:
+def sub(out, row, table, other, factor, count) -> None:
     """Subtract a multiple of a row of another table."""
     for s in range(count):
         out[row, s] -= factor * table[other, s]
 
 
 @njit(**INLINE)
-def less_product(out, row, table, left, other, right, count) -> None:
+def sub_product(out, row, table, left, other, right, count) -> None:
     """Subtract the product of two rows."""
     for s in range(count):
         out[row, s] -= table[left, s] * other[right, s]
@@ -37,7 +37,7 @@ def less_mass_times(out, mass, vector, joints, count) -> None:
     for i in range(joints):
         for j in range(joints):
             row = max(i, j) * joints + min(i, j)
-            less_product(out, np.uintp(i), mass, np.uintp(row), vector, np.uintp(j), count)
+            sub_product(out, np.uintp(i), mass, np.uintp(row), vector, np.uintp(j), count)
 
 
 @njit(**INLINE)
@@ -47,7 +47,7 @@ def factorise(mass, scale, joints, count) -> None:
         for i in range(j, joints):
             own = np.uintp(i * joints + j)
             for k in range(j):
-                less_product(mass, own, mass, np.uintp(i * joints + k), mass, np.uintp(j * joints + k), count)
+                sub_product(mass, own, mass, np.uintp(i * joints + k), mass, np.uintp(j * joints + k), count)
         own = np.uintp(j * joints + j)
         for s in range(count):
             scale[np.uintp(j), s] = 1.0 / np.sqrt(mass[own, s])
@@ -62,12 +62,12 @@ def substitute(vector, factor, scale, joints, count) -> None:
     """Solve with the Cholesky factor in place."""
     for i in range(joints):
         for k in range(i):
-            less_product(vector, np.uintp(i), factor, np.uintp(i * joints + k), vector, np.uintp(k), count)
+            sub_product(vector, np.uintp(i), factor, np.uintp(i * joints + k), vector, np.uintp(k), count)
         for s in range(count):
             vector[np.uintp(i), s] *= scale[np.uintp(i), s]
     for i in range(joints - 1, -1, -1):
         for k in range(i + 1, joints):
-            less_product(vector, np.uintp(i), factor, np.uintp(k * joints + i), vector, np.uintp(k), count)
+            sub_product(vector, np.uintp(i), factor, np.uintp(k * joints + i), vector, np.uintp(k), count)
         for s in range(count):
             vector[np.uintp(i), s] *= scale[np.uintp(i), s]
 

@@ -11,7 +11,7 @@ factorisation, and friction where something is at rest. Source: Featherstone 200
 import numpy as np
 from numba import njit
 
-from .factor import INLINE, factorise, less, less_mass_times, substitute
+from .factor import INLINE, factorise, less_mass_times, sub, substitute
 from .hold import hold_block
 from .kernel import BLOCK, OPTIONS, ROBOT, mass_of_block, move_block, scratch, torque_of_block
 
@@ -22,14 +22,14 @@ Bodies = tuple[np.ndarray, ...]
 
 
 @njit(**INLINE)
-def _take(block, table, begin, count) -> None:
+def _read_block(block, table, begin, count) -> None:
     for row in range(len(table)):
         for s in range(count):
             block[row, s] = table[row, begin + s]
 
 
 @njit(**INLINE)
-def _raise(out, row, value, count) -> None:
+def _add(out, row, value, count) -> None:
     """Add a number to a row."""
     for s in range(count):
         out[row, s] += value
@@ -50,7 +50,7 @@ def _slide(out, row, direction, level, weight, begin, count) -> None:
 
 
 @njit(**INLINE)
-def _give(table, block, begin, count) -> None:
+def _write_block(table, block, begin, count) -> None:
     """Copy a block's rows to where they belong."""
     for row in range(len(table)):
         for s in range(count):
@@ -64,9 +64,9 @@ def _add_drives(out, mass, velocity, inertia, damping, count) -> None:
     for i in range(joints):
         for j in range(joints):
             if damping[i, j] != 0.0:
-                less(out, np.uintp(i), velocity, np.uintp(j), damping[i, j], count)
+                sub(out, np.uintp(i), velocity, np.uintp(j), damping[i, j], count)
             if j <= i and inertia[i, j] != 0.0:
-                _raise(mass, np.uintp(i * joints + j), inertia[i, j], count)
+                _add(mass, np.uintp(i * joints + j), inertia[i, j], count)
 
 
 @njit(**INLINE)
@@ -93,16 +93,16 @@ def _move_masses(  # pragma: no cover  (compiled)
     out, matrix = np.zeros((joints, BLOCK)), np.empty((joints * joints, BLOCK))
     for begin in range(0, states, BLOCK):
         start, many = np.uintp(begin), min(BLOCK, states - begin)
-        _take(q, position, start, np.uintp(many))
-        _take(v, velocity, start, np.uintp(many))
-        _take(a, acceleration, start, np.uintp(many))
+        _read_block(q, position, start, np.uintp(many))
+        _read_block(v, velocity, start, np.uintp(many))
+        _read_block(a, acceleration, start, np.uintp(many))
         move_block(robot, tables, q, v, a, many)
         if len(torque):
             torque_of_block(robot, tables, out, many)
-            _give(torque, out, start, np.uintp(many))
+            _write_block(torque, out, start, np.uintp(many))
         if len(mass):
             mass_of_block(robot, tables, matrix, joints, many)
-            _give(mass, matrix, start, np.uintp(many))
+            _write_block(mass, matrix, start, np.uintp(many))
 
 
 @njit(
@@ -133,23 +133,23 @@ def _accelerate(  # pragma: no cover  (compiled)
     for begin in range(0, states, BLOCK):
         start, many = np.uintp(begin), min(BLOCK, states - begin)
         count = np.uintp(many)
-        _take(v, velocity, start, count)
-        _take(out, torque, start, count)
-        _take(bias, biases, start, count)
-        _take(mass, matrices, start, count)
+        _read_block(v, velocity, start, count)
+        _read_block(out, torque, start, count)
+        _read_block(bias, biases, start, count)
+        _read_block(mass, matrices, start, count)
         _add_drives(out, mass, v, inertia, damping, count)
         for i in range(joints):
-            less(out, np.uintp(i), bias, np.uintp(i), 1.0, count)
+            sub(out, np.uintp(i), bias, np.uintp(i), 1.0, count)
             for e in range(len(weights)):
                 _slide(out, np.uintp(i), direction[e], level[e], weights[e, i], start, count)
         if len(known):
-            _take(other, known, start, count)
+            _read_block(other, known, start, count)
             less_mass_times(out, mass, other, joints, count)
         _add_implicit(mass, implicit, damping, start, count)
         factorise(mass, scale, joints, count)
         substitute(out, mass, scale, joints, count)
         hold_block(out, mass, scale, weights, direction, level, held, begin, many)
-        _give(rate, out, start, count)
+        _write_block(rate, out, start, count)
 
 
 def accelerations(robot: Bodies, *tables: np.ndarray) -> None:

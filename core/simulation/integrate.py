@@ -70,7 +70,7 @@ class Integrator:
         back = self.drive.feedback
         return self.mechanism.damping + np.diag(self.drag + (0.0 if back is None else back.damping))
 
-    def _driven(self, stride: Stride, share: np.ndarray, states: States) -> np.ndarray:
+    def _drive_torque(self, stride: Stride, share: np.ndarray, states: States) -> np.ndarray:
         """Give the drives' torque after a share of a step, and the drag back."""
         torque = self.drive.at(stride.number, share, stride.lanes, states)
         return np.asarray(torque + self.drag[:, None] * states.velocity)
@@ -94,7 +94,7 @@ class Integrator:
             after, slope = self._heun(before, left)
             found = self._first_reversal(before, after, slope, left)
             if found is None or cuts == 1:
-                trial.put(lanes, after if found is None else self._rested(before, after))
+                trial.put(lanes, after if found is None else self._stop_reversed(before, after))
                 break
             done, again = np.flatnonzero(found == 1.0), np.flatnonzero(found < 1.0)
             trial.put(lanes[done], after.chosen(done))
@@ -107,13 +107,13 @@ class Integrator:
         """Take one step without looking at reversals; also gives the acceleration it began with."""
         time = self.drive.step * stride.to_go
         damping, implicit = self.damping, GAMMA * time
-        torque = self._driven(stride, stride.passed, states)
+        torque = self._drive_torque(stride, stride.passed, states)
         first = rates(self.mechanism, states, torque, implicit=implicit, damping=damping)
         ahead = replace(states.later(time), acceleration=first.acceleration, direction=first.direction)
         kernel.predict(
             states.position, states.velocity, first.acceleration, time, ahead.position, ahead.velocity
         )
-        torque = self._driven(stride, stride.passed + stride.to_go, ahead)
+        torque = self._drive_torque(stride, stride.passed + stride.to_go, ahead)
         known = 2.0 * first.acceleration
         second = rates(self.mechanism, ahead, torque, known=known, implicit=implicit, damping=damping)
         after = replace(states.later(time), acceleration=second.acceleration, direction=second.direction)
@@ -127,15 +127,15 @@ class Integrator:
             after.position,
             after.velocity,
         )
-        return self._released(states, after), first.acceleration
+        return self._undo_release(states, after), first.acceleration
 
-    def _released(self, before: States, after: States) -> States:
+    def _undo_release(self, before: States, after: States) -> States:
         """Put back to rest what left it against the way it was let go."""
         left = (before.direction == 0.0) & (after.direction != 0.0)
         if not left.any():
             return after
         against = left & (after.direction * (self.mechanism.weights @ after.velocity) <= 0.0)
-        return _rest(self.mechanism, after, against)
+        return _stop(self.mechanism, after, against)
 
     def _first_reversal(
         self, before: States, after: States, slope: np.ndarray, stride: Stride
@@ -159,15 +159,15 @@ class Integrator:
         moving = before.direction != 0.0
         scale = begin + np.abs(self.mechanism.weights @ slope) * (self.drive.step * stride.to_go)
         nearest = np.where(moving, end / np.maximum(scale, np.finfo(float).tiny), np.inf)
-        return _rest(self.mechanism, at, nearest == nearest.min(axis=0))
+        return _stop(self.mechanism, at, nearest == nearest.min(axis=0))
 
-    def _rested(self, before: States, after: States) -> States:
+    def _stop_reversed(self, before: States, after: States) -> States:
         """Put to rest whatever changed its direction."""
         end = self.mechanism.weights @ after.velocity
-        return _rest(self.mechanism, after, before.direction * end < 0.0)
+        return _stop(self.mechanism, after, before.direction * end < 0.0)
 
 
-def _rest(mechanism: Mechanism, states: States, stops: np.ndarray) -> States:
+def _stop(mechanism: Mechanism, states: States, stops: np.ndarray) -> States:
     """Take the speed from frictions (those of one joint exactly) and mark them at rest."""
     velocity = states.velocity.copy()
     for row, weights in enumerate(mechanism.weights):

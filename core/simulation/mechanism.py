@@ -115,7 +115,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
             remedy="give one finite number per standard parameter of the model",
         )
     joints = len(model.robot.joints)
-    drives, coupled, others = _sorted(model, parameters)
+    drives, coupled, others = _sort_terms(model, parameters)
     inertia, damping = np.diag(drives[RotorInertia]), np.diag(drives[Viscous])
     for weights, (rotor, viscous, _) in coupled:
         inertia = inertia + rotor * np.outer(weights, weights)
@@ -146,7 +146,7 @@ def _partition(parts: Parts, chosen: Callable[[Term], bool]) -> tuple[Parts, Par
     return [part for part in parts if chosen(part[0])], [part for part in parts if not chosen(part[0])]
 
 
-def _sorted(
+def _sort_terms(
     model: DynamicModel, parameters: Parameters
 ) -> tuple[dict[type, np.ndarray], list[tuple[np.ndarray, np.ndarray]], Parts]:
     """Sort all terms but bodies: numbers per joint, couplings as weights and three numbers, others."""

@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays import BlockKey, JointVector, Matrix
 from ..errors import OptionError
 from ..signals.condition import Motion
-from .along import driving
+from .along import driving_torque
 from .drive import Drive
 from .integrate import LONGEST_STEP
 from .mechanism import Mechanism
@@ -110,7 +110,7 @@ def predict_motion(
     found: list[tuple[np.ndarray, ...]] = []
     keys: list[BlockKey] = []
     begins: list[np.ndarray] = []
-    drive = partial(driving, mechanism)
+    drive = partial(driving_torque, mechanism)
     for group in windows(motions, asked.horizons[-1], asked.every, chosen, drive=drive):
         keys += group.keys
         begins.append(group.begins)

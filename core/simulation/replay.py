@@ -18,7 +18,7 @@ from ..arrays import BlockKey, JointSeries, JointVector, Samples
 from ..errors import OptionError
 from ..signals.condition import Motion
 from ..signals.state import MotionState, concatenate_states
-from .along import logged_only, remembered
+from .along import channel_torque, memory_torque
 from .drive import Drive, Feedback
 from .integrate import LONGEST_STEP
 from .mechanism import Mechanism
@@ -150,8 +150,8 @@ def replay(
     blocks: list[Replayed] = []
     while len(blocks) < len(measured):
         left = measured[len(blocks) :]
-        group = list(takewhile(partial(_clocked, left[0]), left))
-        blocks += _played(mechanism, group, gains, asked)
+        group = list(takewhile(partial(_same_step, left[0]), left))
+        blocks += _replay(mechanism, group, gains, asked)
         if progress is not None:
             progress(len(blocks) / len(measured))
     return Replay(tuple(blocks), gains, *_rms_errors(blocks))
@@ -167,14 +167,14 @@ def _rms_errors(blocks: Sequence[Replayed]) -> Iterator[JointVector]:
     return (np.sqrt(np.mean(np.vstack(of_channel) ** 2, axis=0)) for of_channel in errors)
 
 
-def _clocked(first: Stretch, other: Stretch) -> bool:
+def _same_step(first: Stretch, other: Stretch) -> bool:
     return same_clock(first.step, other.step)
 
 
-def _played(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions) -> list[Replayed]:
+def _replay(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions) -> list[Replayed]:
     """Play stretches of one clock side by side; shorter ones wait at their end until the longest is done."""
-    past = [remembered(mechanism, stretch) for stretch in group]
-    shown = [logged_only(mechanism, stretch) for stretch in group]
+    past = [memory_torque(mechanism, stretch) for stretch in group]
+    shown = [channel_torque(mechanism, stretch) for stretch in group]
     drive = _drive(mechanism, group, gains, asked.feed_forward, past)
     start = concatenate_states([stretch.state.at(slice(1)) for stretch in group])
     moved = rollout(mechanism, States.starting(mechanism, start), drive, longest_step=asked.longest_step)
@@ -197,10 +197,10 @@ def _drive(
 ) -> Drive:
     """Give the torques that drive stretches side by side: feed-forward less what remains of the past."""
     longest = max(len(stretch.time) for stretch in group)
-    position = _padded([stretch.state.position for stretch in group], longest)
-    velocity = _padded([stretch.state.velocity for stretch in group], longest)
+    position = _pad([stretch.state.position for stretch in group], longest)
+    velocity = _pad([stretch.state.velocity for stretch in group], longest)
     forward = (_feed_forward(mechanism, stretch, kind) for stretch in group)
-    torque = _padded([full - old for full, old in zip(forward, past, strict=True)], longest)
+    torque = _pad([full - old for full, old in zip(forward, past, strict=True)], longest)
     return Drive(group[0].step, torque, Feedback(gains.stiffness, gains.damping, position, velocity))
 
 
@@ -209,9 +209,9 @@ def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> 
     if kind == "none":
         return np.zeros_like(stretch.torque)
     told = stretch.torque if kind == "measured" else mechanism.torque(stretch.around)[stretch.inside]
-    return np.asarray(told - logged_only(mechanism, stretch))
+    return np.asarray(told - channel_torque(mechanism, stretch))
 
 
-def _padded(series: list[JointSeries], longest: int) -> np.ndarray:
+def _pad(series: list[JointSeries], longest: int) -> np.ndarray:
     padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0)), mode="edge") for rows in series]
     return np.ascontiguousarray(np.stack(padded, axis=2))

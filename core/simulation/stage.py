@@ -176,12 +176,12 @@ def _other_torques(mechanism: Mechanism, states: States) -> tuple[np.ndarray, np
     velocity = np.where(against | (way != 0.0) & (states.velocity == 0.0), CREEP * way, states.velocity)
     resting = way == 0.0
     if not resting.any():
-        return _evaluated(mechanism, states, velocity), np.zeros_like(velocity)
+        return _evaluate(mechanism, states, velocity), np.zeros_like(velocity)
     ahead, behind = (np.where(resting, sign * CREEP, velocity) for sign in (1.0, -1.0))
     # Either side in one go: what a term costs hardly depends on how many states there are.
     count, rests = velocity.shape[1], np.flatnonzero(resting.any(axis=0))
     both = states.chosen(np.concatenate([np.arange(count), rests]))
-    torque = _evaluated(mechanism, both, np.hstack([ahead, behind[:, rests]]))
+    torque = _evaluate(mechanism, both, np.hstack([ahead, behind[:, rests]]))
     smooth, other = torque[:, :count], torque[:, count:]
     jump = np.zeros_like(velocity)
     jump[:, rests] = np.where(resting[:, rests], 0.5 * (smooth[:, rests] - other), 0.0)
@@ -197,11 +197,11 @@ def drag_of(mechanism: Mechanism, states: States) -> np.ndarray:
     if not mechanism.others.names:
         return np.zeros(mechanism.joints)
     step = SLIGHTLY * np.where(states.velocity < 0.0, -1.0, 1.0)
-    slower, faster = (_evaluated(mechanism, states, states.velocity + count * step) for count in (1.0, 2.0))
+    slower, faster = (_evaluate(mechanism, states, states.velocity + count * step) for count in (1.0, 2.0))
     return np.asarray(np.maximum((faster - slower) / step, 0.0).max(axis=1, initial=0.0))
 
 
-def _evaluated(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
+def _evaluate(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
     temperature = None if states.temperature is None else states.temperature.T
     state = MotionState(states.position.T, velocity.T, states.acceleration.T, states.time, temperature)
     return np.asarray(mechanism.others.torque(state).T)

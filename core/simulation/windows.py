@@ -61,10 +61,10 @@ def stretches(motions: tuple[Motion, ...], chosen: frozenset[BlockKey] | None = 
         run: list[Tile] = []
         for tile in without_standstill_mask(motion).tiles():
             if run and not (tile.follows and tile.block == run[-1].block):
-                yield from _joined(log, run, chosen)
+                yield from _join_stretches(log, run, chosen)
                 run = []
             run.append(tile)
-        yield from _joined(log, run, chosen)
+        yield from _join_stretches(log, run, chosen)
 
 
 def measured_torque(stretch: Stretch) -> JointSeries:
@@ -96,12 +96,12 @@ def windows(
     longest, found = 0.0, False
     for stretch in stretches(motions, chosen):
         longest = max(longest, stretch.step * (len(stretch.time) - 1))
-        cut = _cut(stretch, seconds, every, drive)
+        cut = _cut_windows(stretch, seconds, every, drive)
         if cut is None:
             continue
         found = True
         if pile and not same_clock(pile[-1].step, cut.step):
-            yield _beside(pile)
+            yield _join_windows(pile)
             pile = []
         pile.append(cut)
     if not found:
@@ -110,7 +110,7 @@ def windows(
             evidence={"window_seconds": seconds, "longest_seconds": longest},
             remedy="simulate shorter windows, divide the log into fewer blocks, or record a longer log",
         )
-    yield _beside(pile)
+    yield _join_windows(pile)
 
 
 def same_clock(one: float, other: float) -> bool:
@@ -118,7 +118,7 @@ def same_clock(one: float, other: float) -> bool:
     return abs(one - other) <= 1e-6 * one
 
 
-def _joined(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> Iterator[Stretch]:
+def _join_stretches(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> Iterator[Stretch]:
     if run and (chosen is None or (log, run[0].block) in chosen):
         yield from _usable_part((log, run[0].block), run)
 
@@ -129,7 +129,7 @@ def _usable_part(key: BlockKey, run: list[Tile]) -> Iterator[Stretch]:
     usable = np.concatenate([tile.usable.all(axis=1) for tile in run])
     if not usable.any():
         return
-    around, torque = _together(run)
+    around, torque = _join_tiles(run)
     # in between, only ends of a log could be unusable
     first, last = (run[0].first + every * int(index) for index in np.flatnonzero(usable)[[0, -1]])
     torque = torque[first : last + 1]
@@ -144,7 +144,7 @@ def _usable_part(key: BlockKey, run: list[Tile]) -> Iterator[Stretch]:
         yield Stretch(key, step, every, time, state, torque, around, inside)
 
 
-def _together(run: list[Tile]) -> tuple[MotionState, JointSeries]:
+def _join_tiles(run: list[Tile]) -> tuple[MotionState, JointSeries]:
     """Join tiles: of each its own samples, and what lies before the first and after the last one."""
     parts = []
     for number, tile in enumerate(run):
@@ -155,7 +155,7 @@ def _together(run: list[Tile]) -> tuple[MotionState, JointSeries]:
     return concatenate_states(states), torque
 
 
-def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Windows | None:
+def _cut_windows(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Windows | None:
     length = round(seconds / stretch.step)
     stride = stretch.every * max(1, round(every / (stretch.every * stretch.step)))
     begins = np.arange(0, len(stretch.time) - length, stride)
@@ -171,7 +171,7 @@ def _cut(stretch: Stretch, seconds: float, every: float, drive: DrivenBy) -> Win
     return Windows(stretch.step, stretch.time[begins], keys, start, position, velocity, torque)
 
 
-def _beside(pile: list[Windows]) -> Windows:
+def _join_windows(pile: list[Windows]) -> Windows:
     """Put windows of one clock side by side."""
     begins = np.concatenate([windows.begins for windows in pile])
     start = concatenate_states([windows.start for windows in pile])

@@ -14,7 +14,7 @@ from ...arrays import JointSeries
 from ...dynamics.prediction import Prediction
 from ...log.model import LogRows
 from ...signals.condition import Motion
-from ...signals.resample import dropped
+from ...signals.resample import dropped_mask
 from ..dataset.dataset import Dataset
 from ..thresholds.samples import SAMPLE_CHECKS
 from .protocol import Quantity
@@ -79,7 +79,7 @@ def _counted(motion: Motion) -> list[_Count]:
 
 
 def _count(rows: LogRows, motion: Motion) -> _Count:
-    lost = dropped(rows)
+    lost = dropped_mask(rows)
     # While rows repeat, the robot moved if its position differs after them.
     passed = [np.interp(rows.time, rows.time[~lost], column[~lost]) for column in rows.position.T]
     position = np.column_stack(passed)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...dynamics.term import Term
-from ...dynamics.terms.external_contact import WRENCH, Contact, Span, pushed
+from ...dynamics.terms.external_contact import WRENCH, Contact, Span, contact_jacobian
 from ..dataset.dataset import Dataset
 from ..dataset.spikes import has_spike
 from ..regression.innovation_covariance import fitted_rows, inverse_covariances, torque_residual
@@ -51,7 +51,7 @@ class ExternalContact(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Find the spans in which the residual is a wrench on the link."""
         mask = fitted_rows(at.dataset)
-        push = pushed(at.dataset.robot, end_links(at.dataset.robot)[at.joint], at.dataset.state)
+        push = contact_jacobian(at.dataset.robot, end_links(at.dataset.robot)[at.joint], at.dataset.state)
         left = torque_residual(at.dataset, at.operating_point)
         found = find_events(
             at.dataset.time, push, left, inverse_covariances(at.dataset, left, mask), most=ADMISSIBLE.contacts

@@ -16,7 +16,7 @@ from scipy.stats import binom, norm
 from ...arrays import JointSeries, Vector
 from ...dynamics.prediction import Prediction
 from ...log.model import LogRows
-from ...signals.resample import dropped, is_uniform, on_grid
+from ...signals.resample import dropped_mask, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
@@ -98,7 +98,7 @@ def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]
 
 def _even(rows: LogRows, rate_hz: float) -> JointSeries:
     """Take positions as the study does: at their real stamps, without repeats."""
-    if is_uniform(rows.time, rate_hz) and not dropped(rows).any():
+    if is_uniform(rows.time, rate_hz) and not dropped_mask(rows).any():
         return rows.position
     grid = np.linspace(rows.time[0], rows.time[-1], len(rows.time))
     return np.asarray(on_grid(rows, rows.position, grid)[0])

@@ -15,7 +15,7 @@ from scipy.linalg.lapack import dpbtrs, dpstrf, dtbtrs
 from scipy.sparse import csr_array
 
 from ...arrays import EquationRows, Matrix, Vector, Weights
-from ...numerics.recursions import banded
+from ...numerics.recursions import banded_gram
 
 LEAST = 1e-4
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
@@ -80,7 +80,7 @@ def nuisance_of(columns: csr_array) -> Nuisance:
         In the order of time: what lies apart in the order must not overlap much.
     """
     scaled = _unit_columns(columns)
-    products = banded(
+    products = banded_gram(
         scaled.data, scaled.indices.astype(np.int32), scaled.indptr.astype(np.int32), scaled.shape[1]
     )
     products[0] += RIDGE

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
 from ...arrays import EquationRows, Indices, Matrix, Weights
-from ...numerics.recursions import sum_begun
+from ...numerics.recursions import sum_from_onsets
 from ..thresholds.regression import COLUMNS
 from .gls import Fit
 from .rows import Columns, JointRows
@@ -140,7 +140,7 @@ def _scores_from(
             np.ascontiguousarray(table) for table in (own.columns, own.inside, own.nuisance.factor.T)
         )
         free = (loose.data, loose.indices.astype(np.int32), loose.indptr.astype(np.int32))
-        sum_begun((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
+        sum_from_onsets((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
         right += sums[0]
         squares += sums[1]
         grams += sums[2]

@@ -12,18 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import JointSeries, Samples
-from ...numerics.recursions import fly
+from ...numerics.recursions import move_between_stops
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..gear import Gear
 from ..prediction import Prediction
 from .effect import AllJointsTerm, rates, step_of
-from .joint_elasticity import smoothed
+from .joint_elasticity import smooth
 
 
 @dataclass(frozen=True, eq=False)
 class Backlash(AllJointsTerm):
-    """Model backlash near the half width `around` (rad); the twist is smoothed at `band_hz`.
+    """Model backlash near the half width `around` (rad); the twist is smooth at `band_hz`.
 
     The `motor_inertia`, kg m2, is the rotor inertia that the operating point's load contains.
     """
@@ -41,7 +41,7 @@ class Backlash(AllJointsTerm):
         del robot
         gear = Gear(self.believed, self.joint, self.motor_inertia)
         free = gear.load(state) / np.maximum(gear.inertia(state), 1e-9)
-        twist = smoothed(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
+        twist = smooth(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
         lag = twist / -self.around
         return [gear.change(state, MotionState(lag, *rates(lag, state)))]
 
@@ -57,5 +57,5 @@ def twist_of(free: Samples, step: float, half_width: float) -> Samples:
     array([ 1.5,  1.5,  1. , -0.5, -1.5, -1.5])
     """
     twist = np.empty(len(free))
-    fly(np.array(free), step, half_width, twist)
+    move_between_stops(np.array(free), step, half_width, twist)
     return twist

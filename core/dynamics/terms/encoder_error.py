@@ -12,7 +12,7 @@ import numpy as np
 from ...arrays import JointSeries
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from ..prediction import Prediction, moved
+from ..prediction import Prediction, shift_joint
 from .effect import AllJointsTerm
 
 SMALL = 1e-5
@@ -57,5 +57,5 @@ class EncoderEccentricity(AllJointsTerm):
             shift = MotionState(
                 *(-SMALL * series for series in (error.position, error.velocity, error.acceleration))
             )
-            out.append((self.believed.torque(moved(state, own, shift)) - plain) / SMALL)
+            out.append((self.believed.torque(shift_joint(state, own, shift)) - plain) / SMALL)
         return out

@@ -42,19 +42,19 @@ class Contact(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque per unit of every contact's peak wrench, N and N m."""
         time = np.zeros(len(state.position)) if state.time is None else state.time
-        heights = [swell(time, span)[:, None] for span in self.spans]
+        heights = [half_sine(time, span)[:, None] for span in self.spans]
         if not any(height.any() for height in heights):
             return [np.zeros(state.position.shape) for _ in self.symbols]
-        push = pushed(robot, self.link, state)
+        push = contact_jacobian(robot, self.link, state)
         return [-height * push[:, axis] for height in heights for axis in range(len(WRENCH))]
 
 
-def swell(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:
+def half_sine(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:
     """Give a half sine of height one within a span; or each sample within its own span.
 
     Examples
     --------
-    >>> swell(np.array([0.0, 1.0, 2.0, 3.0, 4.0]), (1.0, 3.0)).round(12)
+    >>> half_sine(np.array([0.0, 1.0, 2.0, 3.0, 4.0]), (1.0, 3.0)).round(12)
     array([0., 0., 1., 0., 0.])
     """
     start, end = span
@@ -63,7 +63,7 @@ def swell(time: Samples, span: Span | tuple[Samples, ...]) -> Samples:
 
 
 @lru_cache(maxsize=16)
-def pushed(robot: RobotModel, link: int, state: MotionState) -> Jacobian:
+def contact_jacobian(robot: RobotModel, link: int, state: MotionState) -> Jacobian:
     """Give the Jacobian along a stretch; cached, because many spans are tried on the same one."""
     rows = np.moveaxis(jacobian(robot, link, state.position), 1, 0)
     found = np.stack(without_rounding(list(rows)), axis=1)

@@ -47,7 +47,7 @@ def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
     >>> dahl(np.array([0.0, 0.0, -np.log(2.0)]), np.array([1.0, -1.0, -1.0]), 1.0)
     array([1., 1., 0.])
     """
-    sign = _held(np.sign(velocity))
+    sign = _last_direction(np.sign(velocity))
     travel = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])
     firsts = np.flatnonzero(np.diff(sign, prepend=0.0))
     begins = travel[firsts]
@@ -61,7 +61,7 @@ def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
     return np.asarray(sign + missing[run] * np.exp(-(travel - begins[run]) / distance))
 
 
-def _held(sign: Samples) -> Samples:
+def _last_direction(sign: Samples) -> Samples:
     """Keep the last direction of a joint at rest, forwards where it never moved."""
     moving = np.where(sign != 0.0, np.arange(len(sign)), -1)
     last = np.maximum.accumulate(moving)

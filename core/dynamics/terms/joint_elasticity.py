@@ -49,14 +49,14 @@ class Elasticity(AllJointsTerm):
         del robot
         gear = Gear(self.believed, self.joint, self.motor_inertia)
         load = _load_spectrum(gear, state, self.band_hz)
-        lag = -swung(load, state, self.resonance_hz, self.damping_ratio)[:, None]
+        lag = -resonate(load, state, self.resonance_hz, self.damping_ratio)[:, None]
         return [gear.change(state, MotionState(lag, *rates(lag, state)))]
 
 
 @lru_cache(maxsize=64)
 def _load_spectrum(gear: Gear, state: MotionState, band_hz: float) -> Spectrum:
     """Give the spectrum of a transmission's smoothed load; cached for a scan."""
-    return spectrum_of(smoothed(gear.load(state)[:, None], state, band_hz)[:, 0])
+    return spectrum_of(smooth(gear.load(state)[:, None], state, band_hz)[:, 0])
 
 
 def spectrum_of(values: Samples) -> Spectrum:
@@ -66,7 +66,7 @@ def spectrum_of(values: Samples) -> Spectrum:
     return np.asarray(rfft(np.concatenate([values, values[::-1], held])))
 
 
-def swung(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_ratio: float) -> Samples:
+def resonate(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_ratio: float) -> Samples:
     """Filter a series of a state's samples by a mass on a spring, with gain one at rest."""
     count = len(state.position)
     size = next_fast_len(2 * count, real=True)
@@ -75,7 +75,7 @@ def swung(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_r
     return np.asarray(irfft(spectrum * response, size)[:count])
 
 
-def smoothed(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
+def smooth(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:
     """Filter columns by a zero-phase low-pass; beyond its ends a series is continued by its end values."""
     response = kernel(min(band_hz, 0.4 / step_of(state)), 1.0 / step_of(state), 2)
     reach = len(response) // 2

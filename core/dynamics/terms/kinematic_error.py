@@ -46,7 +46,7 @@ class KinematicError(AllJointsTerm):
 def with_entry(robot: RobotModel, joint: int, entry: EntryName, error: float) -> RobotModel:
     """Add an error (rad or m) to an entry of the row by which a joint's link is placed (joint from 1)."""
     wrong = link_of(robot, joint)
-    links = tuple(_moved(link, entry, error) if link is wrong else link for link in robot.links)
+    links = tuple(_shift_entry(link, entry, error) if link is wrong else link for link in robot.links)
     return replace(robot, links=links)
 
 
@@ -55,7 +55,7 @@ def link_of(robot: RobotModel, joint: int) -> Link:
     return next(link for link in robot.links if link.joint == joint)
 
 
-def _moved(link: Link, entry: EntryName, error: float) -> Link:
+def _shift_entry(link: Link, entry: EntryName, error: float) -> Link:
     if link.row is None:
         return link
     changes = {"alpha": link.row.alpha, "d": link.row.d, "r": link.row.r}

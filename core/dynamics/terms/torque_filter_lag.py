@@ -33,10 +33,10 @@ class FilterLag(AllJointsTerm):
         """Give (filtered minus predicted torque) / time constant."""
         del robot
         torque = self.believed.scaled(state)
-        return [(low_passed(torque, step_of(state), self.around) - torque) / self.around]
+        return [(filter_first_order(torque, step_of(state), self.around) - torque) / self.around]
 
 
-def low_passed(values: JointSeries, step: float, time_constant: float) -> JointSeries:
+def filter_first_order(values: JointSeries, step: float, time_constant: float) -> JointSeries:
     """Filter columns by 1 / (1 + T s), exact for linear interpolation, in steady state at the first sample.
 
     Parameters
@@ -49,7 +49,7 @@ def low_passed(values: JointSeries, step: float, time_constant: float) -> JointS
     In steady state a ramp is delayed by the time constant.
 
     >>> ramp = np.arange(200.0)[:, None]
-    >>> float((ramp - low_passed(ramp, 1.0, 4.0))[-1, 0])
+    >>> float((ramp - filter_first_order(ramp, 1.0, 4.0))[-1, 0])
     4.0
     """
     pole = np.exp(-step / time_constant)

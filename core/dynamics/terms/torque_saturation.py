@@ -35,7 +35,7 @@ class Saturation(OneJointTerm):
             return [bulge, skew]
         excess = np.abs(torque) - self.limit
         for first, last in _runs(excess > 0.0):
-            begin, end = _reached(state.time, excess, first, -1), _reached(state.time, excess, last, 1)
+            begin, end = _crossing(state.time, excess, first, -1), _crossing(state.time, excess, last, 1)
             now = state.time[first : last + 1]
             arch = np.sign(torque[first]) * 0.5 * (now - begin) * (end - now)
             bulge[first : last + 1] = arch
@@ -49,7 +49,7 @@ def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
     return [(int(first), int(stop) - 1) for first, stop in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _reached(time: Samples, excess: Samples, inside: int, step: int) -> float:
+def _crossing(time: Samples, excess: Samples, inside: int, step: int) -> float:
     """Give the instant, s, between a sample beyond the limit and its neighbour, at which it was reached."""
     outside = inside + step
     if not 0 <= outside < len(time):

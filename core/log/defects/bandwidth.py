@@ -30,7 +30,7 @@ class Bandwidth:
 
     def see(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        increments = np.diff(stretch.position[:, stretch.seam :], axis=1)
+        increments = np.diff(stretch.position[:, stretch.first_new :], axis=1)
         if not self._window:
             self._window = 1 << int(np.log2(min(increments.shape[1], LONGEST_WINDOW)))
             self._power = np.zeros((len(increments), self._window // 2 + 1))

@@ -40,14 +40,14 @@ class Clock:
 
     def see(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        stamps = stretch.time[stretch.seam :]
+        stamps = stretch.time[stretch.first_new :]
         steps = np.diff(stamps)
         share = max(1, int(self._share * len(steps)))
         self._kept.append(steps[:share].copy())  # a view would keep every step of the log
         median = float(np.median(steps))
         self._reference = self._reference or median
         for index in np.flatnonzero(steps > 2.0 * median):
-            row = stretch.first + stretch.seam + int(index) + 1
+            row = stretch.first + stretch.first_new + int(index) + 1
             self._long.append((row, float(stamps[index]), float(stamps[index + 1])))
         ordinary = steps <= GAP_STEPS * median
         departure = np.abs(steps - self._reference)

@@ -32,15 +32,15 @@ class Repeats:
 
     def see(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        position = stretch.position[:, stretch.seam :]
+        position = stretch.position[:, stretch.first_new :]
         same = repeats_previous(position)
         if np.any(same):
-            same &= repeats_previous(stretch.channels[stretch.effort][:, stretch.seam :])
-        self._runs.feed(same, stretch.time[stretch.seam + 1 :])
+            same &= repeats_previous(stretch.channels[stretch.effort][:, stretch.first_new :])
+        self._runs.feed(same, stretch.time[stretch.first_new + 1 :])
         increments = np.abs(np.diff(position, axis=1))
         self._travel = self._travel + increments.sum(axis=1)
         self._rows += len(same)
-        rows = stretch.first + stretch.seam + 1.0 + np.arange(len(same))
+        rows = stretch.first + stretch.first_new + 1.0 + np.arange(len(same))
         self._long.feed(same, np.vstack([rows, increments]))
 
     @property

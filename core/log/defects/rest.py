@@ -34,7 +34,7 @@ class Rest:
 
     def see(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        time, position = stretch.time[stretch.seam :], stretch.position[:, stretch.seam :]
+        time, position = stretch.time[stretch.first_new :], stretch.position[:, stretch.first_new :]
         if not self._block:
             step = float(np.median(np.diff(time)))
             self._block = max(round(BLOCK_SECONDS / step), -(-self._samples // MOST_BLOCKS), 2)

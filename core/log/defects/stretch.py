@@ -54,7 +54,7 @@ class Stretch:
         return next(name for name in EFFORTS if name in self.channels)
 
     @property
-    def seam(self) -> int:
+    def first_new(self) -> int:
         """Index of the sample from which new increments start: the last one seen before, if any."""
         return max(self.context - 1, 0)
 

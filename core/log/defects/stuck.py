@@ -48,11 +48,11 @@ class Stuck:
 
     def see(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        time, position = stretch.time[stretch.seam :], stretch.position[:, stretch.seam :]
-        self._effort, row = stretch.effort, stretch.first + stretch.seam
+        time, position = stretch.time[stretch.first_new :], stretch.position[:, stretch.first_new :]
+        self._effort, row = stretch.effort, stretch.first + stretch.first_new
         for signal, own in zip(self._positions, position, strict=True):
             signal.see(own, own, time, row)
-        effort = stretch.channels[self._effort][:, stretch.seam :]
+        effort = stretch.channels[self._effort][:, stretch.first_new :]
         for signal, own, moved in zip(self._efforts, effort, position, strict=True):
             signal.see(own, moved, time, row)
 
@@ -105,7 +105,7 @@ class _Signal:
         after = np.append(np.abs(values[2:] - values[:-2]), steps[-1:])
         before = np.append(self._before, steps[:-1])
         rows = first + 1.0 + np.arange(len(steps))
-        way = self._way + _way(position)
+        way = self._way + _net_travel(position)
         known = (rows, time[:-1], way[:-1], values[:-1], steps, after, before, np.diff(time))
         self._runs.feed(same, np.vstack(known))
         self._rows += len(steps)
@@ -161,7 +161,7 @@ class _Signal:
         return runs
 
 
-def _way(position: Samples) -> Samples:
+def _net_travel(position: Samples) -> Samples:
     """Give how far a joint has got at every sample, from one to one many later: noise gets nowhere."""
     marks = np.arange(len(position)) // STANDING_ROWS
     marked = position[::STANDING_ROWS]

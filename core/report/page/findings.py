@@ -9,12 +9,12 @@ from .words import (
     corrected_object,
     interval,
     joints,
+    no_break,
     number,
     p_value_text,
     percent,
     quantity,
     share,
-    unbroken,
     uncertain,
     unit,
 )
@@ -37,17 +37,17 @@ def findings(document: Document) -> list[dict[str, object]]:
     """Describe all findings in the order of the document."""
     repairs = document["diagnosis"].get("repairs", ())
     return [
-        _described(finding, repairs[index : index + 1], document)
+        _finding_view(finding, repairs[index : index + 1], document)
         for index, finding in enumerate(document["diagnosis"]["findings"])
     ]
 
 
-def _described(finding: Document, repairs: list[Document], document: Document) -> dict[str, object]:
+def _finding_view(finding: Document, repairs: list[Document], document: Document) -> dict[str, object]:
     curve = finding.get("curve")
     correction = "".join(f" Correction: {repair['what']}." for repair in repairs)
     return {
         "title": f"{finding['title']}, {joints(finding['joints'])}",
-        "statement": unbroken(f"{finding['statement']}.{correction}"),
+        "statement": no_break(f"{finding['statement']}.{correction}"),
         "key_figures": _key_figures(finding, band(document)),
         "figure": finding_figure(curve, unit_of_effort(document, curve["joint"])) if curve else None,
         "parameters": _parameters(finding),

@@ -24,14 +24,14 @@ def joint_errors(document: Document) -> dict[str, object]:
     old, new = (_by_joint(diagnosis[side].get("validation") or []) for side in ("before", "after"))
     compared = bool(old and new)
     return {
-        "errors": _compared(document, old, new) if compared else _uncorrected(document, old),
+        "errors": _comparison_table(document, old, new) if compared else _single_table(document, old),
         "error_bars": _bars(old, new) if compared else None,
         "motion": _motion(document),
         "motion_note": (diagnosis.get("simulation") or {}).get("note"),
     }
 
 
-def _compared(document: Document, old: dict[int, Document], new: dict[int, Document]) -> Table:
+def _comparison_table(document: Document, old: dict[int, Document], new: dict[int, Document]) -> Table:
     gains = {gain["joint"]: gain for gain in document["diagnosis"].get("gain") or []}
     rows = [
         [
@@ -50,7 +50,7 @@ def _compared(document: Document, old: dict[int, Document], new: dict[int, Docum
     return Table(_CAPTION, headings, rows, f"{_INTERVAL_NOTE} {_band_note(document)}", (8,))
 
 
-def _uncorrected(document: Document, scores: dict[int, Document]) -> Table:
+def _single_table(document: Document, scores: dict[int, Document]) -> Table:
     rows = [
         [
             *_joint(document, row),

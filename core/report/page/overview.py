@@ -10,11 +10,11 @@ from .words import (
     is_significant,
     joints,
     lower,
+    no_break,
     percent,
     reference,
     series,
     share,
-    unbroken,
 )
 
 
@@ -59,12 +59,12 @@ def _titles(findings: Sequence[Document]) -> str:
     )
 
 
-def glance(document: Document) -> list[str]:
+def overview_lines(document: Document) -> list[str]:
     """List findings with size, confidence and alternatives; empty for a single unambiguous one."""
     findings = document["diagnosis"]["findings"]
     if len(findings) < 2 and not any(finding["ambiguous_with"] for finding in findings):
         return []
-    return [unbroken(_line(finding)) for finding in findings]
+    return [no_break(_line(finding)) for finding in findings]
 
 
 def _line(finding: Document) -> str:

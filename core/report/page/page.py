@@ -49,7 +49,7 @@ def _diagnosis(document: Document) -> dict[str, object]:
     after = document["diagnosis"]["after"].get("base_parameters") or []
     return {
         "headline": overview.headline(document),
-        "glance": overview.glance(document),
+        "overview_lines": overview.overview_lines(document),
         "improvement": overview.improvement(document),
         "findings": findings(document),
         **joint_errors(document),
@@ -65,7 +65,7 @@ def _diagnosis(document: Document) -> dict[str, object]:
 def _identification(document: Document) -> dict[str, object]:
     return {
         "headline": robot.headline(document),
-        "glance": [],
+        "overview_lines": [],
         "improvement": "",
         "scores": robot.scores(document),
         "consistency": robot.consistency(document),

@@ -58,7 +58,7 @@ def sentences(document: Document) -> list[str]:
         listed[0] += f" {pattern['statement']}; no known cause explains it (p = 10^{pattern['log10_p']:.0f})."
     elif not left["joints"]:
         listed[0] += " No extension of the model would give a significant improvement."
-    if above := _above_the_floor(left):
+    if above := _joints_above_floor(left):
         listed.append(
             f"On {joints(above)} the residual is well above the noise floor without depending on the motion: "
             "vibration, or noise with long autocorrelation, which hides structure from the learner."
@@ -96,7 +96,7 @@ def _mostly_stiction(left: Document) -> list[str]:
     ]
 
 
-def _above_the_floor(left: Document) -> list[int]:
+def _joints_above_floor(left: Document) -> list[int]:
     pairs = zip(left["rms_residual"], left["noise_floor"], strict=True)
     return [
         joint

@@ -64,7 +64,7 @@ def _log(number: int, own: Sequence[JointTraces], names: Sequence[str]) -> dict[
 
 def _motion(joints: Sequence[JointTraces]) -> Markup:
     """Draw positions and velocities of several joints over one time axis."""
-    return Markup("").join(_overlaid(joints, signal) for signal in MOTION if signal in joints[0].signals)
+    return Markup("").join(_overlay(joints, signal) for signal in MOTION if signal in joints[0].signals)
 
 
 def _range_sentence(trace: JointTraces, signal: str) -> str:
@@ -72,7 +72,7 @@ def _range_sentence(trace: JointTraces, signal: str) -> str:
     return f"Joint {trace.joint} from {number(low)} to {number(high)} {trace.units[signal]}."
 
 
-def _overlaid(joints: Sequence[JointTraces], signal: str) -> Markup:
+def _overlay(joints: Sequence[JointTraces], signal: str) -> Markup:
     unit = series(list(dict.fromkeys(trace.units[signal] for trace in joints)))
     values = [value for trace in joints for value in trace.signals[signal] if value is not None]
     frame = Frame(0.0, 0.0, _WIDE, _MOTION_HIGH, _time_range(joints), span(values))

@@ -219,12 +219,12 @@ def unit(name: str) -> str:
     return "" if name == "1" else name.replace("m2", "m²")
 
 
-def unbroken(sentence: str) -> str:
+def no_break(sentence: str) -> str:
     """Join numbers and units by no-break spaces.
 
     Examples
     --------
-    >>> len("by 0.1 N m".split(" ")), len(unbroken("by 0.1 N m").split(" "))
+    >>> len("by 0.1 N m".split(" ")), len(no_break("by 0.1 N m").split(" "))
     (4, 2)
     """
     return sentence.replace(" N m", f"{_NO_BREAK_SPACE}N{_NO_BREAK_SPACE}m").replace(

@@ -9,7 +9,7 @@ from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
 from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
 from veritorque.core.diagnosis.result import Diagnosis
-from veritorque.core.extension.cure import cures, extended_base, taken_along
+from veritorque.core.extension.cure import corrections, extended_base, input_note
 from veritorque.core.log.reader import read_log
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan
@@ -49,7 +49,7 @@ def test_nothing_is_found_in_the_shipped_log_of_an_arm_that_is_as_described():
 
 def test_nothing_is_cured_where_nothing_is_found():
     found = diagnosed(None)
-    assert (found.verdict, found.findings, cures(found)) == ("nothing_found", (), ())
+    assert (found.verdict, found.findings, corrections(found)) == ("nothing_found", (), ())
 
 
 def test_a_finding_brings_everything_that_decided():
@@ -114,8 +114,8 @@ def test_only_the_joint_of_the_finding_changes_much():
 
 def test_the_cure_joins_the_model_under_its_own_name():
     found = diagnosed(hidden)
-    (term,) = cures(found)
-    assert taken_along(found) == ""
+    (term,) = corrections(found)
+    assert input_note(found) == ""
     base = base_model(measured_arm().operating_point.model)
     whole = extended_base(base, (term,))
     assert len(whole.kept) == len(base.kept) + 1
@@ -132,7 +132,7 @@ def test_the_same_logs_give_the_same_diagnosis():
 
 def test_a_pattern_that_no_listed_cause_has_is_told_without_a_name_and_makes_the_verdict():
     found = diagnosed(foreign)
-    assert (found.verdict, found.findings, cures(found)) == ("unexplained", (), ())
+    assert (found.verdict, found.findings, corrections(found)) == ("unexplained", (), ())
     assert found.unnamed_pattern.joint == 2
     assert "the product of the speeds of joints 1 and 3" in found.unnamed_pattern.statement
     assert found.unnamed_pattern.log10_p < -10.0

@@ -10,7 +10,7 @@ from tests.tools import random_robot
 from veritorque.core.arrays import JointSeries, LinkTable
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.newton_euler import inverse_dynamics
-from veritorque.core.dynamics.prediction import Prediction, moved
+from veritorque.core.dynamics.prediction import Prediction, shift_joint
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.signals.state import MotionState
 
@@ -62,7 +62,7 @@ def test_a_small_shift_of_a_joint_changes_the_load_by_its_slopes(joint):
     shift = MotionState(*(rng.normal(size=(len(state.position), 1)) for _ in range(3)))
     size = 1e-6
     small = MotionState(size * shift.position, size * shift.velocity, size * shift.acceleration)
-    found = (believed.load(moved(state, joint, small)) - believed.load(state)) / size
+    found = (believed.load(shift_joint(state, joint, small)) - believed.load(state)) / size
     change = believed.change(state, joint, shift)
     # What is left is of second order: a millionth, times how much slopes change over one radian.
     np.testing.assert_allclose(found, change, atol=1e-4 * np.abs(change).max())

@@ -16,7 +16,7 @@ from veritorque.core.extension.repaired_log import repaired_log
 from veritorque.core.log.model import ArraySource, JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.model import RobotModel
-from veritorque.core.signals.resample import dropped
+from veritorque.core.signals.resample import dropped_mask
 
 RATE_HZ, SECONDS, JOINT = 250.0, 8.0, 2
 ANGULAR = 2.0 * np.pi * np.array([0.4, 1.1, 2.3])
@@ -182,9 +182,9 @@ def test_what_stands_for_a_dropped_sample_still_does():
     held = np.maximum.accumulate(np.where(rng.random(len(time)) < 0.05, 0, np.arange(len(time))))
     log = log_of(time, motion(time)[0][held], torque(time - DELAY)[held])
     found = whole_rows(mended(log, [Repair("time_delay", ALL, "log", "", {"delay": DELAY})]))
-    lost = dropped(whole_rows(log))
+    lost = dropped_mask(whole_rows(log))
     assert lost.any()
-    np.testing.assert_array_equal(dropped(found), lost)
+    np.testing.assert_array_equal(dropped_mask(found), lost)
     np.testing.assert_array_equal(found.time, time)
     inner = ~lost & (np.arange(len(time)) > 10) & (np.arange(len(time)) < len(time) - 10)
     np.testing.assert_allclose(found.torque[inner], torque(time)[inner], atol=1e-3)

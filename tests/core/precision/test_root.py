@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veritorque.core.document.reference import read_factor, written_factor
+from veritorque.core.document.reference import read_factor, write_factor
 from veritorque.core.precision.inference import Inference
 
 
@@ -31,5 +31,5 @@ def test_rows_tell_nothing_of_what_the_motion_leaves_open(excited):
 @pytest.mark.parametrize("excited", [2, 6])
 def test_rows_come_back_from_a_document_as_they_were(excited):
     rows = precision(6, excited=excited).root
-    np.testing.assert_array_equal(read_factor(written_factor(rows), 6), np.triu(rows))
+    np.testing.assert_array_equal(read_factor(write_factor(rows), 6), np.triu(rows))
     np.testing.assert_allclose(np.tril(rows, -1), 0.0, atol=1e-12 * np.abs(rows).max())

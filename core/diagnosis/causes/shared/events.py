@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ....arrays import JointSeries, Samples, Vector
-from ....dynamics.terms.external_contact import Span, swell
+from ....dynamics.terms.external_contact import Span, half_sine
 from ....numerics.chi2_tail import log_chi2_tail
 from ...thresholds.causes import EVENTS
 
@@ -102,7 +102,7 @@ class _Search:
         starts = np.concatenate([[0], np.cumsum(counts)])
         since = np.arange(starts[-1]) - np.repeat(starts[:-1], counts)
         rows = since + np.repeat(begins, counts)
-        heights = swell(self.time[rows], tuple(np.repeat(edges, counts, axis=0).T))
+        heights = half_sine(self.time[rows], tuple(np.repeat(edges, counts, axis=0).T))
         # Per row, its height times those of the rows 0, 1, ... before it, as far as these lie in the span.
         pairs = np.zeros((len(rows), reach))
         for lag in range(min(reach, len(rows))):

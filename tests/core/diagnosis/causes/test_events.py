@@ -21,7 +21,7 @@ from veritorque.core.diagnosis.regression.innovation_covariance import (
     inverse_covariances,
     torque_residual,
 )
-from veritorque.core.dynamics.terms.external_contact import swell
+from veritorque.core.dynamics.terms.external_contact import half_sine
 
 TIME = np.arange(0.0, 30.0, 0.02)
 PLACE = np.arange(len(TIME))
@@ -41,7 +41,7 @@ def test_events_are_found_where_they_are_and_nothing_else_is(weights):
     left = drawn(weights, np.random.default_rng(0), len(TIME), 2)
     assert found_in(weights, left) == []
     for span, push in PUSHES:
-        left += np.sqrt(autocovariance(weights, 1)) * swell(TIME, span)[:, None] * np.array(push)
+        left += np.sqrt(autocovariance(weights, 1)) * half_sine(TIME, span)[:, None] * np.array(push)
     np.testing.assert_allclose(found_in(weights, left), [span for span, _ in PUSHES], atol=0.1)
 
 
@@ -49,11 +49,11 @@ def test_events_are_found_where_they_are_and_nothing_else_is(weights):
 def test_a_span_reaches_as_far_as_its_noise_allows(weights):
     """The square that it explains under the noise's dense covariance decides, and nothing else."""
     span = (4.0, 4.6)
-    shape = swell(TIME, span)[100:400]
+    shape = half_sine(TIME, span)[100:400]
     square = shape @ np.linalg.solve(dense_covariance(weights, PLACE[100:400]), shape)
     for worth, expected in ((26.0, 0), (36.0, 1)):
         left = np.zeros((len(TIME), 2))
-        left[:, 0] = np.sqrt(worth / square) * swell(TIME, span)
+        left[:, 0] = np.sqrt(worth / square) * half_sine(TIME, span)
         assert len(found_in(weights, left)) == expected
 
 
@@ -84,7 +84,7 @@ def test_slow_noise_is_not_taken_for_fast_noise_because_some_of_it_is_small():
         rows = np.flatnonzero(mask[:, joint])
         white = exact_noise((0.98,)).whitening(run_indices(dataset.follows(rows)))
         for span in ((1.0, 4.0), (5.0, 8.0)):
-            shape = swell(dataset.time, span)
+            shape = half_sine(dataset.time, span)
             exact = float(np.sum((white @ shape[rows]) ** 2))
             assert 0.4 * exact < shape @ found @ shape < 2.5 * exact
 

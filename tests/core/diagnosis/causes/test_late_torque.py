@@ -10,7 +10,7 @@ from tests.core.diagnosis.test_diagnose import asked
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.dynamics.model import standard_model
-from veritorque.core.dynamics.terms.torque_filter_lag import low_passed
+from veritorque.core.dynamics.terms.torque_filter_lag import filter_first_order
 
 NEARLY_A_WALK = 0.995
 """Share of a sample's noise in the next one."""
@@ -30,7 +30,11 @@ def drifting_noise(shape):
 def filtered(time_constant):
     def effect(state):
         torque = ideal_torque(state)
-        return low_passed(torque, 1.0 / ARM_RATE_HZ, time_constant) - torque + drifting_noise(torque.shape)
+        return (
+            filter_first_order(torque, 1.0 / ARM_RATE_HZ, time_constant)
+            - torque
+            + drifting_noise(torque.shape)
+        )
 
     return effect
 

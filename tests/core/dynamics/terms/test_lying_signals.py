@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain, exact, motion_of, one_viscous_joint
-from veritorque.core.dynamics.prediction import moved
+from veritorque.core.dynamics.prediction import shift_joint
 from veritorque.core.dynamics.terms.encoder_error import EncoderEccentricity, EncoderOffset
 from veritorque.core.dynamics.terms.time_delay import Delay
 from veritorque.core.dynamics.terms.torque_filter_lag import FilterLag
@@ -30,7 +30,7 @@ def test_a_zero_error_changes_the_torque_as_the_column_says(joint):
     believed, bodies = believed_chain(joint)
     measured = motion_of(joint)
     still = np.zeros((len(measured.position), 1))
-    true = moved(measured, joint - 1, MotionState(still - ERROR, still, still))
+    true = shift_joint(measured, joint - 1, MotionState(still - ERROR, still, still))
     robot = believed.model.robot
     change = exact(robot, bodies, true) - exact(robot, bodies, measured)
     (column,) = EncoderOffset(joint, believed).torques(robot, measured)
@@ -43,7 +43,7 @@ def test_an_eccentric_disc_changes_the_torque_as_its_two_columns_say(joint):
     true, own, phase = motion_of(joint), joint - 1, 0.7
     q, dq, ddq = (one[:, [own]] for one in (true.position, true.velocity, true.acceleration))
     sine_, cosine = ERROR * np.sin(q + phase), ERROR * np.cos(q + phase)
-    measured = moved(true, own, MotionState(sine_, cosine * dq, cosine * ddq - sine_ * dq**2))
+    measured = shift_joint(true, own, MotionState(sine_, cosine * dq, cosine * ddq - sine_ * dq**2))
     robot = believed.model.robot
     change = exact(robot, bodies, true) - exact(robot, bodies, measured)
     along, across = EncoderEccentricity(joint, believed).torques(robot, measured)
