@@ -200,7 +200,7 @@ class Client:
             if tell is not None:
                 tell(now.stage if now.state == "running" else now.state, now.fraction)
             if now.finished and now.state != "successful":
-                raise from_problem(NoResultError, now.problem or _dismissed(now))
+                raise from_problem(NoResultError, now.problem or _dismissal(now))
 
     def cancel(self, job: Job | str) -> None:
         """Dismiss a job, which ends its computation; one that has finished keeps its result."""
@@ -244,7 +244,7 @@ def _identity(job: Job | str) -> str:
     return job if isinstance(job, str) else job.id
 
 
-def _dismissed(job: Job) -> dict[str, object]:
+def _dismissal(job: Job) -> dict[str, object]:
     return {
         "type": job.state,
         "cause": f"the job was {job.state}",

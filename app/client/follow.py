@@ -47,7 +47,7 @@ class Follower:
         """
         shown: Job | None = None
         while True:
-            for job in chain(self._heard(), self._asked()):
+            for job in chain(self._streamed_jobs(), self._polled_jobs()):
                 if job != shown:
                     shown = job
                     yield job
@@ -55,7 +55,7 @@ class Follower:
                     return
             time.sleep(self._pause_s)
 
-    def _heard(self) -> Iterator[Job]:
+    def _streamed_jobs(self) -> Iterator[Job]:
         """Give the jobs that a stream of events holds, until it ends or breaks."""
         if self._barren >= BARREN:
             return
@@ -68,7 +68,7 @@ class Follower:
         except ServiceError:
             return  # the next request shows whether this lasts
 
-    def _asked(self) -> Iterator[Job]:
+    def _polled_jobs(self) -> Iterator[Job]:
         """Give what the service says when it is asked; nothing while it is away, as long as that may last."""
         try:
             yield Job.from_document(self._transport.document("GET", self._path))

@@ -93,7 +93,7 @@ async def _on_validation(_request: Request, error: Exception) -> Response:
 
 
 async def _on_core_error(_request: Request, error: Exception) -> Response:
-    return problem_response(problem_of(error) if isinstance(error, VeritorqueError) else _mistake(""))
+    return problem_response(problem_of(error) if isinstance(error, VeritorqueError) else _internal_error(""))
 
 
 async def _on_unavailable(_request: Request, error: Exception) -> Response:
@@ -129,7 +129,7 @@ async def _on_key(_request: Request, error: Exception) -> Response:
 
 async def _on_damage(_request: Request, error: Exception) -> Response:
     LOGGER.error("what was kept is damaged: %s", error)
-    return problem_response(problem_of_damage(error) if isinstance(error, Damaged) else _mistake(""))
+    return problem_response(problem_of_damage(error) if isinstance(error, Damaged) else _internal_error(""))
 
 
 async def _on_system(request: Request, error: Exception) -> Response:
@@ -142,7 +142,7 @@ async def _on_system(request: Request, error: Exception) -> Response:
 async def _on_mistake(request: Request, error: Exception) -> Response:
     incident = secrets.token_hex(6)
     LOGGER.error("incident %s at %s %s", incident, request.method, request.url.path, exc_info=error)
-    response = problem_response(_mistake(incident))
+    response = problem_response(_internal_error(incident))
     response.raw_headers.extend(HEADERS)
     return response
 
@@ -184,7 +184,7 @@ def _takes(request: Request, method: str) -> bool:
     return any(route.matches(scope)[0] is Match.FULL for route in request.app.routes)
 
 
-def _mistake(incident: str) -> Problem:
+def _internal_error(incident: str) -> Problem:
     return Problem(
         "internal",
         "an unexpected error occurred in the service",

@@ -54,7 +54,7 @@ class Blob:
         """Give a local file that holds the bytes."""
         return self.store.local_copy(self.sha256)
 
-    def unless_known(self, if_none_match: str | None, form: str, answer: Callable[[], Response]) -> Response:
+    def respond(self, if_none_match: str | None, form: str, answer: Callable[[], Response]) -> Response:
         """Give the answer, or 304 where the client has it.
 
         Parameters
@@ -97,4 +97,4 @@ def file_response(blob: Blob, name: str, media_type: str, if_none_match: str | N
         blob.check()
         return BlobResponse(blob, filename=name, media_type=media_type)
 
-    return blob.unless_known(if_none_match, "", whole)
+    return blob.respond(if_none_match, "", whole)

@@ -88,7 +88,7 @@ class SafeHeaders:
         async def marked(message: Message) -> None:
             if message["type"] == "http.response.start":
                 unchanged = message["status"] == 304  # what is kept already keeps what it said of itself
-                message["headers"] = _completed(message.get("headers", ()), () if unchanged else UNLESS_SAID)
+                message["headers"] = _complete(message.get("headers", ()), () if unchanged else UNLESS_SAID)
             await send(message)
 
         await self._app(scope, receive, marked)
@@ -122,7 +122,7 @@ class HeadAsGet:
             await self._app(scope, receive, send)
 
 
-def _completed(
+def _complete(
     headers: Iterable[tuple[bytes, bytes]], unless_said: Iterable[tuple[bytes, bytes]]
 ) -> list[tuple[bytes, bytes]]:
     given = list(headers)

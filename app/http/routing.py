@@ -41,7 +41,7 @@ class StrictRoute(APIRoute):
 
     def get_route_handler(self) -> Handler:
         """Give what answers a request."""
-        answer = _straight(self.dependant) or super().get_route_handler()
+        answer = _direct_handler(self.dependant) or super().get_route_handler()
         known = frozenset(_query_names(self.dependant))
 
         async def strict(request: Request) -> Response:
@@ -63,15 +63,15 @@ def refuse_unknown_parameters(query: bytes, known: frozenset[str]) -> None:
     try:
         pairs = parse_qsl(query.decode("latin-1"), keep_blank_values=True, max_num_fields=MOST_PARAMETERS)
     except ValueError:
-        raise _refused({"": f"there are more than {MOST_PARAMETERS} parameters"}, known) from None
+        raise _refusal({"": f"there are more than {MOST_PARAMETERS} parameters"}, known) from None
     given = Counter(name for name, _ in pairs)
     wrong = {name: f"there is no parameter {name}" for name in given if name not in known}
     wrong |= {name: f"the parameter {name} is given twice" for name in given if given[name] > 1}
     if wrong:
-        raise _refused(wrong, known)
+        raise _refusal(wrong, known)
 
 
-def _refused(wrong: Mapping[str, str], known: frozenset[str]) -> Problem:
+def _refusal(wrong: Mapping[str, str], known: frozenset[str]) -> Problem:
     errors = [{"parameter": name, "message": message} for name, message in wrong.items()]
     return Problem(
         "request",
@@ -88,7 +88,7 @@ def _query_names(dependant: Dependant) -> Iterator[str]:
         yield from _query_names(inner)
 
 
-def _straight(dependant: Dependant) -> Handler | None:
+def _direct_handler(dependant: Dependant) -> Handler | None:
     """Give what calls an endpoint straight away; None where it takes more than strings and the context."""
     endpoint = dependant.call
     more = dependant.query_params or dependant.cookie_params or dependant.body_params

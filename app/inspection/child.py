@@ -40,10 +40,10 @@ def inspect(pipe: Connection) -> None:
     except EOFError:  # the service is gone
         return
     confine(path, budget)
-    pipe.send_bytes(_done(work, budget))
+    pipe.send_bytes(_answer_in_time(work, budget))
 
 
-def _done(work: Work, budget: Budget) -> bytes:
+def _answer_in_time(work: Work, budget: Budget) -> bytes:
     try:
         return RESULT + json_bytes(work())
     except VeritorqueError as error:

@@ -31,7 +31,7 @@ def confine(path: Path, budget: Budget) -> None:
     _limit(resource.RLIMIT_DATA, _memory_in_use() + budget.memory_bytes)
     _limit(resource.RLIMIT_CORE, 0)
     _limit(resource.RLIMIT_FSIZE, 0)
-    _see_nothing_but(path)
+    _allow_only(path)
     signal.signal(signal.SIGPROF, signal.SIG_DFL)  # it ends the process, whatever it is doing
     signal.setitimer(signal.ITIMER_PROF, budget.processor_s)
 
@@ -53,7 +53,7 @@ def _limit(what: int, value: int) -> None:
     resource.setrlimit(what, (value, value))
 
 
-def _see_nothing_but(path: Path) -> None:
+def _allow_only(path: Path) -> None:
     if not can_hide_files():
         return
     version = _call(CREATE_RULESET, None, 0, VERSION_FLAG)

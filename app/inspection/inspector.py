@@ -86,7 +86,7 @@ def _answer(process: Child, budget: Budget) -> bytes:
     try:
         message = process.pipe.recv_bytes(LONGEST_ANSWER)
     except (EOFError, OSError):
-        raise problem_of(_ended(process.exit_code(), budget)) from None
+        raise problem_of(_exit_error(process.exit_code(), budget)) from None
     letter, content = message[:1], message[1:]
     if letter == child.TRACE:
         LOGGER.error("reading a log failed with an internal error:\n%s", content.decode(errors="replace"))
@@ -96,7 +96,7 @@ def _answer(process: Child, budget: Budget) -> bytes:
     return content
 
 
-def _ended(exit_code: int | None, budget: Budget) -> LogError:
+def _exit_error(exit_code: int | None, budget: Budget) -> LogError:
     """Say why the process ended without a word; a negative exit code is a signal's number."""
     if exit_code == -signal.SIGPROF:
         return _too_slow(budget.processor_s, "processor time")

@@ -90,12 +90,12 @@ def trace_log(log: LogFile, selection: ChannelSelection) -> Document:
         "rows_per_stretch": drawn.rows_per_stretch,
         "time": {"unit": "s", "values": [round(stamp, 6) for stamp in drawn.time.tolist()]},
         "traces": [
-            {"channel": channel, "joint": joint, "unit": CHANNELS[channel].unit, "values": _short(values)}
+            {"channel": channel, "joint": joint, "unit": CHANNELS[channel].unit, "values": _round(values)}
             for (channel, joint), values in zip(named, drawn.values.T, strict=True)
         ],
     }
 
 
-def _short(values: np.ndarray) -> list[float | None]:
+def _round(values: np.ndarray) -> list[float | None]:
     """Write numbers with the digits that single precision has; None for NaN."""
     return [None if np.isnan(value) else float(str(value)) for value in values.astype(np.float32)]

@@ -32,7 +32,7 @@ def computation_of(job: JobRecord, store: TenantStore, built_in: Mapping[str, Do
     robot = store.robots.get(request.robot)
     description = robot.description if robot else built_in.get(request.robot)
     if description is None:
-        raise _deleted("robot", request.robot)
+        raise _deletion_problem("robot", request.robot)
     reference = kind_of(request.kind).reference(request.options)
     return Computation(
         kind=request.kind,
@@ -81,12 +81,12 @@ def open_workspace(computation: Computation, blobs: BlobStore, traces: Path) -> 
 def _log_blob(store: TenantStore, identity: str) -> LogBlob:
     log = store.logs.get(identity)
     if log is None:
-        raise _deleted("log", identity)
+        raise _deletion_problem("log", identity)
     mapping = log.summary["mapping"]
     return LogBlob(log.sha256, str(log.summary["name"]), mapping if isinstance(mapping, dict) else None)
 
 
-def _deleted(what: str, identity: str) -> Problem:
+def _deletion_problem(what: str, identity: str) -> Problem:
     return Problem(
         "not-found",
         f"the {what} {identity} was deleted while the job waited",

@@ -40,7 +40,7 @@ def examine(settings: Settings) -> Iterator[Finding]:
     directory = settings.data_dir
     if not directory.is_dir():
         remedy = "set VERITORQUE_DATA_DIR, or start the service once"
-        yield _wrong("directory", f"{directory} does not exist", remedy)
+        yield _fault("directory", f"{directory} does not exist", remedy)
         return
     yield from _directory(directory)
     yield _disk(settings)
@@ -63,10 +63,10 @@ def _directory(directory: Path) -> Iterator[Finding]:
     closed = [path for path in _all(directory) if not os.access(path, os.R_OK | os.W_OK)]
     if closed:
         remedy = f"as the owner: chmod --recursive u+rwX {directory}"
-        yield _wrong("permissions", f"may not be read and written: {_some(closed)}", remedy)
+        yield _fault("permissions", f"may not be read and written: {_sample(closed)}", remedy)
     elif foreign:
         remedy = f"chown --recursive {os.getuid()} {directory}, and run this as the service's user"
-        yield Finding("permissions", f"belong to another user: {_some(foreign)}", remedy)
+        yield Finding("permissions", f"belong to another user: {_sample(foreign)}", remedy)
     elif directory.stat().st_mode & OTHERS_MAY:
         yield Finding("permissions", "other users may look into the directory", f"chmod 700 {directory}")
     else:
@@ -77,7 +77,7 @@ def _disk(settings: Settings) -> Finding:
     free, reserve = shutil.disk_usage(settings.data_dir).free, settings.disk_reserve_bytes
     if free < reserve:
         remedy = "make room, delete logs and jobs, run: veritorque gc, or lower VERITORQUE_DISK_RESERVE_BYTES"
-        return _wrong("disk", f"{free} bytes are free, the reserve is {reserve}", remedy)
+        return _fault("disk", f"{free} bytes are free, the reserve is {reserve}", remedy)
     return Finding("disk", f"{free} bytes are free, the reserve is {reserve}")
 
 
@@ -87,7 +87,7 @@ def _unreachable(settings: Settings, error: Exception) -> Finding:
         remedy = "stop the service, move the data directory aside, and restore a backup into a new one"
     else:
         remedy = "see that PostgreSQL runs, and that VERITORQUE_DATABASE_URL names it with user and password"
-    return _wrong("database", reason, remedy)
+    return _fault("database", reason, remedy)
 
 
 def _database(store: Store) -> Iterator[Finding]:
@@ -95,7 +95,7 @@ def _database(store: Store) -> Iterator[Finding]:
         found = store.database.read(lambda c: c.execute(text("PRAGMA integrity_check")).scalars().all())
         if list(found) != ["ok"]:
             remedy = "stop the service, move the data directory aside, and restore a backup into a new one"
-            yield _wrong("database", f"SQLite finds: {'; '.join(found[:SHOWN])}", remedy)
+            yield _fault("database", f"SQLite finds: {'; '.join(found[:SHOWN])}", remedy)
             return
     store.prove_writable()
     counts = store.database.read(
@@ -121,7 +121,7 @@ def _blobs(store: Store) -> Iterator[Finding]:
     for subject, found in (("damaged bytes", damaged), ("missing bytes", missing)):
         if found:
             users = store.users([blob.split()[0] for blob in found[:SHOWN]])
-            yield _wrong(subject, f"{len(found)}: {_some(found)}", lost + _some(users))
+            yield _fault(subject, f"{len(found)}: {_sample(found)}", lost + _sample(users))
     if not damaged and not missing:
         yield Finding("bytes", f"{len(needed)} files that logs and jobs need are there and have their hashes")
     orphans = kept - needed
@@ -142,10 +142,10 @@ def _all(directory: Path) -> Iterator[Path]:
     yield from directory.rglob("*")
 
 
-def _wrong(subject: str, seen: str, remedy: str) -> Finding:
+def _fault(subject: str, seen: str, remedy: str) -> Finding:
     return Finding(subject, seen, remedy, harm=True)
 
 
-def _some(items: list[str] | list[Path]) -> str:
+def _sample(items: list[str] | list[Path]) -> str:
     shown = ", ".join(str(item) for item in items[:SHOWN])
     return shown + (" ..." if len(items) > SHOWN else "")

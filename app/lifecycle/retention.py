@@ -10,7 +10,7 @@ from sqlalchemy import Connection, Delete, delete, exists
 
 from ..settings import Kept
 from ..store.database import Database
-from ..store.tables import JOBS, LOGS, REPEATS, written
+from ..store.tables import JOBS, LOGS, REPEATS, time_text
 
 
 def expire(database: Database, days: Mapping[Kept, float]) -> dict[str, int]:
@@ -32,7 +32,7 @@ def expire(database: Database, days: Mapping[Kept, float]) -> dict[str, int]:
 
 
 def _statement(kind: Kept, until: datetime) -> Delete:
-    before = written(until)
+    before = time_text(until)
     if kind == "repeats":
         return delete(REPEATS).where(REPEATS.c.created_at < before)
     if kind == "logs":

@@ -98,11 +98,11 @@ def _channels() -> str:
     return escape(json.dumps({"channels": table, "reference_words": sorted(REFERENCE_WORDS)}))
 
 
-def _known() -> dict[str, PageFile]:
+def _page_files() -> dict[str, PageFile]:
     folders = (PAGES / "static", PAGES / "example")
     paths = [path for folder in folders for path in sorted(folder.iterdir())]
     paths.extend(PAGES / "vendor" / bundle for bundle in BUNDLES)
     return {path.name: PageFile(path) for path in paths}
 
 
-STATIC: Final = _known()
+STATIC: Final = _page_files()

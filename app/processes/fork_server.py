@@ -107,7 +107,7 @@ class ProcessPool:
     def prepare(self, count: int) -> list["Future[Child]"]:
         """Have so many children made, none after `close`; as many tasks at the same time wait for none."""
         with self._parting:
-            coming = [self._made(self._make) for _ in range(0 if self._closed else count)]
+            coming = [self._make_child(self._make) for _ in range(0 if self._closed else count)]
             for child in coming:
                 self._coming.put(child)
         return coming
@@ -126,7 +126,7 @@ class ProcessPool:
         try:
             coming, kept = self._coming.get_nowait(), True
         except Empty:  # more tasks at a time than were prepared for
-            coming, kept = self._made(self._make), False
+            coming, kept = self._make_child(self._make), False
         while stop is not None and not coming.done():
             if stop.is_set():
                 if kept:
@@ -157,7 +157,7 @@ class ProcessPool:
         self._keeper.shutdown(wait=False, cancel_futures=True)
         for coming in list(self._making):
             with suppress(OSError, EOFError, CancelledError):
-                _soon(coming)
+                _child_of(coming)
         with suppress(Empty):
             while True:
                 coming = self._coming.get_nowait()
@@ -165,7 +165,7 @@ class ProcessPool:
                     coming.result().end()
         self._keeper.shutdown()
 
-    def _made(self, make: Callable[..., Child], *arguments: object) -> "Future[Child]":
+    def _make_child(self, make: Callable[..., Child], *arguments: object) -> "Future[Child]":
         coming = self._keeper.submit(make, *arguments)
         self._making.add(coming)
         coming.add_done_callback(self._making.discard)
@@ -174,7 +174,7 @@ class ProcessPool:
     def _clear_away(self, used: list[Child], *, followed: bool) -> None:
         try:
             if followed:
-                self._coming.put(self._made(self._successor, used))
+                self._coming.put(self._make_child(self._successor, used))
             else:
                 self._keeper.submit(_end, used)
         except RuntimeError:  # closed meanwhile
@@ -195,7 +195,7 @@ def _end_unwanted(made: "Future[Child]") -> None:
         made.result().end()
 
 
-def _soon(coming: "Future[Child]") -> Child:
+def _child_of(coming: "Future[Child]") -> Child:
     """Give the child, or end the server that is still loading what it would have been forked with."""
     while True:
         try:

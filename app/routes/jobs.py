@@ -118,10 +118,10 @@ def read_results(
     form = _form(accept, _forms_of(kind_of(job.request.kind)))
     result = result_of(context, job)
     if form == "text/csv":
-        return result.unless_known(if_none_match, PARAMETERS_FILE, lambda: _artifact(result, PARAMETERS_FILE))
+        return result.respond(if_none_match, PARAMETERS_FILE, lambda: _artifact(result, PARAMETERS_FILE))
     if form == "text/html":
-        return result.unless_known(if_none_match, "report", lambda: report_of(context, job))
-    return result.unless_known(if_none_match, "", lambda: Response(result.content(), media_type=form))
+        return result.respond(if_none_match, "report", lambda: report_of(context, job))
+    return result.respond(if_none_match, "", lambda: Response(result.content(), media_type=form))
 
 
 @ROUTER.get(
@@ -133,7 +133,7 @@ def read_results(
 def read_report(context: ContextOf, job_id: str, if_none_match: IfNoneMatch = None) -> Response:
     """Read the report: one HTML file with figures and tables, without scripts."""
     job = find_job(context, job_id)
-    return result_of(context, job).unless_known(if_none_match, "report", lambda: report_of(context, job))
+    return result_of(context, job).respond(if_none_match, "report", lambda: report_of(context, job))
 
 
 @ROUTER.get(
@@ -161,7 +161,7 @@ def read_artifact(
             evidence={"artifact": artifact, "known": known},
             remedy="ask for one of the known files",
         )
-    response = result.unless_known(if_none_match, artifact, lambda: _artifact(result, artifact))
+    response = result.respond(if_none_match, artifact, lambda: _artifact(result, artifact))
     response.headers["Content-Disposition"] = f'attachment; filename="{artifact}"'
     return response
 

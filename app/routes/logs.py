@@ -112,7 +112,7 @@ async def read_traces(
 ) -> Response:
     """Read the channels of a log, min/max decimated; `from` and `to` select a range."""
     log = await anyio.to_thread.run_sync(context.catalogue.log, log_id)
-    selection = replace(selection, channels=_chosen(log, selection.channels))
+    selection = replace(selection, channels=_requested(log, selection.channels))
     asked = (selection.points, "-".join(selection.channels), selection.begin, selection.end)
     etag = f'"{log.id}-{"-".join(map(str, asked))}-{VERSION}"'
     headers = {"ETag": etag, "Cache-Control": "private, no-cache"}
@@ -132,7 +132,7 @@ def delete_log(context: ContextOf, log_id: str) -> None:
     context.store.logs.remove(log.id)
 
 
-def _chosen(log: LogRecord, names: tuple[str, ...]) -> tuple[str, ...]:
+def _requested(log: LogRecord, names: tuple[str, ...]) -> tuple[str, ...]:
     """Give the channels that are asked for, in the order of the log; all where none is named."""
     known = [str(channel) for channel in cast("list[object]", log.summary["channels"])]
     asked = names or known

@@ -15,7 +15,7 @@ Begin = Callable[[list[Asked]], Callable[[], list[Given | Exception]]]
 """Begins pieces of work together, and gives what waits for them."""
 
 
-def _nothing() -> None:
+def _do_nothing() -> None:
     """Do nothing."""
 
 
@@ -28,7 +28,7 @@ class Batcher(Generic[Asked, Given]):
         Called after every batch.
     """
 
-    def __init__(self, on_batch: Callable[[], None] = _nothing) -> None:
+    def __init__(self, on_batch: Callable[[], None] = _do_nothing) -> None:
         self._on_batch = on_batch
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="batcher")
         self._waiting: dict[str, _Group[Asked, Given]] = {}
@@ -54,7 +54,7 @@ class Batcher(Generic[Asked, Given]):
         loop = asyncio.get_running_loop()
         while self._waiting:
             groups, self._waiting = list(self._waiting.values()), {}
-            given = await loop.run_in_executor(self._thread, _together, groups)
+            given = await loop.run_in_executor(self._thread, _run_groups, groups)
             self._on_batch()
             for group, outcomes in zip(groups, given, strict=True):
                 group.resolve(outcomes)
@@ -80,7 +80,7 @@ class _Group(Generic[Asked, Given]):
                 outcome.set_result(answer)
 
 
-def _together(groups: list[_Group[Asked, Given]]) -> list[list[Given | Exception]]:
+def _run_groups(groups: list[_Group[Asked, Given]]) -> list[list[Given | Exception]]:
     waits = [_begin(group) for group in groups]
     return [_finish(group, wait) for group, wait in zip(groups, waits, strict=True)]
 

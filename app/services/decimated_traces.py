@@ -79,7 +79,7 @@ def traces_response(traces: Blob, view: View, if_none_match: str | None) -> Resp
             document = _document(view, read_traces(file, view))
         return Response(json_bytes(document), media_type="application/json")
 
-    return traces.unless_known(if_none_match, form, drawn)
+    return traces.respond(if_none_match, form, drawn)
 
 
 def views_response(traces: Blob, *, log: int, joint: int, if_none_match: str | None) -> Response:
@@ -99,7 +99,7 @@ def views_response(traces: Blob, *, log: int, joint: int, if_none_match: str | N
             document = {"log": log, "joint": joint} | asdict(read_views(file, log=log, joint=joint))
         return Response(json_bytes(_lists(document)), media_type="application/json")
 
-    return traces.unless_known(if_none_match, f"views-{log}-{joint}", drawn)
+    return traces.respond(if_none_match, f"views-{log}-{joint}", drawn)
 
 
 def _lists(value: object) -> object:
@@ -108,7 +108,7 @@ def _lists(value: object) -> object:
         return {name: _lists(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
         return [_lists(entry) for entry in value]
-    return _short(value.tolist()) if isinstance(value, np.ndarray) else value
+    return _round(value.tolist()) if isinstance(value, np.ndarray) else value
 
 
 def _document(view: View, traces: Traces) -> dict[str, object]:
@@ -119,7 +119,7 @@ def _document(view: View, traces: Traces) -> dict[str, object]:
         "rows_per_stretch": traces.rows_per_stretch,
         "time": {"unit": "s", "values": [round(stamp, 6) for stamp in traces.time.tolist()]},
         "traces": [
-            {"signal": signal, "joint": view.joint, "unit": unit, "values": _short(values.tolist())}
+            {"signal": signal, "joint": view.joint, "unit": unit, "values": _round(values.tolist())}
             for signal, unit, values in zip(view.signals, traces.units, traces.values.T, strict=True)
         ],
         "held_out": traces.held_out,
@@ -127,6 +127,6 @@ def _document(view: View, traces: Traces) -> dict[str, object]:
     }
 
 
-def _short(values: list[float]) -> list[float | None]:
+def _round(values: list[float]) -> list[float | None]:
     """Write numbers with the digits that single precision has; None at gaps."""
     return [float(f"{value:.7g}") if math.isfinite(value) else None for value in values]

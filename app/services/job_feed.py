@@ -129,7 +129,7 @@ class JobFeed:
         while self._asked:
             asked, self._asked = self._asked, {}
             try:
-                found = await self._off_the_loop(self._jobs.records, tuple(asked))
+                found = await self._in_thread(self._jobs.records, tuple(asked))
             except Exception as error:  # noqa: BLE001 - it belongs to those who asked
                 for answer in asked.values():
                     answer.set_exception(error)
@@ -151,7 +151,7 @@ class JobFeed:
 
     async def _poll_once(self, watched: tuple[Place, ...]) -> None:
         try:
-            versions = await self._off_the_loop(self._jobs.versions, watched)
+            versions = await self._in_thread(self._jobs.versions, watched)
         except Unavailable as error:
             LOGGER.warning("changes of jobs cannot be seen: %s", error.reason)
             versions = {}  # requests that wait then ask by themselves, and fail with the reason
@@ -160,7 +160,7 @@ class JobFeed:
             if topic is not None and versions.get(place) != topic.version:
                 topic.publish(versions.get(place))
 
-    async def _off_the_loop(self, work: Callable[[Sequence[Place]], Given], places: Sequence[Place]) -> Given:
+    async def _in_thread(self, work: Callable[[Sequence[Place]], Given], places: Sequence[Place]) -> Given:
         return await asyncio.get_running_loop().run_in_executor(self._thread, work, places)
 
 

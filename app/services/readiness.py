@@ -74,7 +74,7 @@ class Readiness:
             while not self._worker_ready():  # noqa: ASYNC110  # it gets ready in a thread or process of its own
                 await anyio.sleep(POLL_S)
             return
-        raise _loading()
+        raise _loading_problem()
 
     def _database(self) -> Problem | None:
         refused = self._refusal()
@@ -117,7 +117,7 @@ class Readiness:
 
     def _worker(self) -> Problem | None:
         if not self._worker_ready():
-            return _loading()
+            return _loading_problem()
         if not self._worker_alive():
             return _not_ready(
                 "the worker is not heard; another is started in its place",
@@ -127,7 +127,7 @@ class Readiness:
         return None
 
 
-def _loading() -> Problem:
+def _loading_problem() -> Problem:
     return _not_ready(
         "the solver is being loaded; at the very first start it is compiled",
         {},

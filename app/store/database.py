@@ -132,18 +132,18 @@ class Database:
     def _serve(self) -> None:
         open_ended = True
         while open_ended:
-            units, open_ended = self._gathered()
+            units, open_ended = self._gather()
             if units:
                 self._commit(units)
 
-    def _gathered(self) -> tuple[list[_Unit], bool]:
+    def _gather(self) -> tuple[list[_Unit], bool]:
         """Wait for one unit and take what else waits; tell whether more may come."""
         units = []
         unit = self._waiting.get()
         while unit is not None:
             units.append(unit)
             try:
-                unit = self._waiting.get_nowait() if len(units) < MOST_TOGETHER else _no_more()
+                unit = self._waiting.get_nowait() if len(units) < MOST_TOGETHER else _end_of_units()
             except Empty:
                 return units, True
         return units, False
@@ -153,7 +153,7 @@ class Database:
             with self._engine.connect() as connection:
                 writing = connection.execution_options(writes=True)
                 with writing.begin():
-                    outcomes = [_tried(work, writing) for work, _ in units]
+                    outcomes = [_run_unit(work, writing) for work, _ in units]
         except Exception as error:  # noqa: BLE001 - it belongs to those who wait, and the thread lives on
             failure = Unavailable(str(error.orig)) if isinstance(error, OperationalError) else error
             outcomes = [failure] * len(units)
@@ -180,11 +180,11 @@ def lock_in_turn(connection: Connection, about: str) -> None:
         )
 
 
-def _no_more() -> _Unit:
+def _end_of_units() -> _Unit:
     raise Empty
 
 
-def _tried(work: Callable[[Connection], Any], connection: Connection) -> object:
+def _run_unit(work: Callable[[Connection], Any], connection: Connection) -> object:
     """Run one unit within a savepoint, and give what it gives or raises."""
     given: object
     connection.exec_driver_sql("SAVEPOINT unit")

@@ -113,7 +113,7 @@ class _Decisions:
         known = self._alike.get(job.fingerprint)
         if known is None:
             if self._room <= 0:
-                return self._no_room()
+                return self._quota_problem()
             known = self._add(job)
         if job.key is not None:
             self._repeated[job.key] = (job.digest, known)
@@ -141,7 +141,7 @@ class _Decisions:
         self._alike[job.fingerprint] = job.fingerprint
         return job.fingerprint
 
-    def _no_room(self) -> OverQuota:
+    def _quota_problem(self) -> OverQuota:
         most = self._quota.queued or 0
         return OverQuota("unfinished jobs", most=most, setting="VERITORQUE_QUEUED_PER_TENANT")
 

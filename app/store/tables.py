@@ -123,10 +123,10 @@ def one_of(column: ColumnElement[Any], values: Iterable[str]) -> ColumnElement[b
 
 def now() -> str:
     """Give the time as ISO 8601 in UTC with milliseconds."""
-    return written(datetime.now(UTC))
+    return time_text(datetime.now(UTC))
 
 
-def written(time: datetime) -> str:
+def time_text(time: datetime) -> str:
     """Write a time in UTC such that later times sort after earlier ones."""
     return time.isoformat(timespec="milliseconds")
 

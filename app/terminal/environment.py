@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..store.store import Store
 
 
-def chosen_settings(**chosen: object) -> Settings:
+def read_settings(**chosen: object) -> Settings:
     """Read the settings, those of the command line before those of the environment; or end."""
     try:
         return Settings.model_validate(Settings().model_dump() | chosen)
@@ -25,7 +25,7 @@ def chosen_settings(**chosen: object) -> Settings:
 
 
 @contextmanager
-def opened(settings: Settings) -> Iterator["Store"]:
+def open_store(settings: Settings) -> Iterator["Store"]:
     """Open what is kept, or say why that cannot be."""
     from ..store.errors import Unavailable
     from ..store.store import Store

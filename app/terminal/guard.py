@@ -43,17 +43,17 @@ class Commands(TyperGroup):
 
     def make_context(self, *arguments: Any, **more: Any) -> Any:  # noqa: ANN401  # typer's own, private
         """Read the command line; whatever stops that becomes words and an exit code."""
-        with guarded():
+        with exit_on_error():
             return super().make_context(*arguments, **more)
 
     def invoke(self, ctx: Any) -> Any:  # noqa: ANN401  # typer's own, private
         """Run a command; whatever stops it becomes words and an exit code."""
-        with guarded():
+        with exit_on_error():
             return super().invoke(ctx)
 
 
 @contextmanager
-def guarded() -> Iterator[None]:
+def exit_on_error() -> Iterator[None]:
     """Turn errors into words and an exit code."""
     try:
         yield

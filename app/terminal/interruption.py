@@ -7,7 +7,7 @@ from typing import NoReturn
 INTERRUPTED = 130
 
 
-def leave(*_: object) -> NoReturn:
+def exit_now(*_: object) -> NoReturn:
     """End at once, so that no half-loaded module prints a traceback."""
     os.write(2, b"interrupted\n")
     os._exit(INTERRUPTED)
@@ -16,10 +16,10 @@ def leave(*_: object) -> NoReturn:
 def handle_interrupts_early() -> None:
     """End at once on Ctrl-C, unless the caller has set the process to ignore it."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, leave)
+        signal.signal(signal.SIGINT, exit_now)
 
 
 def raise_interrupts() -> None:
     """Let Ctrl-C be a `KeyboardInterrupt` from now on, on which a command tidies up."""
-    if signal.getsignal(signal.SIGINT) is leave:
+    if signal.getsignal(signal.SIGINT) is exit_now:
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -7,7 +7,7 @@ import typer
 
 from ..version import VERSION
 from .guard import Commands
-from .output.streams import say, speak_any_alphabet
+from .output.streams import echo, speak_any_alphabet
 
 MODULES = {
     "logs": "veritorque.app.terminal.commands.logs",
@@ -57,7 +57,7 @@ COMMANDS = typer.Typer(
 
 def _print_version(wanted: bool) -> None:  # noqa: FBT001  # as typer calls it
     if wanted:
-        say(VERSION)
+        echo(VERSION)
         raise typer.Exit
 
 

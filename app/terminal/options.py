@@ -95,7 +95,7 @@ def options_of(options: str, settings: list[str]) -> Document:
                 evidence={"given": setting},
                 remedy="write --set name=value, such as --set filter.cutoff_hz=10",
             )
-        _put(read, name.split("."), _value(value))
+        _set_option(read, name.split("."), _value(value))
     return read
 
 
@@ -147,7 +147,7 @@ def _value(text: str) -> object:
         return text
 
 
-def _put(options: Document, path: list[str], value: object) -> None:
+def _set_option(options: Document, path: list[str], value: object) -> None:
     for step in path[:-1]:
         inner = options.setdefault(step, {})
         if not isinstance(inner, dict):

@@ -9,7 +9,7 @@ from typing import NoReturn
 from .backend.protocol import Document, Study
 from .backend.selection import open_backend
 from .output.files import require_folder, save
-from .output.streams import aside, write
+from .output.streams import error_console, write
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def run(study: Study, *, url: str, key: str, destination: Destination) -> Docume
     for path in (destination.out, destination.report):
         if path is not None:
             require_folder(path)
-    with open_backend(url, key) as backend, bar(aside()) as progress:
+    with open_backend(url, key) as backend, bar(error_console()) as progress:
         content = backend.run(study, progress, destination.report)
     document: Document = json.loads(content)
     if destination.out is not None:

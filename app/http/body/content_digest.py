@@ -35,7 +35,7 @@ class ContentDigest:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
         try:
-            announced = _announced(scope) if scope["type"] == "http" else {}
+            announced = _stated_digests(scope) if scope["type"] == "http" else {}
         except Problem as problem:
             await problem_response(problem)(scope, receive, send)
             return
@@ -48,7 +48,7 @@ class ContentDigest:
             if message["type"] == "http.request" and not message.get("more_body", False):
                 for name, seen in hashes.items():
                     if not hmac.compare_digest(seen.digest(), announced[name]):
-                        raise _differs(name, announced[name], seen.digest())
+                        raise _mismatch(name, announced[name], seen.digest())
             return message
 
         await self._app(scope, hashed if announced else receive, send)
@@ -82,7 +82,7 @@ def parse_digests(text: str) -> dict[str, bytes]:
     return announced
 
 
-def _announced(scope: Scope) -> dict[str, bytes]:
+def _stated_digests(scope: Scope) -> dict[str, bytes]:
     given = [value.decode("latin-1") for name, value in scope["headers"] if name == HEADER.lower().encode()]
     return parse_digests(", ".join(given)) if given else {}
 
@@ -96,7 +96,7 @@ def _unreadable(part: str) -> Problem:
     )
 
 
-def _differs(name: str, announced: bytes, seen: bytes) -> Problem:
+def _mismatch(name: str, announced: bytes, seen: bytes) -> Problem:
     return Problem(
         "digest",
         "the body that arrived is not the one that was announced",

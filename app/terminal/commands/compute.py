@@ -27,7 +27,7 @@ from ..options import (
     part_of,
 )
 from ..output.exit_codes import Exit
-from ..output.streams import out
+from ..output.streams import result_console
 from ..study import Destination, run
 
 OutOption = Annotated[Path | None, typer.Option(help="Save the result document here.")]
@@ -65,7 +65,7 @@ def _run(kind: JobKind[Any], given: dict[str, Any]) -> None:
     destination = Destination(given["json"], given["out"], given.get("report"))
     document = run(study, url=given["url"], key=given["key"], destination=destination)
     if not given["json"]:
-        kind.show(out(), document)
+        kind.show(result_console(), document)
     alarm = kind.words.alarm
     if alarm is not None and given[alarm.name] and alarm.is_raised(document):
         raise typer.Exit(Exit.FOUND)

@@ -3,7 +3,7 @@
 import typer
 
 from ...version import VERSION
-from ..output.streams import say
+from ..output.streams import echo
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 
@@ -16,10 +16,10 @@ def openapi() -> None:
     from ...main import create_app
     from ...settings import Settings
 
-    say(json.dumps(create_app(Settings.model_construct()).openapi(), indent=2))
+    echo(json.dumps(create_app(Settings.model_construct()).openapi(), indent=2))
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque version")
 def version() -> None:
     """Print the version."""
-    say(VERSION)
+    echo(VERSION)

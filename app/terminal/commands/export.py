@@ -10,7 +10,7 @@ from ....core.export.formats import FORMATS
 from ...services.export_files import TRACES_FILE, TRACES_TYPE
 from ..options import KeyOption, UrlOption
 from ..output.files import means_a_file, require_folder, save
-from ..output.streams import say, write
+from ..output.streams import echo, write
 from ..results import RESULT_HELP, read_result
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -27,8 +27,8 @@ EPILOG = "\b\nExamples:\n  veritorque export result.json robot.urdf\n" + (
 def _print_list(wanted: bool) -> None:  # noqa: FBT001  # as typer calls it
     if wanted:
         for name, form in FORMATS.items():
-            say(f"{name:<24}{form.media_type:<34}{form.title}")
-        say(f"{TRACES_FILE:<24}{TRACES_TYPE:<34}{TRACES_TITLE}")
+            echo(f"{name:<24}{form.media_type:<34}{form.title}")
+        echo(f"{TRACES_FILE:<24}{TRACES_TYPE:<34}{TRACES_TITLE}")
         raise typer.Exit
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...settings import LOCAL, SCOPES
-from ..environment import chosen_settings, opened, require_directory, stop
-from ..output.streams import say
+from ..environment import open_store, read_settings, require_directory, stop
+from ..output.streams import echo
 
 if TYPE_CHECKING:
     from ...store.keys import KeyStore
@@ -36,7 +36,7 @@ def create(
         stop(f"there is no scope {', '.join(unknown) or '(none)'}; the scopes are {', '.join(SCOPES)}")
     with _keys() as keys:
         _, secret = keys.create(tenant=tenant, name=name, scopes=wanted)
-    say(secret)
+    echo(secret)
 
 
 @COMMANDS.command(name="list", epilog="\b\nExample:\n  veritorque keys list")
@@ -45,7 +45,7 @@ def list_keys() -> None:
     with _keys() as keys:
         for record in keys.all():
             since = f"revoked {record.revoked_at}" if record.revoked_at else f"since {record.created_at}"
-            say(f"{record.id}  {record.tenant}  {record.name}  {','.join(record.scopes)}  {since}")
+            echo(f"{record.id}  {record.tenant}  {record.name}  {','.join(record.scopes)}  {since}")
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque keys revoke 3f2a91")
@@ -60,7 +60,7 @@ def revoke(identity: Annotated[str, typer.Argument(help="The id that `keys list`
 def _keys() -> Iterator["KeyStore"]:
     from ...store.keys import KeyStore
 
-    settings = chosen_settings()
+    settings = read_settings()
     require_directory(settings.data_dir)
-    with opened(settings) as store:
+    with open_store(settings) as store:
         yield KeyStore(store.database)

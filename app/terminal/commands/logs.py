@@ -9,7 +9,7 @@ import typer
 from ....core.errors import LogError
 from ..options import JsonOption, MappingOption, ProfileOption, mapping_of
 from ..output.exit_codes import Exit
-from ..output.streams import complain, note, say
+from ..output.streams import complain, echo, note
 
 if TYPE_CHECKING:
     from ....core.log.check import LogCheck
@@ -53,10 +53,10 @@ def check(
     checks = [(path, _check(path, chosen)) for path in logs]
     documents = [document_of(path, seen) for path, seen in checks]
     if json:
-        say(encoder.dumps(documents if len(documents) > 1 else documents[0]))
+        echo(encoder.dumps(documents if len(documents) > 1 else documents[0]))
     for path, seen in checks:
         for line in () if json else lines_of(path, seen):
-            say(line)
+            echo(line)
         _print_suggestion(path, seen)
     if any(seen.refusal is not None for _, seen in checks):
         raise typer.Exit(Exit.INPUT)

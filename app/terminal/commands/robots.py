@@ -17,7 +17,7 @@ from ..options import (
     part_of,
 )
 from ..output.exit_codes import Exit
-from ..output.streams import out, say, write
+from ..output.streams import echo, result_console, write
 
 COMMANDS = typer.Typer(
     help="List, show and check robots.",
@@ -38,7 +38,7 @@ def list_robots(*, url: UrlOption = "", key: KeyOption = "", json: JsonOption = 
         write(json_bytes(robots))
         return
     for robot in robots:
-        say(f"{robot['id']:<16}  {robot['joints']:>2} joints  {robot['name']}")
+        echo(f"{robot['id']:<16}  {robot['joints']:>2} joints  {robot['name']}")
 
 
 @COMMANDS.command(
@@ -61,7 +61,7 @@ def show(  # noqa: PLR0913  # the options of a command line
     if json:
         write(json_bytes(seen["description"]))
         return
-    say(f"{seen['name']}: {seen['joints']} joints, gravity {_listed(seen['description']['gravity'])} m/s2")
+    echo(f"{seen['name']}: {seen['joints']} joints, gravity {_listed(seen['description']['gravity'])} m/s2")
     _print_joints(seen["description"]["joints"])
     _print_warnings(seen)
 
@@ -85,7 +85,7 @@ def check(  # noqa: PLR0913  # the options of a command line
     """Check a description: invalid values are errors, implausible values are warnings."""
     with open_backend(url, key) as backend:
         seen = backend.robot(robot, part_of(base_link, tip_link, gravity))
-    say(f"{seen['name']}: {seen['joints']} joints; valid")
+    echo(f"{seen['name']}: {seen['joints']} joints; valid")
     _print_warnings(seen)
     if fail_on_findings and seen["suspicions"]:
         raise typer.Exit(Exit.FOUND)
@@ -112,11 +112,11 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
         write(json_bytes(document))
         return
     counts = document["counts"]
-    say(f"{counts['standard']} standard parameters, {counts['base']} base parameters")
+    echo(f"{counts['standard']} standard parameters, {counts['base']} base parameters")
     for row in document["base_parameters"]:
-        say(f"{row['name']:<8}{row['unit']:<12}{row['grouping']}")
+        echo(f"{row['name']:<8}{row['unit']:<12}{row['grouping']}")
     if document["without_effect"]:
-        say(f"without effect on the torque: {', '.join(document['without_effect'])}")
+        echo(f"without effect on the torque: {', '.join(document['without_effect'])}")
 
 
 def _print_joints(rows: list[dict[str, Any]]) -> None:
@@ -139,12 +139,12 @@ def _print_joints(rows: list[dict[str, Any]]) -> None:
             spare=4,
         ),
     ]
-    print_table(out(), columns)
+    print_table(result_console(), columns)
 
 
 def _print_warnings(seen: dict[str, Any]) -> None:
     for suspicion in seen["suspicions"]:
-        say(f"warning: {suspicion}")
+        echo(f"warning: {suspicion}")
 
 
 def _listed(values: list[float]) -> str:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...settings import PREFIX, Settings
-from ..environment import chosen_settings, opened, require_directory, stop
+from ..environment import open_store, read_settings, require_directory, stop
 from ..kernel_cache import COMPILING, keep_compiled_kernels
-from ..output.streams import say
+from ..output.streams import echo
 from ..threads import limit_threads
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def serve(
     On loopback no key is needed. On any other address it starts only where there is one: veritorque keys
     create.
     """
-    settings = chosen_settings(
+    settings = read_settings(
         host=host,
         port=port,
         data_dir=data_dir,
@@ -67,12 +67,12 @@ def serve(
     require_directory(settings.data_dir)
     limit_threads(settings.job_cpus)
     _require_to_be_alone(settings.data_dir)
-    with opened(settings) as store:
+    with open_store(settings) as store:
         if settings.needs_keys:
             _require_a_key(store, settings.host)
     kernels = keep_compiled_kernels(settings.data_dir)
     if kernels is not None:
-        say(f"compiling once, {COMPILING} (kept in {kernels}); jobs wait for it")
+        echo(f"compiling once, {COMPILING} (kept in {kernels}); jobs wait for it")
     _listen(settings)
 
 
@@ -115,7 +115,7 @@ def _listen(settings: Settings) -> None:
     _require_free(settings.host, settings.port)
     configure_logging(settings)
     shown = f"[{settings.host}]" if ":" in settings.host else settings.host
-    say(f"http://{shown}:{settings.port}/docs")
+    echo(f"http://{shown}:{settings.port}/docs")
     metrics = Metrics()
     supervisor = Supervisor(settings, on_ended=metrics.ended) if settings.workers else None
     with suppress(KeyboardInterrupt):

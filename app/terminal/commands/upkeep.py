@@ -16,9 +16,9 @@ from ...settings import Settings
 from ...store.blobs.sweep import Sweep
 from ...store.errors import Damaged, Unavailable
 from ...store.store import Store
-from ..environment import chosen_settings, stop
+from ..environment import read_settings, stop
 from ..output.exit_codes import Exit
-from ..output.streams import say
+from ..output.streams import echo
 
 PAUSE_S = 20.0
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -34,46 +34,46 @@ def gc(
 
     The service may run meanwhile; it does the same by itself every minute.
     """
-    settings = chosen_settings()
-    with _opened(settings) as store:
+    settings = read_settings()
+    with _open_store(settings) as store:
         for kind, count in expire(store.database, settings.retention_days).items():
-            say(f"{count} {kind} expired")
+            echo(f"{count} {kind} expired")
         sweep = Sweep(store)
         sweep.run()
         time.sleep(pause_s)
-        say(f"{sweep.run()} unreferenced files removed")
+        echo(f"{sweep.run()} unreferenced files removed")
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")
 def backup(directory: Annotated[Path, typer.Argument(help="A new directory for the backup.")]) -> None:
     """Copy everything into a new directory while the service runs."""
-    with _opened(chosen_settings()) as store:
-        _say(back_up(store, directory))
+    with _open_store(read_settings()) as store:
+        _print_counts(back_up(store, directory))
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday")
 def restore(directory: Annotated[Path, typer.Argument(help="The directory of a backup.")]) -> None:
     """Copy a backup into VERITORQUE_DATA_DIR (and VERITORQUE_DATABASE_URL), which has to be empty."""
-    with _opened(chosen_settings()) as store:
-        _say(restore_backup(directory, store))
+    with _open_store(read_settings()) as store:
+        _print_counts(restore_backup(directory, store))
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque doctor")
 def doctor() -> None:
     """Check database, files, permissions and disk, and print remedies; exits with code 1 on damage."""
     harm = False
-    for finding in examine(chosen_settings()):
+    for finding in examine(read_settings()):
         harm |= finding.harm
         word = "ERROR" if finding.harm else "note" if finding.remedy else "ok"
-        say(f"{word:6}{finding.subject}: {finding.seen}")
+        echo(f"{word:6}{finding.subject}: {finding.seen}")
         if finding.remedy:
-            say(f"      -> {finding.remedy}")
+            echo(f"      -> {finding.remedy}")
     if harm:
         raise typer.Exit(Exit.FOUND)
 
 
 @contextmanager
-def _opened(settings: Settings) -> Iterator[Store]:
+def _open_store(settings: Settings) -> Iterator[Store]:
     try:
         store = Store(settings.data_dir, settings.database_url)
         try:
@@ -90,5 +90,5 @@ def _opened(settings: Settings) -> Iterator[Store]:
         stop(f"{error.filename}: {error.strerror}; choose another directory or make room")
 
 
-def _say(counts: dict[str, int]) -> None:
-    say("copied " + ", ".join(f"{count} {name}" for name, count in counts.items()))
+def _print_counts(counts: dict[str, int]) -> None:
+    echo("copied " + ", ".join(f"{count} {name}" for name, count in counts.items()))

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from ..environment import chosen_settings, opened, require_directory
+from ..environment import open_store, read_settings, require_directory
 from ..kernel_cache import keep_compiled_kernels
 from ..threads import limit_threads
 
@@ -22,7 +22,7 @@ def work(
 
     It needs the same VERITORQUE_DATABASE_URL and the same VERITORQUE_DATA_DIR as the service.
     """
-    settings = chosen_settings()
+    settings = read_settings()
     require_directory(settings.data_dir)
     limit_threads(settings.job_cpus)
     keep_compiled_kernels(settings.data_dir)
@@ -30,5 +30,5 @@ def work(
     from ...logging import configure_logging
 
     configure_logging(settings)
-    with opened(settings) as store:
+    with open_store(settings) as store:
         work_until_stopped(store, settings, beside=beside)

@@ -23,12 +23,12 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
             f"{len(log.segments)} {'segment' if len(log.segments) == 1 else 'segments'}"
         )
     for channel in seen.recognised:
-        yield f"  {channel.name:<14}{_units(channel):<8}{_shortened(channel.columns)}"
+        yield f"  {channel.name:<14}{_units(channel):<8}{_shorten(channel.columns)}"
     if log is None:
-        yield f"  columns       {_shortened(seen.columns)}"
+        yield f"  columns       {_shorten(seen.columns)}"
         return
     if log.ignored_columns:
-        yield f"  {'ignored':<22}{_shortened(log.ignored_columns)}"
+        yield f"  {'ignored':<22}{_shorten(log.ignored_columns)}"
     yield from _reach_lines(seen.reach)
     yield f"{len(log.defects)} {'defect' if len(log.defects) == 1 else 'defects'}{':' if log.defects else ''}"
     for defect in log.defects:
@@ -87,7 +87,7 @@ def _units(channel: Binding) -> str:
     return ", ".join(dict.fromkeys(channel.units))
 
 
-def _shortened(names: Sequence[str]) -> str:
+def _shorten(names: Sequence[str]) -> str:
     if len(names) <= SHOWN:
         return " ".join(names)
     return f"{names[0]} {names[1]} ... {names[-1]} ({len(names)})"

@@ -20,17 +20,17 @@ def speak_any_alphabet() -> None:
         sys.stdout.reconfigure(errors="backslashreplace")
 
 
-def out() -> "Console":
+def result_console() -> "Console":
     """Give the console for results."""
     return _console(error=False)
 
 
-def aside() -> "Console":
+def error_console() -> "Console":
     """Give the console for progress, notes and errors."""
     return _console(error=True)
 
 
-def say(text: str) -> None:
+def echo(text: str) -> None:
     """Write a line of a result as it is."""
     sys.stdout.write(text + "\n")
     sys.stdout.flush()
@@ -54,7 +54,7 @@ def complain(cause: str, evidence: Mapping[str, object], remedy: str) -> None:
     """Say on standard error what is wrong, what was seen, and what to do about it."""
     note(f"error: {cause}")
     for name, value in evidence.items():
-        note(f"  {name.replace('_', ' ')}: {_shown(value)}")
+        note(f"  {name.replace('_', ' ')}: {_value_text(value)}")
     if remedy:
         note(f"  remedy: {remedy}")
 
@@ -74,11 +74,11 @@ def _console(*, error: bool) -> "Console":
     return console
 
 
-def _shown(value: object) -> str:
+def _value_text(value: object) -> str:
     if isinstance(value, Mapping):
-        parts = [f"{name}: {_shown(entry)}" for name, entry in value.items()]
+        parts = [f"{name}: {_value_text(entry)}" for name, entry in value.items()]
         more = len(parts) - MOST_PARTS
         return "; ".join(parts[:MOST_PARTS] + ([f"and {more} more"] if more > 0 else [])) or "none"
     if isinstance(value, list | tuple):
-        return ", ".join(_shown(entry) for entry in value) or "none"
+        return ", ".join(_value_text(entry) for entry in value) or "none"
     return str(value)

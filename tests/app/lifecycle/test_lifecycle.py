@@ -20,7 +20,7 @@ from veritorque.app.settings import Settings
 from veritorque.app.store.errors import Damaged
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
-from veritorque.app.store.tables import JOBS, LOGS, REPEATS, written
+from veritorque.app.store.tables import JOBS, LOGS, REPEATS, time_text
 from veritorque.app.terminal.main import COMMANDS
 
 
@@ -191,7 +191,7 @@ def test_the_command_ends_with_one_where_harm_is_done(tmp_path, filled, monkeypa
 
 
 def age(store, table, days):
-    then = written(datetime.now(UTC) - timedelta(days=days))
+    then = time_text(datetime.now(UTC) - timedelta(days=days))
     names = [name for name in ("created_at", "finished_at") if name in table.c]
     store.database.write(lambda c: c.execute(update(table).values(dict.fromkeys(names, then))))
 
