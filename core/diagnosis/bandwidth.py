@@ -22,7 +22,7 @@ from .thresholds.dataset import BAND
 
 _SAMPLES = 65536
 _POINTS = 5
-"""Neighbours that a fourth difference is of."""
+"""Samples of a fourth difference."""
 Fitted = tuple[Dataset, Prediction, tuple[ARNoise, ...]]
 
 
@@ -48,7 +48,7 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
         width = max(BAND.narrowest, min(width, actual) * narrowing)
         fitted = dataset_at(width)
         even, even_shares = position_noise_torque(fitted, over_stamps=False)
-    # Stamps that scatter leave friction to be seen in a wide look, but no delay, filter or spring.
+    # With scattered stamps a wide band still shows friction, but no delay, filter or spring.
     scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)
     dataset, operating_point, noise = fitted
     dataset = replace(
@@ -62,7 +62,7 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
 def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:
     """Draw what noise of the positions makes of the torque, N m or N.
 
-    Gives with it, per joint, the share of the white residual's mean square that it has.
+    Also gives, per joint, its share of the prewhitened residual's mean square.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSe
 
 
 def _frictionless(operating_point: Prediction) -> Prediction:
-    """Leave out what jumps with the sign of velocity: there rows stand for themselves."""
+    """Leave out terms that jump with the sign of velocity: nuisance columns cover reversals."""
     parameters = operating_point.model.parameters
     inertial = {*INERTIAL_SYMBOLS, "IA", "IAM"}
     kept = np.array([parameter.symbol in inertial for parameter in parameters], dtype=bool)
@@ -96,9 +96,9 @@ def _frictionless(operating_point: Prediction) -> Prediction:
 
 
 def position_noise(dataset: Dataset, *, over_stamps: bool) -> JointVector:
-    """Give the positions' noise per joint, rad or m: what no cubic over the stamps, or the rows, has.
+    """Give the positions' noise per joint, rad or m: the deviation from cubics over the stamps, or the rows.
 
-    Over the stamps that is without the samples beside stamps that are off, where these are few.
+    Over the stamps, samples beside a few faulty stamps are left out.
     """
     found = []
     for motion in dataset.motions:
@@ -113,7 +113,7 @@ def position_noise(dataset: Dataset, *, over_stamps: bool) -> JointVector:
 
 
 def few_off(stamps: Samples) -> Mask:
-    """Mark the groups of five neighbours among which a stamp is off; none where that is not rare.
+    """Mark the groups of five neighbours among which a stamp is faulty; none where faults are not rare.
 
     Examples
     --------

@@ -43,7 +43,7 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisProblem:
-    """Ask what is missing from a model, or what has changed since a reference."""
+    """State the question: what a model lacks, or what has changed since a reference."""
 
     plan: ColumnPlan
     """The model and its base columns."""
@@ -111,7 +111,7 @@ def _fitter(problem: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
 
 
 def _search_causes(fitter: HypothesisFitter, tell: Progress) -> SearchState:
-    """Search for causes, and on with other blocks held out where one holds what no other shows."""
+    """Search for causes, and again with other blocks held out where a held-out block is an outlier."""
 
     def progress(done: float) -> None:
         tell("search", 0.1 + 0.5 * done)
@@ -142,7 +142,7 @@ def _search(
 
 
 def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
-    """Keep the causes that hold against their alternatives, and search for what the others kept out."""
+    """Keep the causes that pass the comparison, and search for those that the dropped ones excluded."""
     kept, comparisons = compare_alternatives(replace(found, excluded={}))
     if kept.excluded:
         more = continue_search(kept)
@@ -245,9 +245,9 @@ def _verdict(
     unnamed: UnnamedPattern | None,
     most: float,
 ) -> Verdict:
-    """Say `unexplained` where what no cause explains is more than what the causes found do.
+    """Give `unexplained` where the unexplained part exceeds what the causes found explain.
 
-    What faulty samples leave follows patterns, too: not on joints where a sample check explains a part.
+    Faulty samples leave patterns, too: joints where a sample check explains a part do not count.
     """
     if unnamed is not None and unnamed.statistic > most and unnamed.joint not in _faulty_joints(findings):
         return "unexplained"

@@ -28,7 +28,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Alternative:
-    """Name another cause that was weighed for the same evidence."""
+    """Name another cause that was compared on the same evidence."""
 
     cause: str
     joints: Site
@@ -52,7 +52,7 @@ class Curve:
     after: Vector
     model: Vector
     standard_error: Vector
-    """Per bin: coordinate, mean residual without and with the finding, what the finding says, and the
+    """Per bin: coordinate, mean residual without and with the finding, what the finding predicts, and the
     standard error of the means (N m or N)."""
     direction: Vector
     """Per bin: 1 where only forward motion counts, -1 where only backward motion does, 0 where both do."""
@@ -60,7 +60,7 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Gain:
-    """Say what a finding gains on rows that no fit has seen.
+    """Hold what a finding gains on held-out rows.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Finding:
     """Name one cause with everything that supports it.
 
     `predictors` is what its confidence was computed from, None of a sample check. `proven` says that an
-    identification with it has surely predicted held-out motion better.
+    identification with it has predicted held-out motion significantly better.
     """
 
     cause: str

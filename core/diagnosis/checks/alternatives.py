@@ -51,10 +51,10 @@ class Comparison:
 def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparison]]:
     """Compare every member with its alternatives, and drop those that are surrogates.
 
-    Beside a strong effect whose columns are not exact, much fits what is left a little. A member that another
-    candidate would beat in its place, and that was not swapped for it, is such a surrogate. So is one that an
-    unnamed pattern beats by far, and one that is inadmissible once another was dropped. What was dropped is
-    no alternative. Gives what remains, with its members' comparisons.
+    Beside a strong effect whose columns are not exact, many causes fit the remainder a little. A member is
+    such a surrogate where another candidate fits better in its place but was not swapped for it, or where an
+    unnamed pattern fits far better. A member may also become inadmissible once another was dropped. What was
+    dropped is no alternative. Gives what remains, with its members' comparisons.
     """
     state, unnamed = found, unnamed_candidates(found.fitter)
     while True:
@@ -150,7 +150,7 @@ def compare_member(state: SearchState, index: int) -> Comparison:
         why = _objection(fitter, without, trial)
         if not why:
             margin = min(margin, behind)
-        # One that explains no more besides than position noise might refutes nobody.
+        # An alternative that explains no more than position noise might refutes no finding.
         like = _noise_statistic(fitter, own, (member, other))
         if not why and behind < max(like, _undecided_bound(member, other, own_ratio)):
             ambiguous.append(_undecided_alternative(member, other, ratio, behind, like))

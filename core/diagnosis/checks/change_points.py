@@ -2,7 +2,7 @@
 
 The residual is smoothed with several widths, and changes side where it exceeds a level on the other one. Each
 set of change points is scored like any pattern, with every instant counted as one of all that the bandwidth
-resolves. Source: Yao, Statistics & Probability Letters 6(3), 1988, on what a change that is looked for costs.
+resolves. Source: Yao, Statistics & Probability Letters 6(3), 1988, on the penalty of a change point.
 """
 
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ from .unnamed_pattern import UnnamedPatternCause
 SMOOTHED = (3, 5, 9, 15)
 """Rows that are averaged."""
 FAR = (0.0, 0.3, 0.6, 0.9, 1.2)
-"""How far over counts, in RMS of the smoothed residual."""
+"""Levels that count as exceeded, in RMS of the smoothed residual."""
 _UNLISTED = UnnamedPatternCause()
 
 

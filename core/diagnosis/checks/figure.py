@@ -1,7 +1,7 @@
 """Prepare a finding's figure: one joint's residual over the coordinate that explains it, before and after.
 
 Friction's sign follows the direction of motion, so that over a load or an angle its effects of both
-directions cancel. Where the coordinate alone does not tell what a finding adds, each direction has its curve.
+directions cancel. Where the coordinate alone does not determine the torque, each direction has its curve.
 """
 
 from collections.abc import Callable
@@ -18,8 +18,8 @@ from ..result import Curve
 from ..search.hypothesis import Hypothesis
 
 BINS = 36
-TOLD = 0.8
-"""A coordinate that tells less than this share of what a finding adds needs the direction beside it."""
+EXPLAINED = 0.8
+"""Share of a finding's torque below which the coordinate alone does not determine it, only with direction."""
 STAND_IN = {"load_jerk": "torque_rate", "load_rate": "torque_rate"}
 
 
@@ -53,7 +53,7 @@ def curve(
     own, forward = torque[joint][rows], dataset.state.velocity[rows, joint] > 0.0
     together, apart = _bins(rows, along.values), _bins_by_direction(rows, forward, along.values)
     share, share_apart = _explained_by_means(own, rows, together), _explained_by_means(own, rows, apart)
-    split = share < TOLD and share_apart > share
+    split = share < EXPLAINED and share_apart > share
     groups = apart if split else together
     return Curve(
         coordinate=along.name,

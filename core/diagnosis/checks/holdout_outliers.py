@@ -1,7 +1,7 @@
 """Test whether held-out blocks are outliers: a short event may lie in them alone.
 
 Held-out blocks are spread evenly, so that a lasting effect acts on fitted and held-out rows. What happened
-once may lie in a held-out block. Then other blocks are held out: before the search where a plain fit shows
+once may fall into a held-out block. Then other blocks are held out: before the search where a plain fit shows
 the outlier, and by a further search where only its result shows it.
 Source: Stone, J. R. Stat. Soc. B 36(2), 1974, for exchanging the parts of a log.
 """

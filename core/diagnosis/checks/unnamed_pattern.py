@@ -1,6 +1,6 @@
 """Offer unnamed patterns: a residual may follow one that no listed cause has.
 
-What is found so carries no name. It says that something is left, on which joint and what it follows, and it
+Such a finding has no physical name. It states the joint and the coordinate that the residual follows, and it
 prevents that a listed cause is named for lack of a better one. Source: Brynjarsdottir & O'Hagan,
 Inverse Problems 30, 2014, for why a free discrepancy may not claim a physical name.
 """
@@ -22,9 +22,9 @@ from ..thresholds.checks import UNNAMED
 
 WAVES = (1.0, 2.0)
 SLOWEST, QUICKEST = 0.15, 1.0
-"""Repetitions in time that are looked for, Hz."""
+"""Rates of repetition in time that are searched, Hz."""
 STEP = 0.5
-"""Between two rates, in repetitions over the log; they are looked at again `FINER` times as finely."""
+"""Between two rates, in repetitions over the log; refined with `FINER` times finer steps."""
 FINER = 8
 SWINGS = tuple(float(rate) for rate in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""

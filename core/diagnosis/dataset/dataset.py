@@ -146,12 +146,12 @@ def build_dataset(
     blocks
         Number of blocks each log is divided into.
     width
-        The look's band over the motion's.
+        Ratio of the data set's band to the motion's.
 
     Raises
     ------
     ExcitationError
-        If no row is left to look at.
+        If no row is left.
     """
     motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
     parts = _segments(motions, model.robot, [log.duration for log in logs])
@@ -180,7 +180,7 @@ def _segments(motions: Sequence[Motion], robot: RobotModel, seconds: list[float]
     ]
     if not parts:
         raise ExcitationError(
-            "no stretch of the logs is long enough to be looked at",
+            "no stretch of the logs is long enough to be diagnosed",
             evidence={"seconds": seconds},
             remedy="record at least ten seconds of motion",
         )

@@ -1,6 +1,6 @@
-"""Tell a spike of the torque channel from a contact: a spike lasts one sample, a contact many.
+"""Distinguish a spike of the torque channel from a contact: a spike lasts one sample, a contact many.
 
-A filter makes a swell of a spike, so that only the raw samples tell them apart. Source: Davies & Gather, J.
+A filter widens a spike, so that only the raw samples distinguish the two. Source: Davies & Gather, J.
 Am. Stat. Assoc. 88, 1993, for outliers against a quantile of what surrounds them.
 """
 

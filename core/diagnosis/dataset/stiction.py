@@ -2,8 +2,8 @@
 
 While a joint sticks, friction balances the torque, anywhere between minus and plus its level, and the sign of
 a measured velocity does not determine it. Polynomials over every such span, with as many coefficients as the
-filter passes, stand in for it, and rows right beside a reversal remain evidence. Source: Frisch & Waugh 1933,
-for columns that are only to be rid of.
+filter passes, represent it, so that rows right beside a reversal remain evidence.
+Source: Frisch & Waugh 1933, for nuisance columns.
 """
 
 from itertools import pairwise

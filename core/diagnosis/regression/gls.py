@@ -24,7 +24,7 @@ from .prewhitening import Prewhitened, prewhiten
 from .rows import JointRows
 
 RIDGE = 1e-10
-"""Share of a column's own square that keeps directions which the motion leaves open from blowing up."""
+"""Share of a column's own square that bounds directions that the motion does not determine."""
 STEPS, EXACT = 5, 1e-6
 """Steps of a solution at most, until another would add less than this to twice the likelihood."""
 

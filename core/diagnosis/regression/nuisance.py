@@ -19,7 +19,7 @@ from ...numerics.recursions import banded_gram
 
 LEAST = 1e-4
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
-this by the others. Of much less the Gram matrix, which squares it, would hold rounding as well as truth."""
+this by the others. Far below it the Gram matrix, which squares it, would be rounding."""
 EARLIER = 1e-9
 """By how much a column counts for more than the next: rounding must not choose between two that are alike."""
 RIDGE = 1e-13

@@ -1,6 +1,6 @@
-"""Lay a residual out: what it depends on, how low it could go, and how much of it is predictable at all.
+"""Describe a residual: what it depends on, its noise floor, and which share of it is predictable.
 
-In come a `Dataset`, the residual at its rows (measured minus predicted) and the noise learned from it. Out go
-an `Atlas` of the residual over every coordinate of the motion, a `NoiseFloor` that needs no model, and
-`Predictable`: the share of the residual that any model extension could still explain.
+In come a `Dataset`, the residual at its rows (measured minus predicted) and its noise model. Out go an
+`Atlas` of the residual over every coordinate of the motion, a `NoiseFloor` that needs no model, and
+`Predictable`: the share of the residual that an extension of the model could still explain.
 """

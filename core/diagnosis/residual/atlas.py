@@ -1,12 +1,11 @@
-"""Average a residual over every coordinate of the motion, with errors that know its memory.
+"""Average a residual over every coordinate of the motion, with errors that include its autocorrelation.
 
-A bin's mean that lies many standard errors from the others says that the residual depends on that coordinate;
-a chi-square over all bins, with the covariance that the noise's memory gives between them, says how surely.
-The fit that left the residual has made its averages smaller than the noise would, so the p-values are
-cautious. The noise is learned anew from what the bins leave, or an effect would be taken for noise; but not
-over time or temperature: their bins are visited once, and what they take from slow noise is not an effect.
-There the noise of the fit stands, of which a slow drift may have become a part. Source: Percival & Walden,
-Spectral Analysis (1993), ch. 6 and 8.
+The residual depends on a coordinate where bin means differ by many standard errors. A chi-square over all
+bins, with their covariance under autocorrelated noise, gives the p-value. The fit has made the averages
+smaller than noise would, so the p-values are cautious. The noise is estimated again from the deviations from
+the bin means; otherwise an effect would count as noise. Over time and temperature every bin is visited once
+and would absorb slow noise. There the noise of the fit is used, which may include a slow drift.
+Source: Percival & Walden, Spectral Analysis (1993), ch. 6 and 8.
 """
 
 from collections.abc import Sequence
@@ -27,7 +26,7 @@ from .spectrum import ResidualSpectrum, residual_spectra
 
 BINS = 30
 FEWEST_IN_BIN = 8
-"""A bin of fewer rows is not worth a mean: there are fewer bins instead."""
+"""Rows of a bin at least: with fewer rows there are fewer bins."""
 VISITED_ONCE = ("time", "temperature")
 _RIDGE = 1e-9
 
@@ -39,7 +38,7 @@ class Dependence:
     coordinate: str
     joint: int
     unit: str
-    """What it is shown over, whose residual it is (counted from 1), and the coordinate's unit."""
+    """The coordinate, the joint (from 1) whose residual it is, and the coordinate's unit."""
     centre: Vector
     mean: Vector
     standard_error: Vector
@@ -48,7 +47,7 @@ class Dependence:
     statistic: float
     degrees_of_freedom: int
     p_value: float
-    """Chi-square of the bins' means about their common value, and how likely chance exceeds it."""
+    """Chi-square of the bins' means about their common value, with its p-value."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +69,9 @@ def atlas(
     Parameters
     ----------
     residual
-        Measured minus predicted torque at the look's rows, N m or N.
+        Measured minus predicted torque at the data set's rows, N m or N.
     noise
-        Noise model per joint, as learned from the rows that were fitted; used over time and temperature.
+        Noise model per joint, estimated from the fitted rows; used over time and temperature.
     """
     begins = np.flatnonzero(dataset.starts)
     found = []
@@ -101,7 +100,7 @@ class _Binned:
 
 
 def _noise_beside(binned: _Binned) -> ARNoise:
-    """Learn the noise from what the bins' means leave over."""
+    """Estimate the noise from the deviations from the bins' means."""
     rows = np.flatnonzero(binned.label >= 0)
     label = binned.label[rows]
     count = np.bincount(label)

@@ -1,9 +1,9 @@
-"""Judge a prediction on blocks of rows it has not seen, and say how sure the judgement is.
+"""Give the share of a residual that a prediction explains on held-out blocks, with its interval.
 
-Predictions from trees are noisy: on a residual that holds nothing they would only make it larger. So each
-block's prediction is scaled by the factor that serves the *other* blocks best, between 0 and 1; where there
-is nothing to predict that factor goes to 0 and the share with it. The interval comes from the scatter between
-blocks. Sources: Stone, J. R. Stat. Soc. B 36(2), 1974; Cochran, Sampling Techniques (1977), ch. 6 (ratios).
+Predictions from trees are noisy: on a residual of noise alone they would only make it larger. So each block's
+prediction is scaled by the factor, between 0 and 1, that fits the *other* blocks best. Where nothing is
+predictable, the factor and the share approach 0. The interval comes from the scatter between blocks.
+Sources: Stone, J. R. Stat. Soc. B 36(2), 1974; Cochran, Sampling Techniques (1977), ch. 6 (ratios).
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from ..thresholds.residual import PREDICTION
 
 @dataclass(frozen=True, eq=False)
 class Share:
-    """Say which share of a variance a prediction explains on unseen blocks, with its 95 % interval.
+    """Hold the share of a variance that a prediction explains on held-out blocks, with its 95 % interval.
 
     The prediction is `prediction` times a factor per row; NaN where the row was not judged. Share and
     interval lie within 0 and 1.
@@ -43,7 +43,7 @@ def row_blocks(dataset: Dataset) -> Indices:
 
 
 def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Share:
-    """Judge a prediction of rows that it has not seen; rows where it is NaN are left out.
+    """Evaluate a prediction of held-out rows; rows where it is NaN are left out.
 
     Examples
     --------

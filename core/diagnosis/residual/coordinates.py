@@ -1,9 +1,8 @@
-"""Name the coordinates of a motion that a residual can depend on, and give them at the rows of a look.
+"""Name the coordinates of a motion that a residual can depend on, and give them at a data set's rows.
 
-An effect that a simulation misses is a function of something: of angle (ripple, springs), speed (friction),
-transmitted load (gears), distance since reversal (presliding), time or temperature (drift). Everything here
-comes from the motion and from the *predicted* torque, never from the measured one, whose noise is in the
-residual too.
+An effect that a simulation misses depends on angle (ripple, springs), speed (friction), transmitted load
+(gears), distance since reversal (presliding), time or temperature (drift). All coordinates come from the
+motion and from the *predicted* torque, never from the measured one, whose noise is in the residual too.
 """
 
 from collections.abc import Callable, Mapping
@@ -22,11 +21,11 @@ OTHER_VELOCITY = "velocity_of_joint_"
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """Give one coordinate at every row of a look."""
+    """Hold one coordinate at every row of a data set."""
 
     name: str
     joint: int
-    """The joint whose residual is looked at, counted from 1."""
+    """The joint whose residual is shown, counted from 1."""
     unit: str
     """Unit of the values; ``m`` stands for ``rad`` where the joint that moves slides."""
     values: Samples
@@ -39,7 +38,7 @@ class _Kind:
 
 
 def coordinate_names(dataset: Dataset) -> tuple[str, ...]:
-    """List the names of all coordinates that a joint of this look may have."""
+    """List the names of all coordinates that a joint of this data set may have."""
     others = tuple(f"{OTHER_VELOCITY}{number}" for number in range(1, dataset.joints + 1))
     return (*_KINDS, *others)
 

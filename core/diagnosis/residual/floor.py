@@ -1,10 +1,10 @@
-"""Estimate how low a residual could go, without asking any model.
+"""Estimate the noise floor of a residual, without a model.
 
-Where the motion repeats, what does not repeat in the residual is noise: a model's error is a function of the
-motion and cancels between repeats. Elsewhere the torque above everything that the motion and the parallel
-filter leave is noise, and is taken to be as strong per hertz within the look's band. That assumption makes
-the floor too low for noise that grows towards low frequencies; the noise's `tilt` over the high band warns of
-it. Source: Schoukens & Pintelon, System Identification (2012), ch. 2 (periodic excitation).
+Where the motion repeats, the part of the residual that does not repeat is noise: a model's error is a
+function of the motion and cancels between repeats. Otherwise the torque above the bands of the motion and the
+parallel filter is noise, and its power density is assumed to be the same within the data set's band. The
+floor is then too low for noise that grows towards low frequencies, which its `tilt` over the high band shows.
+Source: Schoukens & Pintelon, System Identification (2012), ch. 2 (periodic excitation).
 """
 
 from dataclasses import dataclass
@@ -30,10 +30,10 @@ class NoiseFloor:
 
     rms: JointVector
     source: tuple[FloorSource, ...]
-    """The value to use, and which way it came from: repeats before the high band; NaN and ``none`` where
-    neither was open."""
+    """The value to use and its method: repeats before the high band; NaN and ``none`` where neither
+    applies."""
     from_repeats: JointVector
-    """The values from repeats; NaN where that way was not open."""
+    """The values from repeats; NaN where the motion does not repeat."""
     tilt: JointVector
     """Power density of the high band's lower half over its upper half: 1 for white noise, above where noise
     grows towards low frequencies, NaN where there is no high band."""
@@ -68,7 +68,7 @@ def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
 
 
 def passed_power(dataset: Dataset, frequency_hz: Vector) -> Vector:
-    """Give the share of white noise's power that the look's parallel filter passes at some frequencies."""
+    """Give the share of white noise's power that the parallel filter passes at some frequencies."""
     motion = dataset.motions[0]
     below = np.clip(frequency_hz, 0.0, _BELOW_NYQUIST * motion.log.rate_hz)
     recipe = motion.recipe
@@ -76,7 +76,7 @@ def passed_power(dataset: Dataset, frequency_hz: Vector) -> Vector:
 
 
 def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
-    """Give RMS in the look's band and tilt per joint, the median over windows, which no reversal moves."""
+    """Give RMS in the data set's band and tilt per joint, from medians over windows, robust to reversals."""
     low, high, rows = np.zeros(dataset.joints), np.zeros(dataset.joints), 0
     for motion in dataset.motions:
         for segment in motion.segments:

@@ -1,9 +1,9 @@
-"""Ask a generic learner which share of a residual is predictable at all, and where it is.
+"""Predict a residual by a generic learner: which share is predictable, and where it is large.
 
-Boosted trees know no physics and no list of causes: what they predict of a joint's residual on blocks of time
-they have not seen is structure, and what they cannot predict no extension of the model will gain much from.
-Between the rows learned from and those judged lies a gap as long as the noise remembers, or noise would pass
-for structure. Strongly coloured noise hides part of the structure from them, so the share is then too small.
+Boosted trees contain no physics and no list of causes. What they predict of a joint's residual on held-out
+blocks is structure. An extension of the model gains little from what they cannot predict. A gap as long as
+the noise is correlated separates fitted from held-out rows; otherwise noise would count as structure.
+Strongly coloured noise hides part of the structure, so the share is then too small.
 Sources: Friedman, Ann. Stat. 29(5), 2001; Roberts et al., Ecography 40(8), 2017 (blocked cross-validation).
 """
 
@@ -28,7 +28,7 @@ _WHERE = ("velocity", "position", "load", "time")
 
 @dataclass(frozen=True)
 class Place:
-    """Say where the predictable part is large: RMS in N m (N) within a range of one coordinate of the joint.
+    """Hold where the predictable part is large: RMS in N m (N) within a range of one coordinate of the joint.
 
     `rms` is that of the prediction in the range; ranges hold a tenth of the rows each, and this is the one
     with the largest.
@@ -43,40 +43,40 @@ class Place:
 
 @dataclass(frozen=True, eq=False)
 class Predictable:
-    """Hold what a generic learner could predict of one joint's residual on unseen blocks."""
+    """Hold what a generic learner could predict of one joint's residual on held-out blocks."""
 
     joint: int
     """Counted from 1."""
     share: float
     interval: tuple[float, float]
     """Share of the residual's mean square, with its 95 % interval; at least 0. Something is predictable where
-    the interval's lower end lies above 0. NaN where the joint moves too little to judge."""
+    the interval's lower end is above 0. NaN where the joint moves too little to judge."""
     rms: float
     """RMS of the residual that was judged, N m or N."""
     places: tuple[Place, ...]
     """Where the predictable part is largest, the largest first; empty where nothing is predictable."""
     prediction: Vector
-    """The prediction at the look's rows, N m or N; NaN where a row was left out."""
+    """The prediction at the data set's rows, N m or N; NaN where a row was left out."""
 
 
 def predictable_share(
     dataset: Dataset, residual: JointSeries, operating_point: Prediction, noise: Sequence[ARNoise]
 ) -> tuple[Predictable, ...]:
-    """Learn every joint's residual from the motion of all joints, and judge it on blocks not learned from.
+    """Learn every joint's residual from the motion of all joints, and evaluate it on held-out blocks.
 
     Parameters
     ----------
     residual
-        Measured minus predicted torque at the look's rows, N m or N.
+        Measured minus predicted torque at the data set's rows, N m or N.
     noise
-        Noise model per joint; its memory is the gap between what is learned from and what is judged.
+        Noise model per joint; its correlation length is the gap between fitted and held-out rows.
 
     Raises
     ------
     ExcitationError
         If every joint has too few rows to hold any out.
     """
-    # Next to reversals every motion leaves structure: a measured velocity's sign is not friction's direction.
+    # Next to reversals the sign of a measured velocity is not friction's direction, which leaves structure.
     mask = dataset.clear
     rows = refuse_too_little(mask)
     block, shared = row_blocks(dataset), _shared_features(dataset)
@@ -113,12 +113,12 @@ def refuse_too_little(mask: JointMask) -> Indices:
 
 
 def _not_judged(joint: int, rows: int) -> Predictable:
-    """Say nothing of a joint that hardly moves."""
+    """Give the result of a joint that hardly moves: not a number."""
     return Predictable(joint, np.nan, (np.nan, np.nan), np.nan, (), np.full(rows, np.nan))
 
 
 def _predict_held_out(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:
-    """Predict every row that counts from blocks it does not lie in nor near."""
+    """Predict every row in the mask from blocks that are neither its own nor near it."""
     from sklearn.ensemble import HistGradientBoostingRegressor
     from threadpoolctl import threadpool_limits
 

@@ -1,7 +1,7 @@
-"""Read off a noise model how long it remembers, and how uncertain an average of its rows is.
+"""Compute from a noise model its correlation length, and the covariance of weighted sums of its rows.
 
-The variance of any weighted sum of stationary noise is the noise's spectrum times the weights' own, summed
-over frequency; so the standard error of a bin takes the memory into account without thinning any rows.
+The variance of a weighted sum of stationary noise is the noise's spectrum times the weights' spectrum, summed
+over frequency. So the standard error of a bin includes the autocorrelation without thinning rows.
 Source: Brockwell & Davis, Time Series (1991), ch. 4 and 7.
 """
 
@@ -33,7 +33,7 @@ def spectrum(noise: ARNoise, size: int) -> Vector:
 
 
 def memory(noise: ARNoise) -> int:
-    """Count the rows after which the noise has forgotten where it was.
+    """Count the rows after which the noise counts as uncorrelated.
 
     Examples
     --------
@@ -53,9 +53,9 @@ def covariance_of_sums(noise: ARNoise, weights: Matrix, begins: Indices) -> Squa
     Parameters
     ----------
     weights
-        Per row of the look and sum, what the row counts; zero where a row is left out.
+        Per row of the data set and sum, the weight of the row; zero where a row is left out.
     begins
-        Rows that begin a stretch, ascending from 0; stretches do not know of each other.
+        Rows that begin a stretch, ascending from 0; different stretches are independent.
     """
     total = np.zeros((weights.shape[1], weights.shape[1]))
     borders = np.append(begins, len(weights)).astype(int)

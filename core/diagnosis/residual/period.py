@@ -1,7 +1,7 @@
-"""Find out from the positions whether a motion repeats itself, and after how long.
+"""Determine from the positions whether a motion repeats, and its period.
 
-What a repeated motion does not repeat in the torque is noise, whatever the robot's model; only instants count
-at which every joint is where it was a period before, and as quick.
+The part of the torque that a repeated motion does not repeat is noise, whatever the model. Only instants
+count at which every joint has the same position and velocity as a period before.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ _KAISER = 6.0
 
 @dataclass(frozen=True, eq=False)
 class Repeats:
-    """Say after how many rows (not a whole number in general) and seconds a motion repeats."""
+    """Hold after how many rows (not a whole number in general) and seconds a motion repeats."""
 
     rows: float
     period: float
@@ -126,9 +126,9 @@ def _minima(mismatch: Vector) -> list[int]:
 
 
 def _refine_lag(position: JointSeries, slope: JointSeries, lag: float) -> float:
-    """Settle a lag between the rows by Newton's steps on the better half of the instants.
+    """Refine a lag between the rows by Newton steps on the half of the instants that match best.
 
-    A motion that grows out of rest does not repeat where it grows; that half decides nothing.
+    A motion that starts from rest does not repeat during its start; that half is left out.
     """
     last = _LONGEST_LAG * (len(position) - 1)
     scale = np.std(position, axis=0)

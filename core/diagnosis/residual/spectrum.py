@@ -1,7 +1,7 @@
 """Show a residual over frequency, with the noise floor beside it.
 
-Structure that no listed coordinate shows may stand out as a line or a hump; and what lies at the floor in
-every band is noise. Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
+Structure that no listed coordinate shows may be a line or a peak; a residual at the floor in every band is
+noise. Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Tell a cause from what another one masks: by what it explains beside that one, and by where it acts."""
+"""Distinguish a cause from the remainder of another: by what it explains beside it, and by where it acts."""
 
 import numpy as np
 

@@ -164,7 +164,7 @@ def is_significant(
 
 
 def _acts_rarely(trial: Hypothesis, index: int) -> bool:
-    """Tell whether a member acts on few rows only, so that one burst of noise may look like it."""
+    """Tell whether a member acts on few rows only, so that one burst of noise may resemble it."""
     if trial.members[index].cause.traits.transient:
         return True
     own = trial.columns_of(index)

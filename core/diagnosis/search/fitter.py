@@ -1,6 +1,6 @@
 """Fit hypotheses to the rows of a data set, with all columns linearised at one operating point.
 
-A fitter is a value. Moving the operating point gives another fitter, and the first is as good as before.
+A fitter is a value: moving the operating point gives another fitter and leaves the first unchanged.
 Columns are kept by the operating point that they are linearised at, so that a scan over all causes, joints
 and scalars is a few matrix products.
 """

@@ -93,7 +93,7 @@ class Hypothesis:
         return slice(start, start + self.widths[index])
 
     def freedom(self, index: int) -> int:
-        """Count the directions of a member's linear parameters that the rows tell."""
+        """Count the directions of a member's linear parameters that the rows determine."""
         own = self.columns_of(index)
         scale = self.fit.scale[own]
         spread = np.linalg.eigvalsh(self.fit.covariance[own, own] * np.outer(scale, scale))

@@ -1,8 +1,8 @@
 """Refine a hypothesis: operating point, scalars of all members and their sizes, by block coordinate descent.
 
-A cause that enters changes the others: the torque at which another joint's amplifier saturates is another
-one once a torque gain is known to be wrong, and a lag moves a joint elasticity found beside it, and is moved
-by it. Source: Golub & Pereyra, SIAM J. Numer. Anal. 10(2), 1973, on refining nonlinear parameters by turns.
+A cause that enters changes the others. A corrected torque gain changes the torque at which an amplifier
+saturates; a lag and a joint elasticity found beside it change each other. Source: Golub & Pereyra, SIAM J.
+Numer. Anal. 10(2), 1973, on refining nonlinear parameters by turns.
 """
 
 from dataclasses import replace

@@ -21,13 +21,13 @@ from .hypothesis import Candidate, Hypothesis, admits
 RELATIVE_STEP, LEAST_STEP, WIDENINGS = 1e-3, 1e-9, 7
 """Least step over which a curvature is read, relative and absolute, and how often it is doubled at most."""
 YIELDINGS = 4
-"""Steps by the secant towards columns that yield the size which they are built for,"""
+"""Steps of the secant method towards columns that yield the size for which they were computed,"""
 SAME_SIZE = 0.01
 """within this share of it."""
 FINER = 9
 """Points laid between the neighbours of the best grid point, in each of two rounds."""
 AROUND = np.linspace(-1.0, 1.0, 21)
-"""From a settled instant to others that are asked how likely they are, s."""
+"""Distances from a refined instant to others whose likelihood is computed, s."""
 
 
 def refine_scalars(

@@ -1,9 +1,9 @@
 """Restart a search where its greedy order may have led to a local optimum.
 
-A search adds one cause at a time. Where every torque is late, the first joint's share of that may pass for a
-joint elasticity and the next one's for presliding, until nothing is left for the delay to explain; no single
-swap leads back. So the search starts again from the cause of the whole robot, until it comes to a set of
-causes that the first one came through, and the better of the two ends is kept.
+A search adds one cause at a time. Where every torque is delayed, the delay of one joint may be explained by
+joint elasticity and that of the next by presliding, until nothing is left for the delay itself. No single
+swap leads back. So the search starts again from the cause of the whole robot, until it reaches a set of
+causes that the first search passed, and the better of the two ends is kept.
 Source: Miller, Subset Selection in Regression (2002), ch. 3, on local optima.
 """
 

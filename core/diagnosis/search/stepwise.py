@@ -97,8 +97,8 @@ def start_with(state: SearchState, cause: str) -> SearchState | None:
 def _exits_and_swaps(state: SearchState) -> Iterator[SearchState]:
     """Test every member for exit and for a swap, and give each state that this leads through.
 
-    Two causes can each look better than the other where the model is linearised at the other. A swap that
-    leads back to an earlier set of causes ends the matter.
+    Two causes can each fit better than the other where the model is linearised at the other. A swap that
+    leads back to an earlier set of causes ends the search.
     """
     yield state
     earlier = [state.keys]

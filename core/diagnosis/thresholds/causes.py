@@ -61,7 +61,7 @@ class Admissible:
 
 @dataclass(frozen=True)
 class Linearisation:
-    """State the relative error of columns of first order: no size is known better. All are set by hand."""
+    """State the relative error of first-order columns, a bound on the accuracy. All are set by hand."""
 
     usual: float = 0.05
     """Relative, for most causes."""

@@ -14,7 +14,7 @@ class Noise:
     rows_per_reflection: int = 10
     """Rows that one reflection coefficient is estimated from at least."""
     shrinkage: float = 2e-3
-    """Share by which correlations with the past are reduced, so that no noise remembers for ever."""
+    """Share by which correlations with the past are reduced, so that the memory of the noise is finite."""
     least_freedom: float = 0.1
     """Share of the rows that a fit leaves free at least, when the variance is corrected for its
     parameters."""

@@ -48,7 +48,7 @@ class Floor:
     least_pairs: int = 100
     """Pairs of rows that repeat each other from which on repeats are used."""
     same: float = 0.02
-    """Share of its RMS swing (speed) by which a joint may miss itself a period later."""
+    """Share of its RMS range (speed) by which a joint may deviate a period later."""
     moving: float = 1e-3
     """Share of the largest joint's swing from which on a joint moves."""
     repeat_seconds: float = 2.0
