@@ -52,7 +52,7 @@ class IdentifyRequest:
     The options are those of `core.identification.options`.
 
     `reference` is the result document of the job that the option of that name means, where it means one;
-    `traces` the file to write motion, torque and residual to, where somebody wants to look at them; `mapper`
+    `traces` the file to write motion, torque and residual to, where they are wanted; `mapper`
     runs fits that do not depend on each other.
     """
 
@@ -102,7 +102,7 @@ def _identify(task: _Task, tell: Progress) -> Identification:
 
 
 def check_reference(request: IdentifyRequest) -> None:
-    """Refuse a reference that a robot's logs cannot be compared with; logs are not looked at.
+    """Refuse a reference that a robot's logs cannot be compared with; logs are not read.
 
     Raises
     ------

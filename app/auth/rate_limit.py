@@ -13,7 +13,7 @@ from ..problems import Problem
 BURST_S = 4.0
 """Requests of so many seconds may come at once."""
 MOST_CALLERS = 10_000
-"""Callers that are remembered before those at rest are forgotten."""
+"""Callers that are kept before idle ones are removed."""
 
 
 class RateLimit:

@@ -1,6 +1,6 @@
 """Follow a job to its end: by events as they come, again from the last one where they break, else by asking.
 
-Networks break, services are started anew and proxies swallow streams; none of this is the end of a job.
+Networks break, services are started anew and proxies cut streams; none of this is the end of a job.
 """
 
 import time

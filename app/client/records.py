@@ -16,7 +16,7 @@ class Robot:
     joints
         How many there are.
     suspicions
-        What looks like a mistake in its description, although it can be used.
+        Probable mistakes in its description, which can be used all the same.
     description
         The description with every default filled in.
     """

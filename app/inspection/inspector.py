@@ -1,7 +1,7 @@
 """Have uploaded files read by processes that can be killed.
 
 The service's own process reads of a file no more than its first bytes, which tell its format. A file may make
-its reader crash, loop or swallow memory: that ends a process which held nothing else, and is answered with
+its reader crash, loop or exhaust memory: that ends a process which held nothing else, and is answered with
 a problem.
 """
 

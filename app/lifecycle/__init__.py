@@ -1,1 +1,1 @@
-"""Look after what is kept for years: in comes a store, out comes a smaller one, a copy, or what is wrong."""
+"""Maintain what is kept for years: in comes a store, out comes a smaller one, a copy, or what is wrong."""

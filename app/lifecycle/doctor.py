@@ -23,10 +23,10 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class Finding:
-    """Say what was looked at and seen."""
+    """Hold what was checked and what was found."""
 
     subject: str
-    """What was looked at."""
+    """What was checked."""
     seen: str
     """What is the case."""
     remedy: str = ""
@@ -36,7 +36,7 @@ class Finding:
 
 
 def examine(settings: Settings) -> Iterator[Finding]:
-    """Look at everything, and give what was found as it is found."""
+    """Check everything, and give the findings one by one."""
     directory = settings.data_dir
     if not directory.is_dir():
         remedy = "set VERITORQUE_DATA_DIR, or start the service once"

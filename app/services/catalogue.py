@@ -95,7 +95,7 @@ class Catalogue:
         return fixed + self._store.robots.page(limit=limit, before=before)
 
     def remove_robot(self, identity: str) -> None:
-        """Forget a robot.
+        """Delete a robot.
 
         Raises
         ------

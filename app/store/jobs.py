@@ -1,4 +1,4 @@
-r"""Keep the jobs of a tenant: asked for, looked at, dismissed, removed.
+r"""Keep the jobs of a tenant: queued, read, dismissed, removed.
 
     accepted -> running -> successful | failed
         |          |  \-> accepted (whoever computed it stopped or died)
@@ -74,7 +74,7 @@ class JobStore(TenantRecords[JobRecord]):
         return self._database.write(work)
 
     def remove(self, identity: str) -> bool:
-        """Forget a finished job, and say whether there was one."""
+        """Delete a finished job, and say whether there was one."""
         return self._removed(and_(self._own(identity), JOBS.c.state.not_in(UNFINISHED)))
 
     def unfinished_requests(self) -> list[JobRequestRecord]:

@@ -77,7 +77,7 @@ class Segment:
         step, reach = self.recipe.decimation, self.parallel.reach
         first, last = first_kept * step, (last_kept - 1) * step
         begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
-        # A standstill is known by its length, so the look for it reaches that much further than the filter.
+        # A standstill is known by its length, so the search for it reaches that much further than the filter.
         early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
         wide, torque, unknown = self._condition(early, late)
         inner = slice(begin - early, end - early)
@@ -167,7 +167,7 @@ class Segment:
 
 
 def gap_free(log: JointLog, recipe: Recipe, start: int, stop: int) -> Segment | None:
-    """Look at the stamps of some rows; None where they are too few to be differentiated."""
+    """Check the stamps of some rows; None where they are too few to be differentiated."""
     stamps = np.concatenate(
         [log.source.rows(row, min(row + 65536, stop)).time for row in range(start, stop, 65536)]
     )

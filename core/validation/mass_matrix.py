@@ -52,7 +52,7 @@ def mass_matrices(model: DynamicModel, standard: Parameters, position: JointSeri
 
 
 def check_mass_matrix(model: DynamicModel, standard: Parameters, position: JointSeries) -> MassMatrixCheck:
-    """Look at M(q) at every row of positions."""
+    """Check M(q) at every row of positions."""
     smallest, positive = np.inf, True
     for start in range(0, len(position), _CHUNK):
         matrices = mass_matrices(model, standard, position[start : start + _CHUNK])

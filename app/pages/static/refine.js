@@ -1,4 +1,4 @@
-// Draw finer where somebody looks closer: ask again once a zoom has come to rest.
+// Draw finer on zooming in: ask again once a zoom has come to rest.
 const WAIT_MS = 250;
 
 /**

@@ -1,4 +1,4 @@
-// Ask for what a job computed instant by instant: joint by joint, once each, and finer where somebody looks closer.
+// Ask for what a job computed instant by instant: joint by joint, once each, and finer on zooming in.
 import { get } from "./api.js";
 
 const POINTS = 1200;

@@ -10,7 +10,7 @@ from .blob_store import Mark
 
 
 class Sweep:
-    """Look for blobs without a record, again and again."""
+    """Search for blobs without a record, repeatedly."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
