@@ -58,7 +58,7 @@ NAMED = {
     },
     "figure": {
         "causes/link_parameters": "LISTED",
-        "checks/figure": "BINS TOLD",
+        "checks/figure": "BINS EXPLAINED",
         "residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
         "residual/learner": "_PLACES",
         "residual/spectrum": "LONGEST SHORTEST",
@@ -67,7 +67,7 @@ NAMED = {
 """Constants of modules that decide nothing, by the reason why.
 
 A grid discretises what is refined afterwards; numerics are tolerances, orders and constants of mathematics;
-effort only costs time or memory; a figure is looked at and decides nothing.
+effort only costs time or memory; a figure only shows and decides nothing.
 """
 UNNAMED = {
     "causes/external_contact": {"3": "a force has three components"},
