@@ -270,11 +270,11 @@ def move_between_stops(pulls, step, half_width, twist) -> None:  # pragma: no co
     """
     if len(pulls) == 0:
         return
-    place, rate = np.copysign(half_width, pulls[0]), 0.0
+    position, rate = np.copysign(half_width, pulls[0]), 0.0
     for sample in range(len(pulls)):
         rate += step * pulls[sample]
-        free = place + step * rate - 0.5 * step * step * pulls[sample]
-        place = min(max(free, -half_width), half_width)
-        if place != free:
+        free = position + step * rate - 0.5 * step * step * pulls[sample]
+        position = min(max(free, -half_width), half_width)
+        if position != free:
             rate = 0.0
-        twist[sample] = place
+        twist[sample] = position

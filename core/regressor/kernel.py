@@ -47,7 +47,7 @@ def sine_cosine(angle) -> tuple[float, float]:
 
 
 @njit(inline="always")
-def _place_link(place, position, joint, begin, count, scale, offset, slides, rotation, translation) -> None:
+def _place_link(pose, position, joint, begin, count, scale, offset, slides, rotation, translation) -> None:
     """Write the link's frame in its antecedent's: nine rows of rotation, three of position."""
     r00, r01, r02 = rotation[0, 0], rotation[0, 1], rotation[0, 2]
     r10, r11, r12 = rotation[1, 0], rotation[1, 1], rotation[1, 2]
@@ -57,27 +57,27 @@ def _place_link(place, position, joint, begin, count, scale, offset, slides, rot
         coordinate = scale * position[joint, begin + s] + offset
         d, c = sine_cosine((1.0 - slides) * coordinate)
         q = slides * coordinate
-        place[0, s], place[1, s], place[2, s] = c * r00 + d * r01, c * r01 - d * r00, r02
-        place[3, s], place[4, s], place[5, s] = c * r10 + d * r11, c * r11 - d * r10, r12
-        place[6, s], place[7, s], place[8, s] = c * r20 + d * r21, c * r21 - d * r20, r22
-        place[9, s], place[10, s], place[11, s] = t0 + q * r02, t1 + q * r12, t2 + q * r22
+        pose[0, s], pose[1, s], pose[2, s] = c * r00 + d * r01, c * r01 - d * r00, r02
+        pose[3, s], pose[4, s], pose[5, s] = c * r10 + d * r11, c * r11 - d * r10, r12
+        pose[6, s], pose[7, s], pose[8, s] = c * r20 + d * r21, c * r21 - d * r20, r22
+        pose[9, s], pose[10, s], pose[11, s] = t0 + q * r02, t1 + q * r12, t2 + q * r22
 
 
 @njit(inline="always")
-def _copy(table, place, rows, many, count) -> None:
+def _copy(table, index, rows, many, count) -> None:
     """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
     for row in range(many):
         for s in range(count):
-            table[place, row, s] = rows[row, s]
+            table[index, row, s] = rows[row, s]
 
 
 @njit(inline="always")
 def _move_link(
-    motion, parent, own, place, velocity, acceleration, joint, begin, moved, count, turns, slides
+    motion, parent, own, pose, velocity, acceleration, joint, begin, moved, count, turns, slides
 ) -> None:
     """Carry spin, its rate and the origin's acceleration less gravity (three rows each) one link outwards."""
     for s in range(count):
-        p0, p1, p2 = place[9, s], place[10, s], place[11, s]
+        p0, p1, p2 = pose[9, s], pose[10, s], pose[11, s]
         w0, w1, w2 = motion[parent, 0, s], motion[parent, 1, s], motion[parent, 2, s]
         e0, e1, e2 = motion[parent, 3, s], motion[parent, 4, s], motion[parent, 5, s]
         wp = w0 * p0 + w1 * p1 + w2 * p2
@@ -86,18 +86,18 @@ def _move_link(
         a1 = motion[parent, 7, s] + e2 * p0 - e0 * p2 + w1 * wp - p1 * ww
         a2 = motion[parent, 8, s] + e0 * p1 - e1 * p0 + w2 * wp - p2 * ww
         v, dv = velocity[joint, begin + s], acceleration[joint, begin + s]
-        u0 = place[0, s] * w0 + place[3, s] * w1 + place[6, s] * w2
-        u1 = place[1, s] * w0 + place[4, s] * w1 + place[7, s] * w2
-        u2 = place[2, s] * w0 + place[5, s] * w1 + place[8, s] * w2
+        u0 = pose[0, s] * w0 + pose[3, s] * w1 + pose[6, s] * w2
+        u1 = pose[1, s] * w0 + pose[4, s] * w1 + pose[7, s] * w2
+        u2 = pose[2, s] * w0 + pose[5, s] * w1 + pose[8, s] * w2
         moved[0, s] = u0
         moved[1, s] = u1
         moved[2, s] = u2 + turns * v
-        moved[3, s] = place[0, s] * e0 + place[3, s] * e1 + place[6, s] * e2 + turns * (u1 * v)
-        moved[4, s] = place[1, s] * e0 + place[4, s] * e1 + place[7, s] * e2 - turns * (u0 * v)
-        moved[5, s] = place[2, s] * e0 + place[5, s] * e1 + place[8, s] * e2 + turns * dv
-        moved[6, s] = place[0, s] * a0 + place[3, s] * a1 + place[6, s] * a2 + slides * (2.0 * u1 * v)
-        moved[7, s] = place[1, s] * a0 + place[4, s] * a1 + place[7, s] * a2 - slides * (2.0 * u0 * v)
-        moved[8, s] = place[2, s] * a0 + place[5, s] * a1 + place[8, s] * a2 + slides * dv
+        moved[3, s] = pose[0, s] * e0 + pose[3, s] * e1 + pose[6, s] * e2 + turns * (u1 * v)
+        moved[4, s] = pose[1, s] * e0 + pose[4, s] * e1 + pose[7, s] * e2 - turns * (u0 * v)
+        moved[5, s] = pose[2, s] * e0 + pose[5, s] * e1 + pose[8, s] * e2 + turns * dv
+        moved[6, s] = pose[0, s] * a0 + pose[3, s] * a1 + pose[6, s] * a2 + slides * (2.0 * u1 * v)
+        moved[7, s] = pose[1, s] * a0 + pose[4, s] * a1 + pose[7, s] * a2 - slides * (2.0 * u0 * v)
+        moved[8, s] = pose[2, s] * a0 + pose[5, s] * a1 + pose[8, s] * a2 + slides * dv
     _copy(motion, own, moved, 9, count)
 
 
@@ -121,20 +121,20 @@ def _map_forces(effect, motion, own, count) -> None:
 
 
 @njit(inline="always")
-def _move_axis(axis, inner, outer, place, moved, count) -> None:
+def _move_axis(axis, inner, outer, pose, moved, count) -> None:
     """Write a carrying joint's axis (three rows of direction, three of moment) in the next link's frame."""
     for s in range(count):
-        p0, p1, p2 = place[9, s], place[10, s], place[11, s]
+        p0, p1, p2 = pose[9, s], pose[10, s], pose[11, s]
         x0, x1, x2 = axis[inner, 0, s], axis[inner, 1, s], axis[inner, 2, s]
         y0 = axis[inner, 3, s] + x1 * p2 - x2 * p1
         y1 = axis[inner, 4, s] + x2 * p0 - x0 * p2
         y2 = axis[inner, 5, s] + x0 * p1 - x1 * p0
-        moved[0, s] = place[0, s] * x0 + place[3, s] * x1 + place[6, s] * x2
-        moved[1, s] = place[1, s] * x0 + place[4, s] * x1 + place[7, s] * x2
-        moved[2, s] = place[2, s] * x0 + place[5, s] * x1 + place[8, s] * x2
-        moved[3, s] = place[0, s] * y0 + place[3, s] * y1 + place[6, s] * y2
-        moved[4, s] = place[1, s] * y0 + place[4, s] * y1 + place[7, s] * y2
-        moved[5, s] = place[2, s] * y0 + place[5, s] * y1 + place[8, s] * y2
+        moved[0, s] = pose[0, s] * x0 + pose[3, s] * x1 + pose[6, s] * x2
+        moved[1, s] = pose[1, s] * x0 + pose[4, s] * x1 + pose[7, s] * x2
+        moved[2, s] = pose[2, s] * x0 + pose[5, s] * x1 + pose[8, s] * x2
+        moved[3, s] = pose[0, s] * y0 + pose[3, s] * y1 + pose[6, s] * y2
+        moved[4, s] = pose[1, s] * y0 + pose[4, s] * y1 + pose[7, s] * y2
+        moved[5, s] = pose[2, s] * y0 + pose[5, s] * y1 + pose[8, s] * y2
     _copy(axis, outer, moved, 6, count)
 
 
@@ -201,7 +201,7 @@ def rigid_body_series(  # pragma: no cover  (compiled)
     """
     links = len(antecedent)
     samples = position.shape[1]
-    place = np.empty((12, BLOCK))
+    pose = np.empty((12, BLOCK))
     motion = np.zeros((links + 1, 9, BLOCK))
     axis = np.zeros((len(chain), 6, BLOCK))
     effect = np.empty((27, BLOCK))
@@ -219,7 +219,7 @@ def rigid_body_series(  # pragma: no cover  (compiled)
             first, last = chain_start[j], chain_start[j + 1] - 1
             above = chain_start[antecedent[j] - 1]
             _place_link(
-                place,
+                pose,
                 position,
                 np.uintp(joint[j]),
                 start,
@@ -234,7 +234,7 @@ def rigid_body_series(  # pragma: no cover  (compiled)
                 motion,
                 parent,
                 own,
-                place,
+                pose,
                 velocity,
                 acceleration,
                 np.uintp(joint[j]),
@@ -246,7 +246,7 @@ def rigid_body_series(  # pragma: no cover  (compiled)
             )
             _map_forces(effect, motion, own, count)
             for k in range(last - first):
-                _move_axis(axis, np.uintp(above + k), np.uintp(first + k), place, moved, count)
+                _move_axis(axis, np.uintp(above + k), np.uintp(first + k), pose, moved, count)
             for pair in range(first, last + 1):
                 _project(torque, axis, np.uintp(pair), effect, motion, own, count)
                 _add(out, slot[pair], torque, ratio[chain[pair]], start, count)

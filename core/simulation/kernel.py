@@ -20,11 +20,11 @@ BLOCK = 64
 
 
 @njit(inline="always")
-def _copy(table, place, rows, many, count) -> None:
+def _copy(table, index, rows, many, count) -> None:
     """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
     for row in range(many):
         for s in range(count):
-            table[place, row, s] = rows[row, s]
+            table[index, row, s] = rows[row, s]
 
 
 @njit(inline="always")

@@ -67,7 +67,7 @@ def _unpacked_sizes(path: Path) -> Iterator[int]:
         header = stream.read(HEADER_BYTES)
         order = "<" if header[126:128] == b"IM" else ">"
         end, variables = path.stat().st_size, 0
-        while (place := stream.tell()) < end:
+        while (offset := stream.tell()) < end:
             variables += 1
             if variables > MAX_VARIABLES:
                 raise LogError(
@@ -76,14 +76,14 @@ def _unpacked_sizes(path: Path) -> Iterator[int]:
                     remedy="save the variables of the log only",
                 )
             kind, size = struct.unpack(order + "II", stream.read(8))
-            if place + 8 + size > end:
+            if offset + 8 + size > end:
                 raise LogError(
                     "the MATLAB file is cut short",
-                    evidence={"bytes": end, "needs_at_least": place + 8 + size},
+                    evidence={"bytes": end, "needs_at_least": offset + 8 + size},
                     remedy="save the file again and upload it whole",
                 )
             yield _inner_size(stream.read(min(size, 1024)), order) if kind == COMPRESSED else size
-            stream.seek(place + 8 + size)
+            stream.seek(offset + 8 + size)
 
 
 def _inner_size(head: bytes, order: str) -> int:

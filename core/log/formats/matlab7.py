@@ -60,8 +60,8 @@ def _datasets(group: Any, prefix: str, seen: set[int]) -> Iterator[tuple[str, An
         if isinstance(item, h5py.Dataset):
             _check_storage(name, item)
             yield name, _numeric(item)
-        elif isinstance(item, h5py.Group) and (place := h5py.h5o.get_info(item.id).addr) not in seen:
-            seen.add(place)  # groups may hold each other: each is entered once
+        elif isinstance(item, h5py.Group) and (address := h5py.h5o.get_info(item.id).addr) not in seen:
+            seen.add(address)  # groups may hold each other: each is entered once
             yield from _datasets(item, f"{name}.", seen)
 
 
