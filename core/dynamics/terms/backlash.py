@@ -23,7 +23,7 @@ from .joint_elasticity import smooth
 
 @dataclass(frozen=True, eq=False)
 class Backlash(AllJointsTerm):
-    """Model backlash near the half width `around` (rad); the twist is smooth at `band_hz`.
+    """Model backlash near the half width `around` (rad); the twist is smoothed at `band_hz`.
 
     The `motor_inertia`, kg m2, is the rotor inertia that the operating point's load contains.
     """
