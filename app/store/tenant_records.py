@@ -42,7 +42,7 @@ class TenantRecords(Generic[Record]):
         )
 
     def remove(self, identity: str) -> bool:
-        """Forget a record, and say whether it was there."""
+        """Delete a record, and say whether it was there."""
         return self._removed(self._own(identity))
 
     def _removed(self, which: ColumnElement[bool]) -> bool:
