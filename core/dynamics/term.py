@@ -41,3 +41,10 @@ class Term(Protocol):
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, one row per entry (N m or N per unit of the parameter)."""
         ...
+
+
+@runtime_checkable
+class LinearisedTerm(Protocol):
+    """Define a term whose columns depend on the prediction that the model is linearised at."""
+
+    operating_point: object

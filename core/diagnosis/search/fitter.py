@@ -15,6 +15,7 @@ import numpy as np
 
 from ...arrays import Indices
 from ...dynamics.prediction import Prediction
+from ...dynamics.term import LinearisedTerm
 from ...estimate.gaussian_prior import GaussianPrior
 from ...regressor.columns import ColumnPlan
 from ...simulation.inverse import inverse_dynamics
@@ -122,7 +123,7 @@ class HypothesisFitter:
         new = [each for each in candidates if each.column_key not in known]
         terms = [each.term(self.dataset, at.operating_point) for each in new]
         for candidate, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
-            known.maps[hasattr(term, "believed")][candidate.column_key] = columns
+            known.maps[isinstance(term, LinearisedTerm)][candidate.column_key] = columns
         return [known[each.column_key] for each in candidates]
 
     def _without_lasting_causes(self, found: Hypothesis) -> Dataset:
