@@ -87,7 +87,7 @@ def _finding(
 def _steps(log: JointLog) -> JointVector:
     resolution = Resolution(log.samples)
     for stretch in stretches(log.source):
-        resolution.see(stretch)
+        resolution.update(stretch)
     return resolution.lsb("position")
 
 

@@ -28,7 +28,7 @@ class Bandwidth:
         self._squares = np.zeros(joints)
         self._increments = 0
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         increments = np.diff(stretch.position[:, stretch.first_new :], axis=1)
         if not self._window:

@@ -38,7 +38,7 @@ class Clock:
         self._largest = 0.0
         self._uneven = Runs()
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         stamps = stretch.time[stretch.first_new :]
         steps = np.diff(stamps)

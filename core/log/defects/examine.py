@@ -61,9 +61,9 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     for stretch in stretches(source):
         accepted = contract.accepts(stretch) and accepted
         if accepted:
-            spread.see(stretch)
+            spread.update(stretch)
             for finder in finders:
-                finder.see(stretch)
+                finder.update(stretch)
     contract.check()
     facts = Facts(
         samples=samples,
@@ -94,7 +94,7 @@ class _Spread:
         self._squares: dict[str, JointVector] = {}
         self._rows = 0
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         channels = stretch.new()
         self._rows += channels["position"].shape[1]
         for name in ("position", "torque"):

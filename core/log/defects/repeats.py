@@ -30,7 +30,7 @@ class Repeats:
         self._travel: JointVector | float = 0.0
         self._rows = 0
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         position = stretch.position[:, stretch.first_new :]
         same = repeats_previous(position)

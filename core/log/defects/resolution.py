@@ -28,7 +28,7 @@ class Resolution:
         self._share = sampled_share(samples, SAMPLED_ROWS)
         self._increments: dict[str, list[Series]] = {"position": [], "torque": []}
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         rows = max(int(self._share * stretch.position.shape[1]), 2)
         for channel, values in (("position", stretch.position), ("torque", stretch.torque)):

@@ -32,7 +32,7 @@ class Rest:
         self._stops: list[Samples] = []
         self._rows: list[Indices] = []
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         time, position = stretch.time[stretch.first_new :], stretch.position[:, stretch.first_new :]
         if not self._block:

@@ -27,7 +27,7 @@ class _Limit:
         self.top_rows = self.second_rows = self.moving_rows = 0
         self.runs = Runs(SHORTEST_PLATEAU)
 
-    def see(self, values: Samples, moves: SampleMask, time: Samples) -> None:
+    def update(self, values: Samples, moves: SampleMask, time: Samples) -> None:
         highest = float(values.max())
         if highest < self.second:
             self.runs.close()
@@ -62,7 +62,7 @@ class Saturation:
     def __init__(self, joints: int) -> None:
         self._limits = [(_Limit(), _Limit()) for _ in range(joints)]
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         if stretch.torque is None:
             return
@@ -72,8 +72,8 @@ class Saturation:
         ):
             moves = np.ones(len(position), dtype=bool)
             moves[1:] = position[1:] != position[:-1]
-            above.see(torque[new], moves[new], stretch.time[new])
-            below.see(-torque[new], moves[new], stretch.time[new])
+            above.update(torque[new], moves[new], stretch.time[new])
+            below.update(-torque[new], moves[new], stretch.time[new])
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State the limits that hold."""

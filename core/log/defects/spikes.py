@@ -25,7 +25,7 @@ class Spikes:
         self._runs = {channel: [Runs() for _ in range(joints)] for channel in SMALLEST_SHARE}
         self._largest = {channel: np.zeros(joints) for channel in SMALLEST_SHARE}
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account: all samples that have two neighbours on either side by now."""
         for channel, values in (("position", stretch.position), ("torque", stretch.torque)):
             if values is None or values.shape[1] < 5:

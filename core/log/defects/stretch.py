@@ -95,7 +95,7 @@ class Facts:
 class Finder(Protocol):
     """Find one kind of defect."""
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         ...
 

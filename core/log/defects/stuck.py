@@ -46,15 +46,15 @@ class Stuck:
         self._efforts = [_Signal() for _ in range(joints)]
         self._effort = EFFORTS[0]
 
-    def see(self, stretch: Stretch) -> None:
+    def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
         time, position = stretch.time[stretch.first_new :], stretch.position[:, stretch.first_new :]
         self._effort, row = stretch.effort, stretch.first + stretch.first_new
         for signal, own in zip(self._positions, position, strict=True):
-            signal.see(own, own, time, row)
+            signal.update(own, own, time, row)
         effort = stretch.channels[self._effort][:, stretch.first_new :]
         for signal, own, moved in zip(self._efforts, effort, position, strict=True):
-            signal.see(own, moved, time, row)
+            signal.update(own, moved, time, row)
 
     def rows(self, facts: Facts) -> Rows:
         """Give the rows in which some channel was stuck; some may overlap."""
@@ -98,7 +98,7 @@ class _Signal:
         self._way = self._change = self._before = 0.0
         self._low, self._high = np.inf, -np.inf
 
-    def see(self, values: Samples, position: Samples, time: Samples, first: int) -> None:
+    def update(self, values: Samples, position: Samples, time: Samples, first: int) -> None:
         """Take the next samples; the first of them was the last of those before, if there were any."""
         changes = np.diff(values)
         steps, same = np.abs(changes), changes == 0.0
