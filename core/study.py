@@ -168,7 +168,7 @@ def _diagnose(task: _Task, tell: Progress) -> Extension:
     parts = before.observation.parts(problem.held_out)
     as_it_is = None if reference is None else score_reference(reference, before, parts)
     if not corrections(found):
-        return Extension(before, found, None, (), None, "nothing joined the model", as_it_is)
+        return Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
     try:
         extended = proof or fit(_extend(found, plain), options, last)
         after = judge(task.asked.logs, options, extended, last, task.asked.mapper)

@@ -20,7 +20,7 @@ def main() -> None:
     document = identify(IdentifyRequest(builtin_robot("yumi-left"), (log,), {"bootstrap": {"draws": 0}}))
     result = Result.from_document(document)
 
-    print(f"physically {'consistent' if result.can_exist else 'inconsistent'}")
+    print(f"physically {'consistent' if result.physically_consistent else 'inconsistent'}")
     print("joint  error on held-out motion, % of RMS")
     for joint, error in zip(result.validation.joint, result.validation.nrmse_of_rms_percent, strict=True):
         print(f"{joint:5}  {error:.2f}")

@@ -188,7 +188,7 @@ class Result:
         )
 
     @property
-    def can_exist(self) -> bool:
+    def physically_consistent(self) -> bool:
         """Return whether every identified body is physically consistent."""
         return bool(min(self.document["feasibility"]["pseudo_inertia_min_eigenvalue"]) > 0.0)
 

@@ -1,4 +1,1 @@
-"""Compose the reader's page: in come all chapters' results, out goes the result document.
-
-The only place that formats numbers.
-"""
+"""Compose the reader's page from a result document: the only place that formats numbers for it."""

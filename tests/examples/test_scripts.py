@@ -99,7 +99,7 @@ def test_the_notebook_runs_from_the_first_cell_to_the_last(folder, capsys, monke
     for cell in NOTEBOOK["cells"]:
         if cell["cell_type"] == "code":
             exec(compile("".join(cell["source"]), cell["id"], "exec"), names)  # noqa: S102  # a notebook's way
-    assert names["result"].can_exist
+    assert names["result"].physically_consistent
     assert (names["parameters"].shape[0], "of 71" in capsys.readouterr().out) == (71, True)
     assert (folder / "robot.urdf").exists()
 

@@ -88,7 +88,7 @@ def test_a_study_goes_from_a_file_to_typed_tables(lab, swing, tmp_path):
     assert result.base.name == ("ZZR1",)
     assert (result.base.value[0], result.base.standard_deviation[0]) == (0.5, 0.01)
     assert np.array_equal(result.validation.nrmse_of_rms_percent, [2.0, 4.0])
-    assert (result.can_exist, result.verdict, result.findings) == (True, None, ())
+    assert (result.physically_consistent, result.verdict, result.findings) == (True, None, ())
     assert lab.job(job.id) in lab.jobs()
     assert b"<html" in lab.report(job)
     assert lab.export(job, "parameters.csv").startswith(b"name,")
