@@ -99,7 +99,7 @@ def _gained(finding: Finding) -> str:
         return ""
     error = f"{finding.gain.total_percent:.0f} % gained on unseen motion"
     compare_alternatives = [
-        one.value for one in finding.evidence if one.statistic == "unseen likelihood ratio"
+        one.value for one in finding.evidence if one.statistic == "held-out likelihood ratio"
     ]
     return "; ".join([error, *(f"likelihood ratio {one:.0f} there" for one in compare_alternatives)])
 

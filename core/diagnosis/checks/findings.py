@@ -100,7 +100,7 @@ def _on_holdout(
         Evidence(
             "Log-likelihood ratio statistic on held-out data; as far as it acts there, "
             f"{expected:.0f} is expected",
-            "unseen likelihood ratio",
+            "held-out likelihood ratio",
             holdout_likelihood_ratio(fitter, own.without, chosen, index),
         ),
     )
@@ -111,7 +111,7 @@ def _over_unnamed(own: Comparison) -> tuple[Evidence, ...]:
     if not np.isfinite(own.over_unnamed):
         return ()
     statement = "Delta BIC to the best unnamed pattern; below 0 the finding is doubtful"
-    return (Evidence(statement, "lead over the nameless", own.over_unnamed),)
+    return (Evidence(statement, "lead over unnamed patterns", own.over_unnamed),)
 
 
 def _fraction(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: Sequence[int]) -> float:

@@ -24,7 +24,7 @@ _READ = {
     "likelihood ratio": "Log-likelihood ratio statistic {}",
     "log10 p": "log10 of the p-value, corrected for all candidates: {}",
     "criterion difference": "Best alternative: ΔBIC {} (below 6: undecided)",
-    "lead over the nameless": "Best unnamed pattern: ΔBIC {} (below 0: undecided)",
+    "lead over unnamed patterns": "Best unnamed pattern: ΔBIC {} (below 0: undecided)",
     _RAW: "The raw samples show it before any model is fitted; test statistic {}",
 }
 _READ_WITHOUT_VALUE = {

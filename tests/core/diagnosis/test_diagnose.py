@@ -94,7 +94,7 @@ def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():
 
 def test_a_finding_says_what_it_brings_on_rows_that_no_fit_has_seen_beside_what_was_to_be_expected():
     (one,) = diagnosed(hidden).findings
-    (holdout,) = (part for part in one.evidence if part.statistic == "unseen likelihood ratio")
+    (holdout,) = (part for part in one.evidence if part.statistic == "held-out likelihood ratio")
     expected = float(holdout.statement.split("there, ")[1].split()[0])
     assert 0.6 < holdout.value / expected < 1.6
 
