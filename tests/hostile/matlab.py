@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 from scipy.io import savemat
 
-from tests.hostile.specimen import hostile, motion
+from tests.hostile.specimen import hostile, motion, zeros_deflated
 
 FORM = "MATLAB v5"
 HEADER = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<HH", 0x0100, 0x4D49)
@@ -36,10 +36,7 @@ def sound() -> bytes:
 
 def packed(size: int, head: bytes) -> bytes:
     """Pack a head and so many zeros as one compressed element."""
-    packer = zlib.compressobj(9)
-    parts = [packer.compress(head)]
-    parts += [packer.compress(bytes(1 << 20)) for _ in range(size >> 20)]
-    content = b"".join([*parts, packer.flush()])
+    content = zeros_deflated(size, head=head)
     return struct.pack("<II", COMPRESSED, len(content)) + content
 
 
@@ -110,12 +107,13 @@ def structure(fields: int, width: int, content: bytes, shape: tuple[int, ...] = 
 @hostile(FORM)
 def structures_in_structures_without_end(_place):
     inner = matrix(DOUBLES, (1, 1), element(DOUBLE, bytes(8)), b"")
-    for _ in range(20_000):
-        names = element(INT8, b"a\0\0\0\0\0\0\0")
-        inner = matrix(STRUCTURE, (1, 1), struct.pack("<HHI", INT32, 4, 8) + names + inner, b"")
-        if len(inner) > 3_000_000:
-            break
-    return sound() + inner
+    names = element(INT8, b"a\0\0\0\0\0\0\0")
+    frame = matrix(STRUCTURE, (1, 1), struct.pack("<HHI", INT32, 4, 8) + names, b"")[8:]
+    frames, size = [], len(inner)
+    while len(frames) < 20_000 and size <= 3_000_000:
+        frames.append(struct.pack("<II", MATRIX, len(frame) + size) + frame)
+        size += len(frames[-1])
+    return sound() + b"".join(reversed(frames)) + inner
 
 
 @hostile(FORM)

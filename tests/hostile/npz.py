@@ -4,10 +4,11 @@ import io
 import pickle  # noqa: TID251  (to show that it is refused)
 import struct
 import zipfile
+import zlib
 
 import numpy as np
 
-from tests.hostile.specimen import hostile, motion, zeros_deflated
+from tests.hostile.specimen import checksum, hostile, motion, zeros_deflated
 
 FORM = "NPZ"
 
@@ -112,14 +113,22 @@ def records_in_place_of_numbers(_place):
 
 def packed_zeros(size: int, dtype: str, shape: tuple[int, ...]) -> bytes:
     stream = io.BytesIO()
-    with (
-        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as file,
-        file.open("q.npy", "w", force_zip64=True) as member,
-    ):
-        np.lib.format.write_array_header_2_0(member, {"descr": dtype, "fortran_order": False, "shape": shape})
-        for _ in range(size >> 20):
-            member.write(bytes(1 << 20))
-    return stream.getvalue()
+    np.lib.format.write_array_header_2_0(stream, {"descr": dtype, "fortran_order": False, "shape": shape})
+    head = stream.getvalue()
+    packed = zeros_deflated(size, head=head, bare=True)
+    return one_member(packed, crc=checksum(zlib.crc32, size, head), size=len(head) + size)
+
+
+def one_member(packed: bytes, *, crc: int, size: int) -> bytes:
+    """Write an archive of one member that has these packed bytes, and is said to have that sum and size."""
+    empty = archive({"q.npy": b""}, method=zipfile.ZIP_DEFLATED)
+    directory, end = empty.index(b"PK\x01\x02"), empty.index(b"PK\x05\x06")
+    head, entry, tail = (
+        bytearray(part) for part in (empty[: empty.index(b"q.npy") + 5], empty[directory:end], empty[end:])
+    )
+    head[14:26] = entry[16:28] = struct.pack("<III", crc, len(packed), size)
+    tail[16:20] = struct.pack("<I", len(head) + len(packed))
+    return bytes(head) + packed + bytes(entry) + bytes(tail)
 
 
 @hostile(FORM)
@@ -212,15 +221,5 @@ def a_directory_far_too_long(_place):
 @hostile(FORM)
 def a_member_whose_bytes_are_a_bomb(_place):
     """The directory says ten bytes; the packed stream holds half a gigabyte."""
-    packed = zeros_deflated(1 << 29, wbits=-15)
-    content = archive({"q.npy": b"x" * 10}, method=zipfile.ZIP_DEFLATED)
-    name_end = content.index(b"q.npy") + 5
-    directory = content.index(b"PK\x01\x02")
-    end = content.index(b"PK\x05\x06")
-    head = bytearray(content[:name_end])
-    head[18:22] = struct.pack("<I", len(packed))
-    entry = bytearray(content[directory:end])
-    entry[20:24] = struct.pack("<I", len(packed))
-    tail = bytearray(content[end:])
-    tail[16:20] = struct.pack("<I", len(head) + len(packed))
-    return bytes(head) + packed + bytes(entry) + bytes(tail)
+    packed = zeros_deflated(1 << 29, bare=True)
+    return one_member(packed, crc=zlib.crc32(b"x" * 10), size=10)

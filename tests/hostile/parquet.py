@@ -28,7 +28,8 @@ def with_column(values: pa.Array, name: str = "q_1") -> bytes:
 def constant(rows: int, groups: int, names: tuple[str, ...]) -> bytes:
     """Write rows that take hardly any room."""
     stream = io.BytesIO()
-    block = pa.table({name: np.zeros(rows // groups) for name in names})
+    schema = pa.schema([pa.field(name, pa.float64(), nullable=False) for name in names])
+    block = pa.table(dict.fromkeys(names, np.zeros(rows // groups)), schema=schema)
     with pq.ParquetWriter(stream, block.schema, compression="zstd") as writer:
         for _ in range(groups):
             writer.write_table(block, row_group_size=rows)

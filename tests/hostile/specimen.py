@@ -1,6 +1,6 @@
 """Collect the makers of hostile files: a maker takes a place with a secret and gives the bytes."""
 
-import io
+import struct
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -79,13 +79,26 @@ def motion() -> dict[str, np.ndarray]:
     return columns
 
 
+MEGABYTE = bytes(1 << 20)
+
+
 @cache
-def zeros_deflated(size: int, *, wbits: int = 15) -> bytes:
-    """Pack so many zeros; a thousandth of them remains."""
-    packer = zlib.compressobj(9, zlib.DEFLATED, wbits)
-    piece = bytes(1 << 20)
-    packed = io.BytesIO()
+def zeros_deflated(size: int, *, head: bytes = b"", bare: bool = False) -> bytes:
+    """Pack a head and so many zeros, of which a thousandth remains; a bare stream has no frame of zlib's.
+
+    After a full flush the packer has forgotten what was before, so that each megabyte is packed alike, and
+    only the first of them has to be.
+    """
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    begin = packer.compress(head) + packer.flush(zlib.Z_FULL_FLUSH)
+    piece = packer.compress(MEGABYTE) + packer.flush(zlib.Z_FULL_FLUSH)
+    packed = begin + piece * (size >> 20) + packer.flush()
+    return packed if bare else b"\x78\xda" + packed + struct.pack(">I", checksum(zlib.adler32, size, head))
+
+
+def checksum(step: Callable[..., int], size: int, head: bytes) -> int:
+    """Sum up a head and so many zeros by zlib's checksums."""
+    total = step(head, step(b""))
     for _ in range(size >> 20):
-        packed.write(packer.compress(piece))
-    packed.write(packer.flush())
-    return packed.getvalue()
+        total = step(MEGABYTE, total)
+    return total
