@@ -5,6 +5,9 @@ with kernels compiled by numba are left out, because a wrapped function cannot b
 without: half of their time would go into checking the same few functions a hundred thousand times.
 """
 
+import os
+from pathlib import Path
+
 import jaxtyping
 import pytest
 from hypothesis import HealthCheck, settings
@@ -26,6 +29,9 @@ CHECKED_PACKAGES = (
 )
 
 collect_ignore = ["veritorque/app/store/migrations/env.py"]  # a script, which only Alembic can run
+
+# Where `make serve` keeps its kernels: services that tests start compile none again.
+os.environ.setdefault("NUMBA_CACHE_DIR", str(Path(__file__).parent / "data" / "kernels"))
 
 install_import_hook(CHECKED_PACKAGES, "beartype.beartype")
 

@@ -15,14 +15,14 @@ CONNECTIONS = 16
 
 def run(*, quick: bool) -> list[Figure]:
     """Poll for some seconds each."""
-    seconds = 0.5 if quick else 10.0
+    seconds = 0.2 if quick else 10.0
     with running_service(workers=0) as idle:
         job = idle.ask("POST", "/v1/jobs", idle.job())["id"]
         alive = send(
             idle.port, itertools.repeat(head("GET", "/healthz")), connections=CONNECTIONS, seconds=seconds
         )
         rest = _poll(idle, job, seconds)
-    cores = os.cpu_count() or 1
+    cores = 1 if quick else os.cpu_count() or 1
     with running_service(workers=cores) as busy:
         draws, count = (20, cores) if quick else (1000, 10 * cores)
         jobs = [

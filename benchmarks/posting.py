@@ -19,7 +19,7 @@ CONNECTIONS = 32
 
 def run(*, quick: bool) -> list[Figure]:
     """Ask for some seconds."""
-    seconds = 0.5 if quick else 5.0
+    seconds = 0.2 if quick else 5.0
     syncs = syncs_per_second(seconds / 5.0)
     with running_service(workers=0) as service:
         service.ask("POST", "/v1/jobs", service.job())  # what is loaded at the first request is loaded

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 LOG = Path(__file__).parents[1] / "examples" / "yumi" / "log.csv"
-KERNELS = Path(__file__).parents[1] / "data" / "kernels"  # where `make serve` keeps them, too
+KERNELS = Path(__file__).parents[1] / "data" / "kernels"  # where `make serve` keeps them, too, and the tests
 ROBOT = "yumi-left"
 START_S = 180.0
 

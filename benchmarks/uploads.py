@@ -32,7 +32,7 @@ START_S = 30.0
 
 def run(*, quick: bool) -> list[Figure]:
     """Send the same bytes to each endpoint in turn, several times."""
-    rounds = 5 if quick else 25
+    rounds, rushes = (2, 1) if quick else (25, 3)
     noise = bytes(64) + np.random.default_rng(1).bytes(SIZE - 64)
     with tempfile.TemporaryDirectory() as folder:
         service = ["veritorque", "serve", "--workers", "0", "--data-dir", folder, "--port"]
@@ -44,7 +44,7 @@ def run(*, quick: bool) -> list[Figure]:
                     seconds[name].append(_post(at, path, noise))
             before = _peak_mb(process.pid)
             with ThreadPoolExecutor(AT_ONCE) as senders:
-                for sent in [senders.submit(_post, port, "/v1/logs", noise) for _ in range(3 * AT_ONCE)]:
+                for sent in [senders.submit(_post, port, "/v1/logs", noise) for _ in range(rushes * AT_ONCE)]:
                     sent.result()
             growth = _peak_mb(process.pid) - before
             log = _parquet()

@@ -11,8 +11,8 @@ import threading
 from dataclasses import asdict
 
 from ..json_text import json_bytes
-from ..services.catalogue import built_in_robots
-from ..services.services import executor_of, worker_of
+from ..services.robot_descriptions import built_in_robots
+from ..services.workers import executor_of, worker_of
 from ..settings import Settings
 from ..store.store import Store
 from .computation import Ended

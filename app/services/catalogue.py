@@ -15,7 +15,7 @@ from ..problems import Problem
 from ..store.blobs.incoming import Incoming
 from ..store.records import Document, LogRecord, RobotRecord
 from ..store.store import TenantStore
-from .robot_descriptions import built_in_descriptions, read_description, read_urdf
+from .robot_descriptions import read_description, read_urdf
 
 LONGEST_NAME = 200
 
@@ -187,24 +187,6 @@ def log_name(given: str) -> str:
     """
     last = PurePath(given.replace("\\", "/")).name
     return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "log"
-
-
-def built_in_robots() -> dict[str, RobotRecord]:
-    """Give the robots that everybody has, by id."""
-    return {name: _built_in(name, description) for name, description in built_in_descriptions().items()}
-
-
-def _built_in(name: str, description: Document) -> RobotRecord:
-    robot, written = read_description(description)
-    return RobotRecord(
-        id=name,
-        name=robot.name,
-        joints=len(robot.joints),
-        built_in=True,
-        description=written,
-        suspicions=plausibility_warnings(robot),
-        created_at=None,
-    )
 
 
 def _missing(what: str, identity: str, *, named_in_body: bool) -> Problem:

@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING, cast
 from ...core.robot.builtin import builtin_description, builtin_robots
 from ...core.robot.description import robot_from_description
 from ...core.robot.model import RobotModel
+from ...core.robot.plausibility import plausibility_warnings
 from ...core.robot.urdf import robot_from_urdf
 from ...core.robot.writing import to_description
-from ..store.records import Document
+from ..store.records import Document, RobotRecord
 
 if TYPE_CHECKING:
     from ...core.dynamics.model import DynamicModel
@@ -16,6 +17,24 @@ if TYPE_CHECKING:
 def built_in_descriptions() -> dict[str, Document]:
     """Give the descriptions of the built-in robots by name."""
     return {name: builtin_description(name) for name in builtin_robots()}
+
+
+def built_in_robots() -> dict[str, RobotRecord]:
+    """Give the robots that everybody has, by id."""
+    return {name: _built_in(name, description) for name, description in built_in_descriptions().items()}
+
+
+def _built_in(name: str, description: Document) -> RobotRecord:
+    robot, written = read_description(description)
+    return RobotRecord(
+        id=name,
+        name=robot.name,
+        joints=len(robot.joints),
+        built_in=True,
+        description=written,
+        suspicions=plausibility_warnings(robot),
+        created_at=None,
+    )
 
 
 def read_description(description: object) -> tuple[RobotModel, Document]:

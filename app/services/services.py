@@ -1,8 +1,6 @@
 """Hold what requests need, opened once at the start of the service and closed at its end."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Annotated
 
 import anyio
@@ -12,14 +10,10 @@ from ..auth.callers import Caller, caller_of
 from ..auth.keys import KeyRing
 from ..auth.rate_limit import RateLimit
 from ..inspection.inspector import Inspector
-from ..jobs.computation import Ended
 from ..jobs.executors.executor import Executor
-from ..jobs.executors.limits import Limits
-from ..jobs.executors.process_executor import ProcessExecutor
 from ..jobs.queue import Queue, Submission
-from ..jobs.rehearsal import rehearse
 from ..jobs.supervisor import Supervisor
-from ..jobs.worker import Capacity, Worker
+from ..jobs.worker import Worker
 from ..kinds.registry import KINDS
 from ..problems import Problem
 from ..settings import Settings
@@ -27,10 +21,12 @@ from ..store.lock import DirectoryLock
 from ..store.records import Document, JobRecord, Quota, RobotRecord
 from ..store.store import Store, TenantStore
 from .batching import Batcher
-from .catalogue import Catalogue, built_in_robots
+from .catalogue import Catalogue
 from .job_feed import JobFeed
 from .metrics import Metrics
 from .readiness import Readiness
+from .robot_descriptions import built_in_robots
+from .workers import executor_of, worker_of
 
 
 @dataclass(frozen=True)
@@ -125,34 +121,6 @@ class Services:
         self.inspector.close()
         self.store.close()
         self.lock.release()
-
-
-def executor_of(settings: Settings, store: Store) -> Executor:
-    """Make the executor by the settings; it rehearses with scratch files of the store."""
-    limits = Limits(settings.job_memory_bytes, settings.job_cpus)
-    return ProcessExecutor(limits=limits, rehearse=partial(rehearse, store.blobs), at_once=settings.workers)
-
-
-def worker_of(
-    store: Store,
-    settings: Settings,
-    executor: Executor,
-    built_in: dict[str, RobotRecord],
-    on_ended: Callable[[Ended], None] | None,
-) -> Worker:
-    """Make a worker by the settings; `on_ended` is called with the outcome of every computation."""
-    return Worker(
-        store,
-        executor,
-        robots={identity: robot.description for identity, robot in built_in.items()},
-        capacity=Capacity(
-            slots=settings.workers,
-            most_per_tenant=settings.running_per_tenant,
-            timeout_s=settings.job_timeout_s,
-            retention_days=settings.retention_days,
-        ),
-        on_ended=on_ended,
-    )
 
 
 async def _services(request: Request) -> Services:

@@ -11,11 +11,10 @@ import sys
 def main():
     """Run a command of the service."""
     from veritorque.app.jobs import supervisor
-    from veritorque.app.jobs import worker_process as process
-    from veritorque.app.services import services
+    from veritorque.app.services import workers
     from veritorque.app.terminal.main import main as command
 
-    process.executor_of = services.executor_of = _executor
+    workers.executor_of = _executor  # before the command loads what takes it from there
     supervisor.start_worker = _start_worker
     command()
 

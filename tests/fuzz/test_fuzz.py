@@ -12,7 +12,7 @@ from tests.fuzz.campaign import case, read, run
 from tests.fuzz.mutation import WITHIN, spoilt
 from tests.fuzz.seeds import seeds
 
-RUNS = 600
+RUNS = 300
 FORMS = tuple(seeds())
 SURVIVING = tuple(form for form in FORMS if form != "MATLAB v5")
 """Formats whose libraries have not been seen to crash: they may be read in the tests' own process."""
@@ -36,7 +36,7 @@ def test_spoilt_files_end_in_a_log_or_an_error_of_ours(form, tmp_path):
     assert len(tally.deaths) < RUNS // 20
 
 
-@settings(max_examples=150)
+@settings(max_examples=75)
 @given(form=st.sampled_from(SURVIVING), chance=st.randoms(use_true_random=False))
 def test_a_file_spoilt_by_hypothesis_ends_in_a_log_or_an_error_of_ours(form, chance, tmp_path_factory):
     path = tmp_path_factory.getbasetemp() / "upload"

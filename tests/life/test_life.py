@@ -6,12 +6,12 @@ from tests.life.machine import JobLives
 from tests.life.tenants import Tenants
 
 TestJobLives = JobLives.TestCase
-TestJobLives.settings = settings(max_examples=40, stateful_step_count=30)
+TestJobLives.settings = settings(max_examples=20, stateful_step_count=30)
 
 
 def test_tenants_never_see_anything_of_each_other(tmp_path):
     with Tenants(tmp_path, seed=2) as tenants:
-        while tenants.operations < 400:
+        while tenants.operations < 250:
             tenants.act()
     assert tenants.crossed > 40
     assert tenants.leaks == 0

@@ -21,7 +21,7 @@ class LocalBackend:
 
     def robots(self) -> list[Document]:
         """List the built-in robots."""
-        from ...services.catalogue import built_in_robots
+        from ...services.robot_descriptions import built_in_robots
         from ...services.serialisers import robot_summary
 
         return [robot_summary(robot) for robot in built_in_robots().values()]
