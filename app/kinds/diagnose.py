@@ -20,7 +20,13 @@ class Diagnose(Identify):
     """Identify a robot, and name the causes of its simulation error."""
 
     name = "diagnose"
+    takes_reference = True
     words = Words(
+        title="Diagnosis",
+        hint=(
+            "Identification, then the causes of the remaining error: load-dependent friction, torque ripple, "
+            "a spring, a delay, a payload. Takes longer."
+        ),
         help=(
             "Identify a robot, then find the causes of its simulation error and what correcting "
             "them improves."

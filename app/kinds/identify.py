@@ -27,6 +27,11 @@ class Identify(JobKind["IdentifyOptions"]):
     name = "identify"
     result = ResultDocument
     words = Words(
+        title="Identification",
+        hint=(
+            "Identifiable combinations of masses, inertias and friction, with standard deviations. "
+            "Takes seconds."
+        ),
         help="Identify physically consistent parameters of a robot from its logs, with standard deviations.",
         commands=(
             "identify yumi-left examples/yumi/log.csv",

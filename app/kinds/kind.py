@@ -44,8 +44,12 @@ class Alarm:
 
 @dataclass(frozen=True)
 class Words:
-    """Hold what the contract and the terminal say of a kind."""
+    """Hold what the contract, the terminal and the pages say of a kind."""
 
+    title: str
+    """Its name for people."""
+    hint: str
+    """What it gives and how long it takes, beside its title on a page."""
     help: str
     """One sentence, for the command."""
     commands: tuple[str, ...]
@@ -96,10 +100,12 @@ class JobKind(ABC, Generic[Options]):
     """Its name in requests, results and commands."""
     takes_logs: ClassVar[bool] = True
     """Whether it is computed from logs, or from the robot alone."""
+    takes_reference: ClassVar[bool] = False
+    """Whether it has the option `reference`, an earlier result that logs are compared with."""
     result: ClassVar[type[BaseModel]]
     """Model of its result document."""
     words: ClassVar[Words]
-    """What the contract and the terminal say of it."""
+    """What the contract, the terminal and the pages say of it."""
     preload: ClassVar[tuple[str, ...]] = ()
     """Modules to load before the first computation."""
     artifacts: ClassVar[Mapping[str, Format]] = {}

@@ -14,7 +14,9 @@ from pathlib import Path
 from string import Template
 from typing import Final
 
+from ...core.estimate.methods.registry import ESTIMATORS
 from ...core.log.channels import CHANNELS, REFERENCE_WORDS
+from ..kinds.registry import KINDS
 from ..version import VERSION
 
 PAGES: Final = Path(__file__).parent
@@ -81,11 +83,27 @@ def shell(name: str) -> str:
         return own
     title, _, content = own.partition("\n")
     frame = Template((PAGES / "frame.html").read_text(encoding="utf-8"))
-    return frame.substitute(title=title, name=name, content=content, version=VERSION, channels=_channels())
+    return frame.substitute(title=title, name=name, content=content, version=VERSION, **_tables())
 
 
-def _channels() -> str:
-    """Write the table of channels as JSON in an attribute, for the form that maps columns."""
+def _tables() -> dict[str, str]:
+    """Write the registries that forms offer as JSON for attributes: channels, kinds of job, estimators."""
+    kinds = [
+        {
+            "name": kind.name,
+            "title": kind.words.title,
+            "hint": kind.words.hint,
+            "takes_logs": kind.takes_logs,
+            "takes_reference": kind.takes_reference,
+        }
+        for kind in KINDS.values()
+    ]
+    estimators = [{"name": method.name, "title": method.title} for method in ESTIMATORS.values()]
+    tables = {"channels": _channels(), "analyses": {"kinds": kinds, "estimators": estimators}}
+    return {name: escape(json.dumps(table)) for name, table in tables.items()}
+
+
+def _channels() -> dict[str, object]:
     table = {
         channel.name: {
             "words": channel.words,
@@ -95,7 +113,7 @@ def _channels() -> str:
         }
         for channel in CHANNELS.values()
     }
-    return escape(json.dumps({"channels": table, "reference_words": sorted(REFERENCE_WORDS)}))
+    return {"channels": table, "reference_words": sorted(REFERENCE_WORDS)}
 
 
 def _page_files() -> dict[str, PageFile]:

@@ -5,34 +5,17 @@ import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
 import { ago, plural } from "./words.js";
 
-const QUESTIONS = [
-  [
-    "identify",
-    "Identification",
-    "Identifiable combinations of masses, inertias and friction, with standard deviations. Takes seconds.",
-  ],
-  [
-    "diagnose",
-    "Diagnosis",
-    "Identification, then the causes of the remaining error: load-dependent friction, torque ripple, a spring, a delay, a payload. Takes longer.",
-  ],
-];
-const ESTIMATORS = [
-  ["", "weighted, physically consistent (sdp)"],
-  ["irls", "robust, may be inconsistent (irls)"],
-  ["wls", "weighted, may be inconsistent (wls)"],
-  ["ols", "ordinary least squares (ols)"],
-];
+const { kinds: KINDS, estimators: ESTIMATORS } = JSON.parse(document.querySelector("meta[name=analyses]").content);
 
 /**
- * Ask for the question.
+ * Ask for the kind of analysis and its options.
  * @param {HTMLElement} container
  * @returns {{use: function(Object): void}} to be told `robot` and `logs`
  */
 export function askQuestion(container) {
   const known = { robot: null, logs: [] };
-  let kind = "identify";
-  const choices = { cutoff: "", fraction: "", estimator: "", reference: "" };
+  let kind = KINDS[0];
+  const choices = { cutoff: "", fraction: "", estimator: ESTIMATORS[0].name, reference: "" };
   const reference = element("div", {});
   const missing = element("p", { class: "hint", role: "status" });
   const said = element("div", { class: "said", "aria-live": "polite" });
@@ -43,23 +26,23 @@ export function askQuestion(container) {
       "fieldset",
       { class: "questions" },
       element("legend", { class: "unseen" }, "Analysis"),
-      QUESTIONS.map(([value, title, text]) =>
+      KINDS.map((offered) =>
         element(
           "label",
           { class: "question" },
           element("input", {
             type: "radio",
             name: "question",
-            value,
-            checked: value === kind,
+            value: offered.name,
+            checked: offered === kind,
             on: {
               change: () => {
-                kind = value;
+                kind = offered;
                 show();
               },
             },
           }),
-          element("span", {}, element("strong", {}, title), element("span", { class: "hint" }, text)),
+          element("span", {}, element("strong", {}, offered.title), element("span", { class: "hint" }, offered.hint)),
         ),
       ),
     ),
@@ -78,7 +61,7 @@ export function askQuestion(container) {
         field("Held out for validation, %", text("fraction", "20"), "0 to 50 % of each log, in blocks"),
         field(
           "Estimator",
-          menu(ESTIMATORS, "", (value) => {
+          menu(ESTIMATORS.map(({ name, title }) => [name, `${title} (${name})`]), ESTIMATORS[0].name, (value) => {
             choices.estimator = value;
           }),
         ),
@@ -111,7 +94,7 @@ export function askQuestion(container) {
   }
 
   function show() {
-    const wants = [known.robot ? null : "robot", known.logs.length ? null : "log"].filter(Boolean);
+    const wants = [known.robot ? null : "robot", known.logs.length || !kind.takes_logs ? null : "log"].filter(Boolean);
     const joints = known.robot?.description.joints.filter((one) => !one.mimics).length;
     const odd = known.logs.find((log) => known.robot && log.joints !== joints);
     const amperes = known.logs.find((log) => known.robot && !log.channels.includes("torque"));
@@ -125,7 +108,7 @@ export function askQuestion(container) {
           ? `${amperes.name} has currents, but ${known.robot.name} has no drive gains: enter the torque constant and gear ratio of every joint in its table.`
           : "";
     missing.classList.toggle("wrong", odd !== undefined || Boolean(gainless));
-    reference.hidden = kind !== "diagnose";
+    reference.hidden = !kind.takes_reference;
   }
 
   async function offerReferences() {
@@ -141,7 +124,7 @@ export function askQuestion(container) {
       robot.description.prior ? ["prior", "prior (bodies of its description)"] : null,
       ...earlier.map((job) => [
         job.id,
-        `its ${job.kind === "diagnose" ? "diagnosis" : "identification"} of ${ago(job.created_at)}`,
+        `its ${KINDS.find(({ name }) => name === job.kind).title.toLowerCase()} of ${ago(job.created_at)}`,
       ]),
     ];
     fill(
@@ -160,9 +143,9 @@ export function askQuestion(container) {
     start.disabled = true;
     try {
       const job = await post("/v1/jobs", {
-        kind,
+        kind: kind.name,
         robot: known.robot.id,
-        logs: known.logs.map((log) => log.id),
+        logs: kind.takes_logs ? known.logs.map((log) => log.id) : [],
         options: options(),
       });
       location.assign(`/studies/${job.id}`);
@@ -179,8 +162,8 @@ export function askQuestion(container) {
       asked.validation = {
         fraction: Number.isFinite(readNumber(choices.fraction)) ? readNumber(choices.fraction) / 100 : choices.fraction,
       };
-    if (choices.estimator) asked.estimator = choices.estimator;
-    if (kind === "diagnose") asked.reference = choices.reference || null;
+    if (choices.estimator !== ESTIMATORS[0].name) asked.estimator = choices.estimator;
+    if (kind.takes_reference) asked.reference = choices.reference || null;
     return asked;
   }
 }

@@ -23,6 +23,7 @@ class IterativelyReweighted:
     """Weight the equations per joint and, by Huber's function, per row."""
 
     name: str = "irls"
+    title: str = "robust, may be inconsistent"
     needs: tuple[str, ...] = ()
     feasible: bool = False
     row_weights: bool = True

@@ -63,6 +63,10 @@ class Estimator(Protocol):
         """Give the name that the option `estimator` has."""
 
     @property
+    def title(self) -> str:
+        """Describe it in a few words, for a menu."""
+
+    @property
     def needs(self) -> tuple[str, ...]:
         """List channels of the log besides position and effort, which every log has."""
 

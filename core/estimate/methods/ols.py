@@ -12,6 +12,7 @@ class OrdinaryLeastSquares:
     """Stack the joints' equations as they are."""
 
     name: str = "ols"
+    title: str = "ordinary least squares"
     needs: tuple[str, ...] = ()
     feasible: bool = False
     row_weights: bool = False

@@ -13,4 +13,5 @@ class SemidefiniteProgramme(WeightedLeastSquares):
     """Write the equations of weighted least squares, to be solved by the semidefinite programme."""
 
     name: str = "sdp"
+    title: str = "weighted, physically consistent"
     feasible: bool = True

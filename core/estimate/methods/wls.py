@@ -16,6 +16,7 @@ class WeightedLeastSquares:
     """Weight the equations per joint, and per row where a robust fit is asked for."""
 
     name: str = "wls"
+    title: str = "weighted, may be inconsistent"
     needs: tuple[str, ...] = ()
     feasible: bool = False
     row_weights: bool = True

@@ -10,8 +10,10 @@ import pytest
 from tests.app.conftest import assert_problem, service
 from veritorque.app.kinds.diagnose import HIDDEN_LOG_ID
 from veritorque.app.kinds.identify import EXAMPLE_LOG_ID
+from veritorque.app.kinds.registry import KINDS
 from veritorque.app.pages.files import STATIC
 from veritorque.app.store.logs import log_id
+from veritorque.core.estimate.methods.registry import ESTIMATORS
 from veritorque.core.log.channels import CHANNELS
 
 
@@ -67,6 +69,14 @@ def test_the_form_that_maps_columns_gets_the_table_of_channels_with_its_page(cli
     assert list(table) == list(CHANNELS)
     for name, entry in table.items():
         assert entry["units"] == [unit.name for unit in CHANNELS[name].quantity.units]
+
+
+def test_the_form_that_starts_an_analysis_gets_every_kind_of_job_and_every_estimator(client):
+    content = re.search(r'<meta name="analyses" content="(.*?)">', client.get("/new").text)[1]
+    table = json.loads(unescape(content))
+    assert [kind["name"] for kind in table["kinds"]] == list(KINDS)
+    assert [estimator["name"] for estimator in table["estimators"]] == list(ESTIMATORS)
+    assert all(entry["title"] for entry in (*table["kinds"], *table["estimators"]))
 
 
 @pytest.mark.parametrize("path", ["/studies", "/studies/a/b", "/nothing", "/v1/jobs/job-none/report"])
