@@ -218,9 +218,7 @@ def _motion(
 ) -> tuple[Comparison | None, str]:
     """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
     try:
-        old, new = (
-            mechanism_of(*robot) for robot in (before, fold(after.base.model, after.estimate.standard))
-        )
+        old, new = mechanism_of(*before), mechanism_of(*fold(after.base.model, after.estimate.standard))
         return compare(old, new, problem.motions, chosen=problem.held_out or None), input_note(found)
     except VeritorqueError as error:
         return None, str(error)
@@ -229,12 +227,10 @@ def _motion(
 def _prepare(task: _Task, tell: Progress, reference: Reference | None = None) -> Problem:
     """Condition the logs, set blocks aside, and group the model's parameters; a reference has its own."""
     tell("condition", 0.02)
-    options = task.options
-    model = standard_model(task.asked.robot, options.terms) if reference is None else reference.base.model
-    admit(options, model, [known_log(log) for log in task.asked.logs])
-    motions = condition_all(
-        task.asked.logs, task.asked.robot, options.filter, blocks=options.validation.blocks
-    )
+    asked, options = task.asked, task.options
+    model = standard_model(asked.robot, options.terms) if reference is None else reference.base.model
+    admit(options, model, [known_log(log) for log in asked.logs])
+    motions = condition_all(asked.logs, asked.robot, options.filter, blocks=options.validation.blocks)
     held_out = options.validation.chosen(len(motions))
     if reference is None and options.smooth_coulomb:
         model = with_smoothed_friction(

@@ -213,14 +213,12 @@ class Worker:
             return Failed(internal_error().document())
 
     def _run(self, job: JobRecord, stop: threading.Event, traces: Path) -> Outcome:
-        computation = computation_of(job, self._store.of(job.tenant), self._robots)
+        task = computation_of(job, self._store.of(job.tenant), self._robots)
         if self._closing.is_set():
             stop.set()
         progress, timeout_s = Reporter(self._store, (job.id, job.token)), self._capacity.timeout_s
-        with open_workspace(computation, self._store.blobs, traces) as workspace:
-            return self._executor.run(
-                computation, workspace, progress=progress, stop=stop, timeout_s=timeout_s
-            )
+        with open_workspace(task, self._store.blobs, traces) as workspace:
+            return self._executor.run(task, workspace, progress=progress, stop=stop, timeout_s=timeout_s)
 
     def _report(self, job: JobRecord, outcome: Outcome, seconds: float) -> None:
         problem = outcome.problem if isinstance(outcome, Failed | Died) else None

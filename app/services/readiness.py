@@ -21,6 +21,7 @@ PROBE_WAIT_S = 1.0
 LOADING_S = 60.0
 """How long a request waits that cannot be answered without the solver."""
 POLL_S = 0.1
+Check = Callable[[], bool]
 
 
 class Readiness:
@@ -34,14 +35,7 @@ class Readiness:
         Whether the worker has loaded the solver.
     """
 
-    def __init__(
-        self,
-        store: Store,
-        settings: Settings,
-        *,
-        worker_alive: Callable[[], bool],
-        worker_ready: Callable[[], bool],
-    ) -> None:
+    def __init__(self, store: Store, settings: Settings, *, worker_alive: Check, worker_ready: Check) -> None:
         self._store, self._settings = store, settings
         self._worker_alive, self._worker_ready = worker_alive, worker_ready
         self._probing = threading.Lock()

@@ -42,6 +42,5 @@ class ManyJobs:
                 found += connection.execute(query, {"ids": ids})
             return found
 
-        return [
-            (place, row) for row in self._database.read(work) if (place := (row.tenant, row.id)) in wanted
-        ]
+        found = [((row.tenant, row.id), row) for row in self._database.read(work)]
+        return [(place, row) for place, row in found if place in wanted]

@@ -116,10 +116,8 @@ class WorkStore:
         def work(connection: Connection) -> bool:
             too_often = and_(there, JOBS.c.attempts >= MOST_ATTEMPTS)
             ended = connection.execute(update(JOBS).where(too_often).values(failed | LATER)).rowcount
-            return (
-                ended > 0
-                or connection.execute(update(JOBS).where(there).values(WAITING | LATER)).rowcount > 0
-            )
+            again = update(JOBS).where(there).values(WAITING | LATER)
+            return ended > 0 or connection.execute(again).rowcount > 0
 
         return self._database.write(work)
 

@@ -93,11 +93,9 @@ def parse_mapping(document: object) -> LogMapping:
     if document is None:
         return LogMapping()
     top = MappingFields(document, "the mapping", "/mapping", MAPPING_FIELDS)
-    channels = {
-        name: _channel(top, name) if top.has(name) else None for name in CHANNELS if name in top.value
-    }
-    _each_column_once(channels)
-    return LogMapping(channels, top.optional_number(RATE, positive=True))
+    asked = {name: _channel(top, name) if top.has(name) else None for name in CHANNELS if name in top.value}
+    _each_column_once(asked)
+    return LogMapping(asked, top.optional_number(RATE, positive=True))
 
 
 def _channel(top: Fields, channel: str) -> ChannelRequest:

@@ -82,11 +82,8 @@ class Integrator:
         if share is None:
             return trial
         lanes: np.ndarray = np.flatnonzero(share < 1.0)
-        before, left = (
-            states.chosen(lanes),
-            replace(stride, passed=stride.passed[lanes], to_go=stride.to_go[lanes]),
-        )
-        left = replace(left, lanes=lanes)
+        before = states.chosen(lanes)
+        left = replace(stride, passed=stride.passed[lanes], to_go=stride.to_go[lanes], lanes=lanes)
         share = share[lanes]
         for cuts in range(_CUTS, 0, -1):
             before = self._cut(before, left, share)

@@ -15,13 +15,7 @@ class Executor(Protocol):
         ...
 
     def run(
-        self,
-        computation: Computation,
-        workspace: Workspace,
-        *,
-        progress: Progress,
-        stop: Event,
-        timeout_s: float,
+        self, task: Computation, workspace: Workspace, *, progress: Progress, stop: Event, timeout_s: float
     ) -> Outcome:
         """Run a computation to its end, until `stop` is set, or until the time is over (s)."""
         ...

@@ -63,18 +63,12 @@ class ProcessExecutor:
             coming.result()
 
     def run(
-        self,
-        computation: Computation,
-        workspace: Workspace,
-        *,
-        progress: Progress,
-        stop: Event,
-        timeout_s: float,
+        self, task: Computation, workspace: Workspace, *, progress: Progress, stop: Event, timeout_s: float
     ) -> Outcome:
         """Run a computation in a process of its own; see `Executor`."""
         try:
             with self._pool.child(stop) as process:
-                process.pipe.send((computation, workspace, timeout_s))
+                process.pipe.send((task, workspace, timeout_s))
                 return _follow(process, progress=progress, stop=stop, timeout_s=timeout_s)
         except NotNeeded:
             return Stopped()

@@ -30,17 +30,13 @@ class EncoderQuantization(SampleCheck):
         """Round each joint's smooth motion to its own steps and measure the effect on the torque."""
         steps = np.max([_steps(motion.log) for motion in dataset.motions], axis=0)
         found = []
-        for joint in np.flatnonzero(steps > 0.0):
-            gained = disturbance(dataset, operating_point, _rounded(int(joint), float(steps[joint])))
-            unit = joint_unit(dataset.robot, int(joint) + 1, "rad")
-            share, of_torque = (
-                share_of_residual(dataset, operating_point, gained),
-                _of_torque(dataset, gained),
-            )
-            if _matters(
-                float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, int(joint))
-            ):
-                found.append(_finding(int(joint), (float(steps[joint]), unit), share, of_torque))
+        for joint in np.flatnonzero(steps > 0.0).tolist():
+            gained = disturbance(dataset, operating_point, _rounded(joint, float(steps[joint])))
+            unit = joint_unit(dataset.robot, joint + 1, "rad")
+            share = share_of_residual(dataset, operating_point, gained)
+            of_torque = _of_torque(dataset, gained)
+            if _matters(float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, joint)):
+                found.append(_finding(joint, (float(steps[joint]), unit), share, of_torque))
         return tuple(found)
 
 

@@ -24,9 +24,8 @@ class FrictionChange(OwnJointCause):
 
     def term(self, at: Setting) -> Term:
         """Give the columns, smoothed as those of the operating point's model."""
-        widths = next(
-            (term.widths for term in at.operating_point.model.terms if isinstance(term, Coulomb)), ()
-        )
+        terms = at.operating_point.model.terms
+        widths = next((term.widths for term in terms if isinstance(term, Coulomb)), ())
         return FrictionChangeTerm(at.joint, widths[at.joint - 1] if widths else 0.0)
 
     def statement(self, solved: FittedCause) -> str:

@@ -27,9 +27,8 @@ class FrictionPresliding(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
         span = max(float(np.ptp(at.dataset.state.position[:, at.joint - 1])), 1e-6)
-        return [
-            {"presliding_distance": value} for value in geometric_grid(NARROWEST * span, WIDEST * span, STEPS)
-        ]
+        distances = geometric_grid(NARROWEST * span, WIDEST * span, STEPS)
+        return [{"presliding_distance": distance} for distance in distances]
 
     def term(self, at: Setting) -> Term:
         """Give the column."""

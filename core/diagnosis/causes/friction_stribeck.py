@@ -24,9 +24,8 @@ class FrictionStribeck(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the Stribeck velocity from 3 % of the RMS speed to the RMS speed."""
         speed = max(float(at.dataset.speed[at.joint - 1]), 1e-6)
-        return [
-            {"stribeck_velocity": value} for value in geometric_grid(SLOWEST * speed, QUICKEST * speed, STEPS)
-        ]
+        velocities = geometric_grid(SLOWEST * speed, QUICKEST * speed, STEPS)
+        return [{"stribeck_velocity": velocity} for velocity in velocities]
 
     def term(self, at: Setting) -> Term:
         """Give the column."""

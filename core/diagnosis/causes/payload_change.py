@@ -46,11 +46,8 @@ class PayloadChange(OwnJointCause):
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints of the links that may carry it; several logs have no instant in common."""
-        return (
-            [(joint,) for joint in self._links(dataset)]
-            if self.throughout or len(dataset.motions) == 1
-            else []
-        )
+        one_clock = self.throughout or len(dataset.motions) == 1
+        return [(joint,) for joint in self._links(dataset)] if one_clock else []
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the instant, where there is one."""

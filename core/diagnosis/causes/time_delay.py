@@ -43,11 +43,8 @@ class TimeDelay(OwnJointCause, CorrectsLog):
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""
-        return Delay(
-            0,
-            at.operating_point,
-            float(np.clip(at.scalars["around"], -ADMISSIBLE.time_delay, ADMISSIBLE.time_delay)),
-        )
+        around = np.clip(at.scalars["around"], -ADMISSIBLE.time_delay, ADMISSIBLE.time_delay)
+        return Delay(0, at.operating_point, float(around))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a delay that a first-order column can represent."""

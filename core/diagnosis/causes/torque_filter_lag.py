@@ -49,11 +49,8 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""
-        return FilterLag(
-            0,
-            at.operating_point,
-            float(np.clip(at.scalars["around"], ADMISSIBLE.least_filter_lag, ADMISSIBLE.filter_lag)),
-        )
+        around = np.clip(at.scalars["around"], ADMISSIBLE.least_filter_lag, ADMISSIBLE.filter_lag)
+        return FilterLag(0, at.operating_point, float(around))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a filter that lags."""

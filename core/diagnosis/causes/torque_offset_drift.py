@@ -36,12 +36,8 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
 
     def term(self, at: Setting) -> Term:
         """Give the column."""
-        return Drift(
-            at.joint,
-            float(at.dataset.time.min()),
-            float(np.ptp(at.dataset.time)),
-            at.scalars["time_constant"],
-        )
+        time = at.dataset.time
+        return Drift(at.joint, float(time.min()), float(np.ptp(time)), at.scalars["time_constant"])
 
     def statement(self, solved: FittedCause) -> str:
         """State total drift and time constant."""

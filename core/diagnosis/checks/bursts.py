@@ -52,11 +52,6 @@ def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, Ind
         after, before = time - begin, begin + UNNAMED.burst_seconds - time
         inside = own[(after >= 0.0) & (before >= 0.0)]
         if len(inside) >= UNNAMED.burst_rows:
-            found.append(
-                (
-                    float(begin),
-                    inside,
-                    own[(after > -UNNAMED.burst_distance) & (before > -UNNAMED.burst_distance)],
-                )
-            )
+            around = own[(after > -UNNAMED.burst_distance) & (before > -UNNAMED.burst_distance)]
+            found.append((float(begin), inside, around))
     return found

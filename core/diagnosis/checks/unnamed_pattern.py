@@ -94,13 +94,8 @@ def _patterns(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers
 
 def _seconds(dataset: Dataset) -> float:
     """Give the length of the longest log, s, no more than a minute: what lasts longer is drift."""
-    return float(
-        np.clip(
-            max(motion.log.duration for motion in dataset.motions),
-            UNNAMED.least_seconds,
-            UNNAMED.most_seconds,
-        )
-    )
+    longest = max(motion.log.duration for motion in dataset.motions)
+    return float(np.clip(longest, UNNAMED.least_seconds, UNNAMED.most_seconds))
 
 
 def _scalars(name: str, numbers: Numbers) -> Scalars:

@@ -175,9 +175,7 @@ def build_dataset(
 def _segments(motions: Sequence[Motion], robot: RobotModel, seconds: list[float]) -> list[DatasetSegment]:
     """Cut all motions into segments, as many as the data set may hold of logs of so many seconds."""
     share = min(1.0, ROWS.seconds / sum(seconds))
-    parts = [
-        part for number, motion in enumerate(motions) for part in segments_of(number, motion, robot, share)
-    ]
+    parts = [part for log, motion in enumerate(motions) for part in segments_of(log, motion, robot, share)]
     if not parts:
         raise ExcitationError(
             "no stretch of the logs is long enough to be diagnosed",

@@ -54,26 +54,22 @@ class Prewhitened:
     def with_columns(self, kept: int, further: Matrix) -> "Prewhitened":
         """Keep the first columns and put others, not yet white, beside them."""
         own = int(np.searchsorted(self.acting, kept))
-        before, inside_before = self.columns[:, :own], self.inside[:, :own]
+        before, kept_inside = self.columns[:, :own], self.inside[:, :own]
         if not further.any():
             return replace(
-                self,
-                acting=self.acting[:own],
-                columns=before,
-                inside=inside_before,
-                gram=self.gram[:own, :own],
+                self, acting=self.acting[:own], columns=before, inside=kept_inside, gram=self.gram[:own, :own]
             )
         new, white, inside = _whiten(self.whitening, self.nuisance, further)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]
-        gram[:own, own:] = before.T @ white - inside_before.T @ inside
+        gram[:own, own:] = before.T @ white - kept_inside.T @ inside
         gram[own:, :own] = gram[:own, own:].T
         gram[own:, own:] = _gram(white, inside)
         return replace(
             self,
             acting=np.append(self.acting[:own], kept + new),
             columns=np.hstack([before, white]),
-            inside=np.hstack([inside_before, inside]),
+            inside=np.hstack([kept_inside, inside]),
             gram=gram,
         )
 

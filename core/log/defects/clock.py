@@ -89,11 +89,8 @@ class Clock:
             f"{step * 1e3:.4g} ms, the longest {max(lengths):.4g} s, together {sum(lengths):.4g} s; "
             f"{_consequence(gaps)}."
         )
-        return [
-            Defect(
-                "gap", "time", None, len(gaps), tuple(sorted((t0, t1) for _, t0, t1 in longest)), statement
-            )
-        ]
+        intervals = tuple(sorted((t0, t1) for _, t0, t1 in longest))
+        return [Defect("gap", "time", None, len(gaps), intervals, statement)]
 
     def _jitter_defect(self, step: float) -> list[Defect]:
         self._uneven.close()

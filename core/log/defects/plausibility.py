@@ -80,8 +80,5 @@ def _short(facts: Facts) -> list[Defect]:
     statement = (
         f"The log lasts {facts.duration:.3g} s; 10 s or more of varied motion separate parameters better."
     )
-    return [
-        Defect(
-            "short", "time", None, facts.samples, ((facts.start, facts.start + facts.duration),), statement
-        )
-    ]
+    whole = ((facts.start, facts.start + facts.duration),)
+    return [Defect("short", "time", None, facts.samples, whole, statement)]

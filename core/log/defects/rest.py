@@ -71,10 +71,8 @@ class Rest:
                     f"Joint {joint + 1} rests for {seconds:.3g} s of {facts.duration:.3g} s, in "
                     f"{count_text(len(rests), 'pause')} of {SHORTEST_SECONDS:g} s or more."
                 )
-                longest = sorted(rests, key=lambda rest: rest[0] - rest[1])[:KEPT]
-                found.append(
-                    Defect("standstill", "position", joint + 1, count, tuple(sorted(longest)), statement)
-                )
+                longest = tuple(sorted(sorted(rests, key=lambda rest: rest[0] - rest[1])[:KEPT]))
+                found.append(Defect("standstill", "position", joint + 1, count, longest, statement))
         return found
 
 

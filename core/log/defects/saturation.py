@@ -83,13 +83,11 @@ class Saturation:
             for sign, limit in zip((1.0, -1.0), pair, strict=True):
                 if limit.top < far or not limit.holds():
                     continue
+                runs = limit.runs
                 statement = (
                     f"Joint {joint + 1}'s torque stays at exactly {sign * limit.top:.4g} "
-                    f"{facts.units['torque'][joint]} for {limit.runs.rows} of {facts.samples} samples, as a "
+                    f"{facts.units['torque'][joint]} for {runs.rows} of {facts.samples} samples, as a "
                     "limited or clipped signal does."
                 )
-                defect = Defect(
-                    "saturation", "torque", joint + 1, limit.runs.rows, limit.runs.intervals, statement
-                )
-                found.append(defect)
+                found.append(Defect("saturation", "torque", joint + 1, runs.rows, runs.intervals, statement))
         return found

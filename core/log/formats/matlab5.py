@@ -54,10 +54,8 @@ def open_matlab5(path: Path) -> MemoryTable:
         declared = whosmat(path, appendmat=False)
         check_shapes([shape for _, shape, kind in declared if kind in NUMERIC])
         wanted = [name for name, _, kind in declared if kind in NUMERIC or kind == STRUCTURE]
-        contents = loadmat(
-            path, appendmat=False, variable_names=wanted, verify_compressed_data_integrity=True
-        )
-        variables = dict(_flat((name, contents.get(name), 0) for name, _, _ in declared))
+        found = loadmat(path, appendmat=False, variable_names=wanted, verify_compressed_data_integrity=True)
+        variables = dict(_flat((name, found.get(name), 0) for name, _, _ in declared))
     return expand(variables)
 
 

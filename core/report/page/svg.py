@@ -103,16 +103,12 @@ class Frame:
     def _tick_across(self, value: float) -> Markup:
         across, down = self.at(value, self.y[0])
         rule = element("line", x1=across, x2=across, y1=down, y2=round(down - self._high, 1), class_="grid")
-        return Markup("").join(
-            [rule, element("text", _short(value), x=across, y=down + 16.0, text_anchor="middle")]
-        )
+        return rule + element("text", _short(value), x=across, y=down + 16.0, text_anchor="middle")
 
     def _tick_up(self, value: float) -> Markup:
         across, down = self.at(self.x[0], value)
         rule = element("line", x1=across, x2=round(across + self._wide, 1), y1=down, y2=down, class_="grid")
-        return Markup("").join(
-            [rule, element("text", _short(value), x=across - 6.0, y=down + 4.0, text_anchor="end")]
-        )
+        return rule + element("text", _short(value), x=across - 6.0, y=down + 4.0, text_anchor="end")
 
 
 def picture(title: str, description: str, size: tuple[float, float], *parts: object) -> Markup:

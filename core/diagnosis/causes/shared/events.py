@@ -24,12 +24,7 @@ choose."""
 
 
 def find_events(
-    time: Samples,
-    columns: np.ndarray,
-    left: JointSeries,
-    inverse_covariances: Sequence[csr_array],
-    *,
-    most: int,
+    time: Samples, columns: np.ndarray, left: JointSeries, precisions: Sequence[csr_array], *, most: int
 ) -> list[Span]:
     """Find up to `most` spans that do not overlap, the best one first.
 
@@ -39,10 +34,10 @@ def find_events(
         Samples x columns x joints.
     left
         The residual in the same units.
-    inverse_covariances
+    precisions
         Per joint, the inverse covariance of its noise; zero on rows that are excluded.
     """
-    search = _Search(time, columns, left, inverse_covariances)
+    search = _Search(time, columns, left, precisions)
     spans = search.spans()
     scores = search.scores(spans)
     hurdle = np.log(EVENTS.level / max(EVENTS.trials_of_span * len(spans), 1.0))
@@ -70,16 +65,16 @@ def _apart(span: Span, others: Sequence[Span]) -> bool:
 
 class _Search:
     def __init__(
-        self, time: Samples, columns: np.ndarray, left: JointSeries, inverse_covariances: Sequence[csr_array]
+        self, time: Samples, columns: np.ndarray, left: JointSeries, precisions: Sequence[csr_array]
     ) -> None:
         self.time, self.ordered = time, np.maximum.accumulate(time)
-        known = np.column_stack([weight @ left[:, joint] for joint, weight in enumerate(inverse_covariances)])
+        known = np.column_stack([weight @ left[:, joint] for joint, weight in enumerate(precisions)])
         self.gains = np.einsum("raj,rj->ra", columns, known)
         # Information of rows together with those 0, 1, ... rows before them, in both orders.
         rows, count, _ = columns.shape
-        self.grams = np.zeros((rows, 1 + _reach(inverse_covariances), count, count))
+        self.grams = np.zeros((rows, 1 + _reach(precisions), count, count))
         for lag in range(self.grams.shape[1]):
-            self.grams[lag:, lag] = _grams(columns, inverse_covariances, lag)
+            self.grams[lag:, lag] = _grams(columns, precisions, lag)
 
     def spans(self) -> list[Span]:
         first, last = float(self.ordered[0]), float(self.ordered[-1])
@@ -143,13 +138,13 @@ class _Search:
         return span
 
 
-def _reach(inverse_covariances: Sequence[csr_array]) -> int:
+def _reach(precisions: Sequence[csr_array]) -> int:
     """Give the largest distance in rows over which noise is correlated."""
-    entries = [weight.tocoo() for weight in inverse_covariances]
+    entries = [weight.tocoo() for weight in precisions]
     return max(int(np.max(entry.row - entry.col, initial=0)) for entry in entries)
 
 
-def _grams(columns: np.ndarray, inverse_covariances: Sequence[csr_array], lag: int) -> np.ndarray:
-    weights = np.column_stack([weight.diagonal(-lag) for weight in inverse_covariances])
+def _grams(columns: np.ndarray, precisions: Sequence[csr_array], lag: int) -> np.ndarray:
+    weights = np.column_stack([weight.diagonal(-lag) for weight in precisions])
     out = (columns[lag:] * weights[:, None, :]) @ np.swapaxes(columns[: len(columns) - lag], 1, 2)
     return np.asarray(out if lag == 0 else out + np.swapaxes(out, 1, 2))
