@@ -29,25 +29,12 @@ class JobStore(TenantRecords[JobRecord]):
     def _record(self, row: Row[Any]) -> JobRecord:
         return job_record(row)
 
-    def add(
-        self, request: JobRequestRecord, *, key: str | None = None, trace: str | None = None
-    ) -> JobRecord:
-        """Queue a job, or find the one that asked for the same.
-
-        Raises
-        ------
-        KeyReused
-            If the key came with another request before.
-        OverQuota
-            If the tenant has as many unfinished jobs as it may have.
-        """
-        (outcome,) = self.begin_to_add([NewJob(request, key, trace)])()
-        if isinstance(outcome, Exception):
-            raise outcome
-        return outcome
-
     def begin_to_add(self, jobs: list[NewJob]) -> Callable[[], list[Outcome]]:
-        """Queue jobs together, and give what waits until they are; for each it gives the job, or why not."""
+        """Queue jobs together, and give what waits until they are.
+
+        For each it gives the job, one that asked for the same, or why not: `KeyReused`, if its key came with
+        another request before, or `OverQuota`, if the tenant has as many unfinished jobs as it may have.
+        """
         if not jobs:
             return list
         coming = self._database.begin(partial(queue_all, tenant=self._tenant, quota=self._quota, jobs=jobs))

@@ -1,4 +1,4 @@
-"""Executors for tests: one computes nothing and waits until it is released, one computes in the thread."""
+"""Executors for tests, one that waits until it is released and one that computes in the thread; and a job."""
 
 import threading
 
@@ -7,9 +7,18 @@ from veritorque.app.jobs.computation import Failed, Finished, Stopped
 from veritorque.app.jobs.compute import compute
 from veritorque.app.json_text import json_bytes
 from veritorque.app.problems import Problem, problem_of
+from veritorque.app.store.queueing import NewJob
 from veritorque.core.errors import VeritorqueError
 
 RESULT = identified()
+
+
+def add_job(jobs, request, *, key=None):
+    """Queue one job as requests do, or raise why not."""
+    (outcome,) = jobs.begin_to_add([NewJob(request, key, None)])()
+    if isinstance(outcome, Exception):
+        raise outcome
+    return outcome
 
 
 class StubExecutor:

@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from tests.app.stubs import add_job
 from veritorque.app.jobs.liveness import Presence
 from veritorque.app.jobs.reclaim import LEASE_S, Reclaimer
 from veritorque.app.store.records import JobRequestRecord
@@ -46,7 +47,7 @@ def mine(tmp_path):
 
 def claimed(store, owner):
     jobs = store.of("local").jobs
-    job = jobs.add(JobRequestRecord("identify", "arm", (), {}))
+    job = add_job(jobs, JobRequestRecord("identify", "arm", (), {}))
     assert store.work.claim(owner, most_per_tenant=9).id == job.id
     return lambda: jobs.get(job.id)
 

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from tests.app.conftest import service
 from tests.app.jobs.test_jobs import another, asked
 from tests.app.postgres import cluster, new_database
-from tests.app.stubs import StubExecutor
+from tests.app.stubs import StubExecutor, add_job
 from veritorque.app.lifecycle.backup import NOTE, NoBackup, back_up, restore
 from veritorque.app.lifecycle.doctor import examine
 from veritorque.app.lifecycle.retention import expire
@@ -89,7 +89,7 @@ def test_a_backup_while_jobs_come_and_go_is_whole(tmp_path):
         number = 0
         while not end.is_set():
             number += 1
-            jobs.add(JobRequestRecord("identify", "yumi", (), {"number": number}))
+            add_job(jobs, JobRequestRecord("identify", "yumi", (), {"number": number}))
             taken = store.work.claim("worker", most_per_tenant=99)
             store.keep_result((taken.id, taken.token), json.dumps(number).encode())
 
@@ -198,7 +198,7 @@ def age(store, table, days):
 
 def test_each_kind_is_kept_as_long_as_it_is_said(tmp_path, filled):
     store = opened(tmp_path / "data")
-    store.of("local").jobs.add(JobRequestRecord("identify", "yumi", (), {}), key="k")
+    add_job(store.of("local").jobs, JobRequestRecord("identify", "yumi", (), {}), key="k")
     for table in (JOBS, LOGS, REPEATS):
         age(store, table, days=10.0)
     kept_longer = dict.fromkeys(("successful", "failed", "dismissed", "logs", "repeats"), 10.1)

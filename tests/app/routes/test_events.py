@@ -10,6 +10,7 @@ import pytest
 
 from tests.app.conftest import assert_problem, service
 from tests.app.http.test_server import listening_service
+from tests.app.stubs import add_job
 from veritorque.app.routes import events
 from veritorque.app.services.job_feed import POLL_S
 from veritorque.app.store.records import JobRequestRecord
@@ -60,7 +61,7 @@ def next_event(answer):
 
 
 def test_every_change_is_told_and_the_last_ends_the_stream(port, computing):
-    job = computing.of("local").jobs.add(REQUEST)
+    job = add_job(computing.of("local").jobs, REQUEST)
     with following(port, job) as read:
         first = read()
         assert (first["event"], json.loads(first["data"])["state"]) == ("progress", "accepted")
@@ -77,7 +78,7 @@ def test_every_change_is_told_and_the_last_ends_the_stream(port, computing):
 
 
 def test_who_comes_back_hears_of_what_is_new_even_after_a_restart(tmp_path, computing):
-    job = computing.of("local").jobs.add(REQUEST)
+    job = add_job(computing.of("local").jobs, REQUEST)
     with listening_service(tmp_path, workers=0) as (_, port), following(port, job) as read:
         heard = read()["id"]
     with listening_service(tmp_path, workers=0) as (_, port):
@@ -107,13 +108,13 @@ def test_a_job_that_does_not_exist_has_no_events(client):
 
 def test_silence_is_filled_with_heartbeats(port, computing, monkeypatch):
     monkeypatch.setattr(events, "HEARTBEAT_S", 0.05)
-    with following(port, computing.of("local").jobs.add(REQUEST)) as read:
+    with following(port, add_job(computing.of("local").jobs, REQUEST)) as read:
         read()
         assert read() == read() == {"": "alive"}
 
 
 def test_a_stream_ends_at_once_when_the_service_does(tmp_path, computing):
-    job = computing.of("local").jobs.add(REQUEST)
+    job = add_job(computing.of("local").jobs, REQUEST)
     with listening_service(tmp_path, workers=0) as (server, port), following(port, job) as read:
         read()
         begun = time.monotonic()
@@ -123,7 +124,7 @@ def test_a_stream_ends_at_once_when_the_service_does(tmp_path, computing):
 
 
 def test_many_who_follow_share_one_look_at_the_database(tmp_path, computing, monkeypatch):
-    job = computing.of("local").jobs.add(REQUEST)
+    job = add_job(computing.of("local").jobs, REQUEST)
     with listening_service(tmp_path, workers=0) as (server, port):
         feed = server._app.state.services.feed
         asked = []
@@ -149,7 +150,7 @@ def test_many_who_follow_share_one_look_at_the_database(tmp_path, computing, mon
 
 
 def test_a_key_of_another_tenant_follows_nothing(tmp_path, computing):
-    job = computing.of("other").jobs.add(REQUEST)
+    job = add_job(computing.of("other").jobs, REQUEST)
     with service(tmp_path) as client:
         assert_problem(client.get(f"/v1/jobs/{job.id}/events"), 404, "not-found")
         assert_problem(client.get(f"/v1/jobs/{job.id}"), 404, "not-found")

@@ -3,6 +3,7 @@
 from sqlalchemy import event
 from sqlalchemy.exc import DataError, IntegrityError
 
+from tests.app.stubs import add_job
 from veritorque.app.store import queueing
 from veritorque.app.store.errors import KeyReused, OverQuota
 from veritorque.app.store.queueing import NewJob
@@ -35,7 +36,7 @@ def test_together_gives_what_one_after_the_other_gives(store):
 
 def test_what_was_asked_for_earlier_answers_those_who_come_together(store):
     jobs = store.of("local").jobs
-    first, keyed = jobs.add(asked(1).request), jobs.add(asked(2).request, key="k")
+    first, keyed = add_job(jobs, asked(1).request), add_job(jobs, asked(2).request, key="k")
     jobs.dismiss(keyed.id)
     found = jobs.begin_to_add([asked(1), asked(2, "k"), asked(2), asked(1, "k")])()
     assert [found[0].id, found[1].id] == [first.id, keyed.id]

@@ -4,6 +4,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from tests.app.stubs import add_job
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.work import MOST_ATTEMPTS
 
@@ -12,7 +13,7 @@ PROBLEM = {"cause": "crashed"}
 
 
 def asked(store, number=0, tenant="local"):
-    return store.of(tenant).jobs.add(JobRequestRecord("identify", "arm", (), {"number": number}))
+    return add_job(store.of(tenant).jobs, JobRequestRecord("identify", "arm", (), {"number": number}))
 
 
 def claimed(store, owner=MINE, most=9):
