@@ -18,7 +18,6 @@ class Listed(Protocol):
     @property
     def sequence(self) -> int | None:
         """Give a number that grows from one to the next; None where it stands before all others."""
-        ...
 
 
 def before(cursor: str | None) -> int | None:

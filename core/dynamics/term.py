@@ -28,19 +28,15 @@ class Term(Protocol):
     @property
     def name(self) -> str:
         """Name the effect as options and results spell it."""
-        ...
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List the parameters the effect has on this robot."""
-        ...
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """List the (joint, parameter) pairs whose series can differ from zero."""
-        ...
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, one row per entry (N m or N per unit of the parameter)."""
-        ...
 
 
 @runtime_checkable

@@ -75,11 +75,9 @@ class LogSource(Protocol):
     @property
     def samples(self) -> int:
         """Count the rows."""
-        ...
 
     def rows(self, start: int, stop: int) -> LogRows:
         """Read the rows from start up to, not including, stop."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,14 +12,11 @@ class Executor(Protocol):
 
     def prepare(self) -> None:
         """Load what the first computation would otherwise wait for."""
-        ...
 
     def run(
         self, task: Computation, workspace: Workspace, *, progress: Progress, stop: Event, timeout_s: float
     ) -> Outcome:
         """Run a computation to its end, until `stop` is set, or until the time is over (s)."""
-        ...
 
     def close(self) -> None:
         """Release all that was prepared, once no computation runs any more."""
-        ...

@@ -64,16 +64,12 @@ class Backend(Protocol):
 
     def robots(self) -> list[Document]:
         """List the robots as `GET /v1/robots` does."""
-        ...
 
     def robot(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Read a robot as `GET /v1/robots/{id}` gives it."""
-        ...
 
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
-        ...
 
     def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
         """Compute; give the result document, and write the report where one is wanted."""
-        ...

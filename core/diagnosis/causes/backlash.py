@@ -5,10 +5,9 @@ from dataclasses import dataclass
 
 from ...dynamics.term import Term
 from ...dynamics.terms.backlash import Backlash as BacklashTerm
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, LINEARISATION
-from .protocol import FittedCause, Scalars, SearchTraits, Setting, Site
-from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, revolute_joints, rotor_text
+from .protocol import FittedCause, Scalars, SearchTraits, Setting
+from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, rotor_text
 
 NARROWEST, WIDEST, STEPS = 1e-4, 3e-2, 13
 """Half widths in rad, on a logarithmic scale: half as wide again is another motion."""
@@ -25,10 +24,7 @@ class Backlash(OwnJointCause):
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
     traits = SearchTraits(linearisation_error=LINEARISATION.backlash)
-
-    def sites(self, dataset: Dataset) -> Sequence[Site]:
-        """List the revolute joints."""
-        return [(joint,) for joint in revolute_joints(dataset.robot)]
+    revolute_only = True
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the width of the gap; the time of crossing is its cube root."""

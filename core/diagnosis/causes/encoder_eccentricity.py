@@ -1,6 +1,5 @@
 """Candidate cause: an eccentric encoder disc, whose angle error repeats once per revolution."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,12 +8,11 @@ from ...dynamics.term import Term
 from ...dynamics.terms.encoder_error import EncoderEccentricity as EncoderEccentricityTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, LINEARISATION
 from .protocol import FittedCause, Numbers, Quantity, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsLog
 from .shared.harmonics import amplitude_and_angle
-from .shared.own_joint import OwnJointCause, revolute_joints
+from .shared.own_joint import OwnJointCause
 
 
 @dataclass(frozen=True)
@@ -28,10 +26,7 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     experiment = "fast motion through as much of a revolution as the joint's range allows"
     coordinate = "position"
     traits = SearchTraits(linearisation_error=LINEARISATION.eccentricity)
-
-    def sites(self, dataset: Dataset) -> Sequence[Site]:
-        """List the revolute joints."""
-        return [(joint,) for joint in revolute_joints(dataset.robot)]
+    revolute_only = True
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""

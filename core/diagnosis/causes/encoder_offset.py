@@ -1,17 +1,15 @@
 """Candidate cause: a joint's zero that differs from the robot's description."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ...dynamics.term import Term
 from ...dynamics.terms.encoder_error import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
-from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Setting, Site, number_text
 from .repairs import CorrectsRobot
-from .shared.own_joint import OwnJointCause, revolute_joints
+from .shared.own_joint import OwnJointCause
 
 
 @dataclass(frozen=True)
@@ -27,10 +25,7 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
     units = (("offset", "rad"),)
     experiment = "motion of the joints beyond this one through their whole range, with this joint moving too"
     coordinate = "position"
-
-    def sites(self, dataset: Dataset) -> Sequence[Site]:
-        """List the revolute joints."""
-        return [(joint,) for joint in revolute_joints(dataset.robot)]
+    revolute_only = True
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""

@@ -142,41 +142,31 @@ class Cause(Protocol):
     @property
     def units(self) -> tuple[tuple[str, str], ...]:
         """List name and unit of every number it reports."""
-        ...
 
     @property
     def cure(self) -> Cure:
         """Tell whether a term, a signal or the robot's description is to be corrected."""
-        ...
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List where it can act."""
-        ...
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """List the values of its nonlinear scalars to be scanned; one empty mapping where it has none."""
-        ...
 
     def term(self, at: Setting) -> Term:
         """Give its torque per unit of its linear parameters."""
-        ...
 
     def admissible(self, solved: FittedCause) -> bool:
         """Tell whether the estimates are physically admissible: signs and sizes."""
-        ...
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the reported numbers, under the names of the public enumeration."""
-        ...
 
     def statement(self, solved: FittedCause) -> str:
         """State in one sentence what is wrong, with its numbers."""
-        ...
 
     def numbers(self, dataset: Dataset, solved: FittedCause) -> Numbers:
         """Give the numbers of the repair."""
-        ...
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """State in one sentence what corrects it: what changes from which value to which."""
-        ...

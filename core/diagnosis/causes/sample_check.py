@@ -58,7 +58,6 @@ class SampleCheck(Protocol):
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Search the logs for it."""
-        ...
 
 
 def residual_share(dataset: Dataset, operating_point: Prediction, corrupt: Corruption) -> JointVector:

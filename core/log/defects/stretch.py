@@ -97,11 +97,9 @@ class Finder(Protocol):
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        ...
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State what was found."""
-        ...
 
 
 def stretches(source: LogSource) -> Iterator[Stretch]:

@@ -36,11 +36,9 @@ class Table(Protocol):
     @property
     def names(self) -> tuple[str, ...]:
         """List the columns in the file's order."""
-        ...
 
     def batches(self, names: Sequence[str]) -> Iterator[Series]:
         """Read the named columns from the first row on; one array of columns by rows per batch."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,10 +31,13 @@ class OwnJointCause:
     experiment: ClassVar[str] = ""
     coordinate: ClassVar[str] = "velocity"
     traits: ClassVar[SearchTraits] = SearchTraits()
+    revolute_only: ClassVar[bool] = False
+    """Whether it acts on revolute joints only."""
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
-        """List every joint."""
-        return [(joint,) for joint in range(1, dataset.joints + 1)]
+        """List every joint that it may act on."""
+        joints = revolute_joints(dataset.robot) if self.revolute_only else range(1, dataset.joints + 1)
+        return [(joint,) for joint in joints]
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan nothing."""
