@@ -19,8 +19,7 @@ from ..problems import problem_of, problem_of_damage
 from ..processes.fork_server import READERS
 from ..store.errors import Damaged
 from ..store.records import Document
-from .budget import Budget
-from .confinement import confine
+from .confinement import Budget, confine
 
 Work = Callable[[], Document]
 RESULT, FAILURE, TRACE = b"r", b"f", b"t"

@@ -13,10 +13,10 @@ import signal
 import struct
 import sys
 import sysconfig
+from dataclasses import dataclass
 from pathlib import Path
 
 from ... import app, core
-from .budget import Budget
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 VERSION_FLAG, PATH_BENEATH, NO_NEW_PRIVILEGES = 1, 1, 38
@@ -24,6 +24,19 @@ ALL_FILE_ACCESS = (1 << 13) - 1
 READ_FILE, READ_DIRECTORY = 1 << 2, 1 << 3
 ALL_TCP = 3
 FIRST_WITH_TCP = 4
+MEGABYTE = 1024**2
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Bound what one process may use."""
+
+    processor_s: float
+    """Processor time, s, which does not depend on what else the machine does."""
+    wall_s: float
+    """Time by the clock, s; it is there for processes that wait forever."""
+    memory_bytes: int
+    """Memory beyond what the loaded libraries take."""
 
 
 def confine(path: Path, budget: Budget) -> None:
@@ -82,3 +95,18 @@ def _permit(rules: int, path: str, access: int) -> None:
 def _call(number: int, *arguments: int | bytes | None) -> int:
     given = (ctypes.c_long(value) if isinstance(value, int) else value for value in arguments)
     return int(ctypes.CDLL(None, use_errno=True).syscall(ctypes.c_long(number), *given))
+
+
+def budget_for(size: int) -> Budget:
+    """Give the budget of reading a file of so many bytes: a little in any case, and more the longer it is.
+
+    A file that asks for much more than its bytes justify is made to hurt: it unpacks to a multiple of its
+    size, or makes its reader turn in circles. What a sound file needs is a fraction of these figures.
+
+    Examples
+    --------
+    >>> budget_for(0).processor_s, budget_for(20 * MEGABYTE).processor_s
+    (1.0, 4.0)
+    """
+    processor_s = 1.0 + 0.15 * size / MEGABYTE
+    return Budget(processor_s, 120.0 + 10.0 * processor_s, 160 * MEGABYTE + 6 * size)

@@ -19,7 +19,7 @@ from ..problems import Problem, problem_of
 from ..processes.fork_server import Child, ProcessPool, fork_server
 from ..store.records import Document
 from . import child
-from .budget import Budget, budget_for
+from .confinement import Budget, budget_for
 from .log_reading import ChannelSelection, LogFile, summarise_log, trace_log
 
 LOGGER = logging.getLogger(__name__)

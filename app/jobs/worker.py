@@ -250,7 +250,7 @@ class Worker:
 
 
 class Reporter:
-    """Write progress to the store: every new stage, and fractions a few times a second."""
+    """Write progress to the store: every new stage, fractions so seldom that they cost less than the work."""
 
     def __init__(self, store: Store, held: Held) -> None:
         self._store, self._held = store, held

@@ -38,3 +38,22 @@ class ProblemDocument(Open):
         dict[str, JsonValue], Field(description="numbers, names and JSON pointers that support it")
     ]
     remedy: Annotated[str, Field(description="what to change")]
+
+
+class JointFit(Open):
+    """Torque prediction error of a joint."""
+
+    joint: int
+    samples: int = 0
+    rms_torque: float
+    rms_residual: float
+    nrmse_of_range_percent: float | None
+    nrmse_of_rms_percent: float | None
+
+
+class HeldOutSpan(Open):
+    """A held-out span of a log."""
+
+    log: Annotated[int, Field(description="counted from 1")]
+    begin_s: float
+    end_s: float

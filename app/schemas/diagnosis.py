@@ -4,8 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from .common import Open
-from .fit import HeldOutSpan, JointFit
+from .common import HeldOutSpan, JointFit, Open
 from .robots import RobotDescription
 
 Matrix = list[list[float | None]]

@@ -4,9 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from .common import Open
+from .common import HeldOutSpan, JointFit, Open
 from .diagnosis import Diagnosis
-from .fit import HeldOutSpan, JointFit
 
 
 class BaseParameter(Open):

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Samples
 from ..errors import OptionError
 from ..signals.condition import Motion
-from ..signals.tile import Tile
+from ..signals.parallel import Tile
 from .columns import ColumnPlan
 from .factor import Factor, FilteredRows, Weigh
 from .memory import LaggedProducts

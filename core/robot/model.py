@@ -188,7 +188,9 @@ INERTIAL_UNITS = dict(zip(INERTIAL_SYMBOLS, ("kg m2",) * 6 + ("kg m",) * 3 + ("k
 
 @dataclass(frozen=True)
 class Parameter:
-    """Name one scalar of the model.
+    """Name one scalar of the model; its place in a vector is no name, because orders differ between tools.
+
+    Source of the symbols: Khalil & Dombre, Modeling, Identification and Control of Robots (2002), ch. 9, 12.
 
     Examples
     --------

@@ -15,9 +15,9 @@ from ..arrays import JointVector
 from ..errors import LogError
 from ..log.model import JointLog
 from ..robot.model import RobotModel
+from .parallel import Tile
 from .recipe import FilterOptions, Recipe, choose_recipe
 from .segment import Segment, gap_free
-from .tile import Tile
 
 TILE_KEPT = 512
 

@@ -1,8 +1,8 @@
 """Filter and thin many series at once: the parallel filter as one matrix product per tile.
 
 Filtering both sides of a linear equation with the same linear filter leaves the equation true; so no delay,
-no edge effect and no choice of cut-off can bias it. Only the kept instants are computed. Source: Gautier
-1997; Khalil & Dombre (2002), ch. 12.
+no edge effect and no choice of cut-off can bias it. Only the kept instants are computed. A tile is a stretch
+of motion together with its filter. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
 from dataclasses import dataclass
@@ -10,7 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import KeptSeries, Matrix, Samples, Series
+from ..arrays import InstantMask, Instants, JointSeries, KeptSeries, Matrix, Samples, Series
+from .state import MotionState
 
 _ROWS = 32
 
@@ -63,3 +64,27 @@ class ParallelFilter:
             weights = band[inside.start - left : inside.stop - left, :rows]
             out[:, begin : begin + rows] = series[:, inside] @ weights
         return out
+
+
+@dataclass(frozen=True, eq=False)
+class Tile:
+    """Carry a stretch of motion at the log's rate, with the parallel filter's kept instants inside it."""
+
+    state: MotionState
+    """Position, velocity, acceleration at the log's rate, the filter's reach included."""
+    torque: JointSeries
+    """Joint torque at the same instants, N m or N."""
+    parallel: ParallelFilter
+    first: int
+    time: Instants
+    """Sample at which the first kept instant lies, and the kept instants in s."""
+    usable: InstantMask
+    """Which kept instants may be used for which joint."""
+    block: int
+    """Number of the log's block that the tile belongs to."""
+    follows: bool
+    """Whether its first kept instant comes right after the last of the tile before, without a gap."""
+
+    def filtered(self, series: Series) -> KeptSeries:
+        """Apply the parallel filter to rows of samples and keep the tile's instants."""
+        return self.parallel.apply(series, self.first, len(self.time))

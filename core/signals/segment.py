@@ -15,11 +15,10 @@ from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVecto
 from ..log.defects.clock import GAP_STEPS, SHORT_GAP_S
 from ..log.model import JointLog, LogRows
 from .derivative import centred_difference, median
-from .parallel import ParallelFilter
+from .parallel import ParallelFilter, Tile
 from .recipe import Recipe
 from .resample import dropped_mask, gap_mask, is_uniform, on_grid
 from .state import MotionState
-from .tile import Tile
 from .zero_phase import kernel, reach_of
 
 STILL_SECONDS = 0.2

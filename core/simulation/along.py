@@ -9,8 +9,7 @@ back where a simulated channel is to be read.
 import numpy as np
 
 from ..arrays import JointSeries
-from .mechanism import Mechanism
-from .share import Share
+from .mechanism import Mechanism, Share
 from .windows import Stretch
 
 

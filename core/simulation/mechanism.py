@@ -5,7 +5,7 @@ a set with a level, and every other term is evaluated as it stands at the state 
 no function of that state: what depends on the motion before, and what only the torque channel shows.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -29,9 +29,25 @@ from . import forward
 from .bodies import Phases, is_body, phases_of
 from .forward import Bodies
 from .inverse import bodies_of, columns
-from .share import Share, share_of
 
 Parts = list[tuple[Term, Weights]]
+
+
+@dataclass(frozen=True, eq=False)
+class Share:
+    """Hold terms as a model of their own, and their parameters."""
+
+    model: DynamicModel
+    parameters: Parameters
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Name the terms."""
+        return tuple(term.name for term in self.model.terms)
+
+    def torque(self, state: MotionState) -> JointSeries:
+        """Give the torque (N m or N) of these terms alone."""
+        return self.model.torque(self.parameters, state)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,3 +203,9 @@ def _check_levels(levels: np.ndarray) -> None:
             evidence={"levels": [float(level) for level in levels]},
             remedy="estimate with the semidefinite programme, which keeps friction physical",
         )
+
+
+def share_of(robot: RobotModel, parts: Sequence[tuple[Term, Weights]]) -> Share:
+    """Put terms together."""
+    model = DynamicModel(robot, tuple(term for term, _ in parts))
+    return Share(model, np.concatenate([np.zeros(0), *(values for _, values in parts)]))

@@ -12,8 +12,8 @@ import numpy as np
 from ..arrays import BlockKey, JointSeries, Samples
 from ..errors import LogError
 from ..signals.condition import Motion, without_standstill_mask
+from ..signals.parallel import Tile
 from ..signals.state import MotionState, concatenate_states
-from ..signals.tile import Tile
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from veritorque.core.robot.builtin import builtin_robot
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.signals import condition as conditioning
 from veritorque.core.signals import segment
-from veritorque.core.signals.tile import Tile
+from veritorque.core.signals.parallel import Tile
 from veritorque.core.study import IdentifyRequest, base_parameters, identify, identify_in_full
 
 MODEL = standard_model(planar_robot())

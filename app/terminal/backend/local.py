@@ -6,10 +6,9 @@ from pathlib import Path
 
 from ....core.errors import LogError, OptionError, RobotError
 from ...json_text import json_bytes
-from ..kernel_cache import COMPILING, share_compiled_kernels
+from ..computing import COMPILING, limit_threads, share_compiled_kernels
 from ..output.files import save
 from ..output.streams import note
-from ..threads import limit_threads
 from .protocol import WHOLE, Document, FromUrdf, Progress, Study, require_whole
 
 

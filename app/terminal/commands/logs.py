@@ -45,8 +45,8 @@ def check(
     json: JsonOption = False,
 ) -> None:
     """Show columns, units, rate and defects of a log: gaps, outliers, saturation ..."""
+    from ..computing import limit_threads
     from ..output.logcheck import document_of, lines_of
-    from ..threads import limit_threads
 
     limit_threads(1)
     chosen = mapping_of(mapping, profile)

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...settings import PREFIX, Settings
+from ..computing import COMPILING, keep_compiled_kernels, limit_threads
 from ..environment import open_store, read_settings, require_directory, stop
-from ..kernel_cache import COMPILING, keep_compiled_kernels
 from ..output.streams import echo
-from ..threads import limit_threads
 
 if TYPE_CHECKING:
     from ...store.store import Store

@@ -4,9 +4,8 @@ from typing import Annotated
 
 import typer
 
+from ..computing import keep_compiled_kernels, limit_threads
 from ..environment import open_store, read_settings, require_directory
-from ..kernel_cache import keep_compiled_kernels
-from ..threads import limit_threads
 
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
 

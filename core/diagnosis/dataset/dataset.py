@@ -8,7 +8,7 @@ velocity is not the direction of friction. Of long logs evenly spread stretches 
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
@@ -35,7 +35,6 @@ from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
-from .onset_filter import onset_rows
 from .segments import DatasetSegment, segments_of, thinning
 from .stretch import Stretch
 
@@ -249,3 +248,20 @@ def _filter_batch(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tup
     ends = np.cumsum([len(series) for series in batch.values()])[:-1]
     filtered = stretch.filtered(np.vstack(list(batch.values())))
     yield from zip(batch, np.split(filtered, ends), strict=True)
+
+
+def onset_rows(body: Payload, robot: RobotModel, stretch: Stretch) -> KeptSeries:
+    """Give the filtered series of a body, from those of one that is always there.
+
+    Its onset is searched finely and its columns are many; away from the onset they are the other's, or zero.
+    """
+    time = stretch.state.time
+    begin = 0 if time is None else int(np.searchsorted(time, body.begin))
+    return stretch.begun(*_throughout(robot, body.link, stretch), begin)
+
+
+@lru_cache(maxsize=8)
+def _throughout(robot: RobotModel, link: int, stretch: Stretch) -> tuple[Series, KeptSeries]:
+    """Give the series of a body that was there all along, and what filtering them gives."""
+    series = Payload(0, link, -np.inf).series(robot, stretch.state)
+    return series, stretch.filtered(series)

@@ -20,7 +20,7 @@ from ...identification.result import Identification
 from ...regressor.columns import ColumnPlan
 from ...regressor.observe import compare
 from ...robot.model import RobotModel
-from ...signals.tile import Tile
+from ...signals.parallel import Tile
 from .layout import EXTENDED, HELD_OUT, LOG, MEASURED, PREDICTED, TIME, USED, column, unit
 
 TILES_TOGETHER = 32

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from veritorque.app.inspection.budget import MEGABYTE, Budget
-from veritorque.app.inspection.confinement import can_hide_files, confine
+from veritorque.app.inspection.confinement import MEGABYTE, Budget, can_hide_files, confine
 
 PLENTY = Budget(10.0, 10.0, 500 * MEGABYTE)
 NEEDS_LANDLOCK = pytest.mark.skipif(not can_hide_files(), reason="this kernel has no Landlock")

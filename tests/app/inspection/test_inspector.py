@@ -7,7 +7,7 @@ import pytest
 
 from tests.app.planar_arm import csv_log
 from veritorque.app.inspection import inspector as module
-from veritorque.app.inspection.budget import MEGABYTE, Budget, budget_for
+from veritorque.app.inspection.confinement import MEGABYTE, Budget, budget_for
 from veritorque.app.inspection.inspector import Inspector
 from veritorque.app.inspection.log_reading import LogFile
 from veritorque.app.problems import Problem

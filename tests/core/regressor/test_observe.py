@@ -25,8 +25,8 @@ from veritorque.core.regressor.memory import LaggedProducts
 from veritorque.core.regressor.observe import Observation, equations, observe, residuals, torque_scales
 from veritorque.core.signals import condition as conditioning
 from veritorque.core.signals.condition import Motion, condition
+from veritorque.core.signals.parallel import Tile
 from veritorque.core.signals.recipe import FilterOptions
-from veritorque.core.signals.tile import Tile
 
 BLOCKS = 12
 INSIDE = range(2, 10)

@@ -13,9 +13,8 @@ from veritorque.core.dynamics.terms.torque_gain import CommonGain
 from veritorque.core.errors import OptionError
 from veritorque.core.signals.state import MotionState
 from veritorque.core.simulation.inverse import inverse_dynamics
-from veritorque.core.simulation.mechanism import mechanism_of
+from veritorque.core.simulation.mechanism import mechanism_of, share_of
 from veritorque.core.simulation.replay import Gains, ReplayOptions, default_gains, fitted_gains, replay
-from veritorque.core.simulation.share import share_of
 
 
 @pytest.mark.parametrize("feed_forward", ["measured", "model"])

@@ -1,4 +1,4 @@
-"""Know where compiled kernels are kept, and say so where the first computation has to compile them."""
+"""Prepare this process for computations: threads of linear algebra, and where compiled kernels are kept."""
 
 import os
 from pathlib import Path
@@ -24,3 +24,15 @@ def share_compiled_kernels() -> bool:
 
 def _hold_any(kernels: Path) -> bool:
     return any(kernels.rglob("*.nbi"))
+
+
+def limit_threads(cpus: int) -> None:
+    """Let linear algebra use a thread per CPU of a computation, unless the operator has decided otherwise.
+
+    The matrices are small: more threads double the CPU time of a job, wait for each other on a busy machine,
+    and add numbers in an order that depends on their count. Arrow shall not reserve memory that it does not
+    use, because what a computation may use is counted. It has to stand before numpy is loaded.
+    """
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, str(cpus))
+    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
