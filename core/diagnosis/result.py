@@ -60,21 +60,16 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Gain:
-    """Hold what a finding gains on held-out rows.
-
-    Attributes
-    ----------
-    before, after
-        RMS residual per joint without and with it, N m or N.
-    improvement_percent, interval_95
-        Of the residual's RMS on the finding's joints together, from a bootstrap over contiguous blocks.
-    """
+    """Hold what a finding gains on held-out rows."""
 
     before: JointVector
     after: JointVector
+    """RMS residual per joint without and with it, N m or N."""
     improvement_percent: JointVector
     total_percent: float
     interval_95: tuple[float, float]
+    """Improvement of the residual's RMS, per joint and on the finding's joints together, whose interval is
+    from a bootstrap over contiguous blocks."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -102,12 +102,8 @@ def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> 
     if annotation is Prediction:
         return predictions[int(value)]
     if annotation is Coupling:
-        return Coupling(
-            str(value["name"]),
-            int(value["number"]),
-            _numbers(value["joints"], int),
-            _numbers(value["weights"]),
-        )
+        joints, weights = _numbers(value["joints"], int), _numbers(value["weights"])
+        return Coupling(str(value["name"]), int(value["number"]), joints, weights)
     if annotation is float:
         return float(value)
     if isinstance(value, list):

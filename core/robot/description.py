@@ -164,11 +164,8 @@ def _limits(row: Fields) -> Limits:
         if lower >= upper:
             limits.refuse("position", "has its lower limit at or above the upper one")
         position = (lower, upper)
-    return Limits(
-        position,
-        limits.optional_number("velocity", positive=True),
-        limits.optional_number("torque", positive=True),
-    )
+    velocity, torque = (limits.optional_number(name, positive=True) for name in ("velocity", "torque"))
+    return Limits(position, velocity, torque)
 
 
 def _link(row: Fields, number: int, numbers: Mapping[str, int]) -> Link:

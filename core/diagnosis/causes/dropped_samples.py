@@ -16,7 +16,7 @@ from ...log.model import LogRows
 from ...signals.condition import Motion
 from ...signals.resample import dropped_mask
 from ..dataset.dataset import Dataset
-from ..thresholds.samples import SAMPLE_CHECKS
+from ..thresholds.dataset import SAMPLE_CHECKS
 from .protocol import Quantity
 from .sample_check import Corruption, SampleCheck, SampleFinding, residual_share
 

@@ -11,7 +11,7 @@ from ...log.defects.stretch import stretches
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
 from ..dataset.dataset import Dataset
-from ..thresholds.samples import SAMPLE_CHECKS
+from ..thresholds.dataset import SAMPLE_CHECKS
 from .protocol import Quantity
 from .sample_check import Corruption, SampleCheck, SampleFinding, disturbance, share_of_residual
 

@@ -23,7 +23,7 @@ from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
 from ..regression.innovation_covariance import fitted_rows, torque_residual
-from ..thresholds.samples import SAMPLE_CHECKS
+from ..thresholds.dataset import SAMPLE_CHECKS
 from .protocol import Cure, Quantity, Site
 
 Corruption = Callable[[JointSeries, JointSeries, np.random.Generator], JointSeries]

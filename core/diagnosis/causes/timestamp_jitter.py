@@ -20,7 +20,7 @@ from ...signals.resample import dropped_mask, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
-from ..thresholds.samples import SAMPLE_CHECKS
+from ..thresholds.dataset import SAMPLE_CHECKS
 from .protocol import Quantity, number_text
 from .sample_check import Corruption, SampleCheck, SampleFinding, residual_share
 

@@ -75,11 +75,8 @@ class Frame:
 
     def line(self, x: Values, y: Values, kind: str) -> Markup:
         """Draw a curve."""
-        return element(
-            "polyline",
-            points=_points([self.at(*point) for point in zip(x, y, strict=True)]),
-            class_=f"line {kind}",
-        )
+        points = [self.at(*point) for point in zip(x, y, strict=True)]
+        return element("polyline", points=_points(points), class_=f"line {kind}")
 
     def band(self, x: Values, low: Values, high: Values, kind: str) -> Markup:
         """Fill what lies between two curves."""
