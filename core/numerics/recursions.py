@@ -106,7 +106,7 @@ def banded_gram(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover
     return products
 
 
-@njit(**_PART)
+@njit(inline="always")
 def _innovate_row(row, known, columns, weights) -> np.ndarray:
     """Give what is new in one row of columns, of which so many rows before it are not zero."""
     new = np.zeros(columns.shape[1])
@@ -162,7 +162,7 @@ def _subtract_spanned(sums, products, inside, low, high) -> None:
                 cross[fitted, tested] -= inside[column, fitted] * products[column, tested]
 
 
-@njit(**_PART)
+@njit(inline="always")
 def _copy_sums(sums, own) -> None:
     """Write sums over rows into a table's rows for them; numba compiles loops sooner than slices."""
     for tested in range(len(sums[0])):
@@ -173,65 +173,20 @@ def _copy_sums(sums, own) -> None:
             own[3][fitted, tested] = sums[3][fitted, tested]
 
 
-@njit(**_PART)
-def _ranges(rows, factor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Give the lowest loose column that acts from each row on, one above the highest before it; and groups.
-
-    A group begins at a column before which none is tied to it, or to one behind it.
-    """
-    loose, begins = rows[6], rows[7]
-    count, many = len(begins) - 1, len(factor)
-    lowest, above = np.full(count + 1, many), np.zeros(count + 1, dtype=np.int64)
-    for row in range(count):
-        above[row + 1] = above[row]
-        for at in range(begins[row], begins[row + 1]):
-            above[row + 1] = max(above[row + 1], loose[at] + 1)
-    for row in range(count - 1, -1, -1):
-        lowest[row] = lowest[row + 1]
-        for at in range(begins[row], begins[row + 1]):
-            lowest[row] = min(lowest[row], loose[at])
-    group = np.ones(many + 1, dtype=np.bool_)
-    for column in range(many):
-        for beyond in range(1, min(factor.shape[1], many - column)):
-            if factor[column, beyond] != 0.0:
-                group[column + 1 : column + beyond + 1] = False
-    return lowest, above, group
-
-
 _ROWS = (
     "Tuple((float64[:,::1], int64[::1], float64[:,::1], float64[::1], float64[:,::1], float64[::1],"
     " int32[::1], int32[::1]))"
 )
+_RANGES = "Tuple((int64[::1], int64[::1], boolean[::1]))"
 _PRODUCTS = "Tuple((float64[:,::1], float64[:,::1], float64[:,:,::1], float64[:,:,::1]))"
 
 
-@njit(f"void({_ROWS}, float64[:,::1], float64[:,::1], int64[::1], {_PRODUCTS})", **_SUMS)
-def sum_from_onsets(rows, factor, inside, first, products) -> None:  # pragma: no cover  (compiled)
-    """Write the products of columns that are zero before some row, made white, for many such rows.
-
-    From as many rows on as the noise remembers, what is white is what is white all along: those rows are
-    summed from the last one back. Loose columns come in groups that have nothing to do with each other, and
-    only what the group spans in which the columns begin is not what it is all along.
-
-    Parameters
-    ----------
-    rows
-        Columns (rows x columns); how many rows of its run precede each; what makes columns white (see
-        `innovate`); white rows that these are multiplied by, one column and many; and white loose columns,
-        which stand for anything, in the order of time: as compressed rows, sizes, columns and begins.
-    factor
-        The banded factor of the loose columns' products (columns x band, the diagonal first).
-    inside
-        What these span of the many, along orthonormal axes.
-    first
-        The rows, in rising order.
-    products
-        Products with the one column, of each column with itself, of all with each other, and with the many;
-        of the last two only what the loose columns do not span.
-    """
+@njit(f"void({_ROWS}, {_RANGES}, float64[:,::1], float64[:,::1], int64[::1], {_PRODUCTS})", **_SUMS)
+def _sum_with_ranges(rows, ranges, factor, inside, first, products) -> None:  # pragma: no cover  (compiled)
+    """Write what `sum_from_onsets` does, with the ranges of loose columns."""
     columns, fitted, most = rows[0], rows[4], len(rows[2]) - 1
     (count, width), many = columns.shape, len(factor)
-    lowest, above, group = _ranges(rows, factor)
+    lowest, above, group = ranges
     sums = (np.zeros(width), np.zeros(width), np.zeros((width, width)), np.zeros((fitted.shape[1], width)))
     seen, parts = np.zeros((many, width)), np.zeros((many, width))
     summed, known = count, many
@@ -255,6 +210,50 @@ def sum_from_onsets(rows, factor, inside, first, products) -> None:  # pragma: n
             _add_row(row, min(rows[1][row], most, row - begin), rows, own, parts)
         _solve(parts, factor, low, high)
         _subtract_spanned(own, parts, inside, low, high)
+
+
+def sum_from_onsets(
+    rows: tuple[np.ndarray, ...],
+    factor: np.ndarray,
+    inside: np.ndarray,
+    first: np.ndarray,
+    products: tuple[np.ndarray, ...],
+) -> None:
+    """Write the products of columns that are zero before some row, made white, for many such rows.
+
+    From as many rows on as the noise remembers, what is white is what is white all along: those rows are
+    summed from the last one back. Loose columns come in groups that have nothing to do with each other, and
+    only what the group spans in which the columns begin is not what it is all along.
+
+    Parameters
+    ----------
+    rows
+        Columns (rows x columns); how many rows of its run precede each; what makes columns white (see
+        `innovate`); white rows that these are multiplied by, one column and many; and white loose columns,
+        which stand for anything, in the order of time: as compressed rows, sizes, columns and begins.
+    factor
+        The banded factor of the loose columns' products (columns x band, the diagonal first).
+    inside
+        What these span of the many, along orthonormal axes.
+    first
+        The rows, in rising order.
+    products
+        Products with the one column, of each column with itself, of all with each other, and with the many;
+        of the last two only what the loose columns do not span.
+    """
+    _sum_with_ranges(rows, _ranges(rows[6], rows[7], factor), factor, inside, first, products)
+
+
+def _ranges(loose: np.ndarray, begins: np.ndarray, factor: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Give the lowest loose column that acts from each row on, one above the highest before it; and groups.
+
+    A group begins at a column before which none is tied to it, or to one behind it.
+    """
+    many, band = factor.shape
+    lowest = np.append(np.minimum.accumulate(loose[::-1])[::-1], many)[begins]
+    above = np.append(0, np.maximum.accumulate(loose) + 1)[begins]
+    tied = np.arange(many) + (np.arange(band) * (factor != 0.0)).max(axis=1)
+    return lowest, above, np.append(True, np.maximum.accumulate(tied) < np.arange(1, many + 1))
 
 
 @njit("void(float64[::1], float64, float64, float64[::1])", **_EXACT)

@@ -11,43 +11,32 @@ place. A matrix that is not positive definite leaves nan behind. Source: Golub &
 import numpy as np
 from numba import njit
 
-PART = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-"""Only compiled functions call these, so that they need no way in from Python."""
-INLINE = {**PART, "forceinline": True, "fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy"}
-"""LLVM puts such functions into their callers. numba's own `inline` would translate them once per call."""
 
-
-@njit(**INLINE)
-def sub(out, row, table, other, factor, count) -> None:
-    """Subtract a multiple of a row of another table."""
-    for s in range(count):
-        out[row, s] -= factor * table[other, s]
-
-
-@njit(**INLINE)
-def sub_product(out, row, table, left, other, right, count) -> None:
+@njit(inline="always")
+def _sub_product(out, row, table, left, other, right, count) -> None:
     """Subtract the product of two rows."""
     for s in range(count):
         out[row, s] -= table[left, s] * other[right, s]
 
 
-@njit(**INLINE)
-def less_mass_times(out, mass, vector, joints, count) -> None:
+@njit(inline="always")
+def less_mass_times(out, mass, vector, joints, begin, count) -> None:
     """Subtract the mass matrix times a vector."""
     for i in range(joints):
         for j in range(joints):
-            row = max(i, j) * joints + min(i, j)
-            sub_product(out, np.uintp(i), mass, np.uintp(row), vector, np.uintp(j), count)
+            row = np.uintp(max(i, j) * joints + min(i, j))
+            for s in range(count):
+                out[np.uintp(i), s] -= mass[row, s] * vector[np.uintp(j), begin + s]
 
 
-@njit(**INLINE)
+@njit(inline="always")
 def factorise(mass, scale, joints, count) -> None:
     """Turn the lower triangle into its Cholesky factor; `scale` gets one over its diagonal."""
     for j in range(joints):
         for i in range(j, joints):
             own = np.uintp(i * joints + j)
             for k in range(j):
-                sub_product(mass, own, mass, np.uintp(i * joints + k), mass, np.uintp(j * joints + k), count)
+                _sub_product(mass, own, mass, np.uintp(i * joints + k), mass, np.uintp(j * joints + k), count)
         own = np.uintp(j * joints + j)
         for s in range(count):
             scale[np.uintp(j), s] = 1.0 / np.sqrt(mass[own, s])
@@ -57,22 +46,22 @@ def factorise(mass, scale, joints, count) -> None:
                 mass[own, s] *= scale[np.uintp(j), s]
 
 
-@njit(**INLINE)
+@njit(inline="always")
 def substitute(vector, factor, scale, joints, count) -> None:
     """Solve with the Cholesky factor in place."""
     for i in range(joints):
         for k in range(i):
-            sub_product(vector, np.uintp(i), factor, np.uintp(i * joints + k), vector, np.uintp(k), count)
+            _sub_product(vector, np.uintp(i), factor, np.uintp(i * joints + k), vector, np.uintp(k), count)
         for s in range(count):
             vector[np.uintp(i), s] *= scale[np.uintp(i), s]
     for i in range(joints - 1, -1, -1):
         for k in range(i + 1, joints):
-            sub_product(vector, np.uintp(i), factor, np.uintp(k * joints + i), vector, np.uintp(k), count)
+            _sub_product(vector, np.uintp(i), factor, np.uintp(k * joints + i), vector, np.uintp(k), count)
         for s in range(count):
             vector[np.uintp(i), s] *= scale[np.uintp(i), s]
 
 
-@njit(**PART)
+@njit(inline="always")
 def solve_one(vector, factor, scale, s, joints) -> None:
     """Solve one state's equations in place."""
     for i in range(joints):

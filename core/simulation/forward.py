@@ -11,103 +11,60 @@ factorisation, and friction where something is at rest. Source: Featherstone 200
 import numpy as np
 from numba import njit
 
-from .factor import INLINE, factorise, less_mass_times, sub, substitute
+from .factor import factorise, less_mass_times, substitute
 from .hold import hold_block
-from .kernel import BLOCK, OPTIONS, ROBOT, mass_of_block, move_block, scratch, torque_of_block
+from .kernel import BLOCK, OPTIONS, TABLE, move_masses
 
-_TABLE = "float64[:,::1]"
 _NONE = np.empty((0, 0))
 Bodies = tuple[np.ndarray, ...]
 """What the kernels need of a robot, in the order of `kernel.ROBOT`."""
 
 
-@njit(**INLINE)
+@njit(inline="always")
 def _read_block(block, table, begin, count) -> None:
     for row in range(len(table)):
         for s in range(count):
             block[row, s] = table[row, begin + s]
 
 
-@njit(**INLINE)
-def _add(out, row, value, count) -> None:
-    """Add a number to a row."""
-    for s in range(count):
-        out[row, s] += value
-
-
-@njit(**INLINE)
-def _raise_by(out, row, times, factor, begin, count) -> None:
-    """Add a multiple of a time per state."""
-    for s in range(count):
-        out[row, s] += times[begin + s] * factor
-
-
-@njit(**INLINE)
-def _slide(out, row, direction, level, weight, begin, count) -> None:
-    """Subtract the friction of what slides."""
-    for s in range(count):
-        out[row, s] -= weight * (direction[begin + s] * level[begin + s])
-
-
-@njit(**INLINE)
-def _write_block(table, block, begin, count) -> None:
-    """Copy a block's rows to where they belong."""
-    for row in range(len(table)):
-        for s in range(count):
-            table[row, begin + s] = block[row, s]
-
-
-@njit(**INLINE)
-def _add_drives(out, mass, velocity, inertia, damping, count) -> None:
+@njit(inline="always")
+def _add_drives(out, mass, velocity, inertia, damping, begin, count) -> None:
     """Add rotors to the mass matrix, and take viscous friction from the torque."""
     joints = len(inertia)
     for i in range(joints):
         for j in range(joints):
             if damping[i, j] != 0.0:
-                sub(out, np.uintp(i), velocity, np.uintp(j), damping[i, j], count)
+                for s in range(count):
+                    out[np.uintp(i), s] -= damping[i, j] * velocity[np.uintp(j), begin + s]
             if j <= i and inertia[i, j] != 0.0:
-                _add(mass, np.uintp(i * joints + j), inertia[i, j], count)
+                for s in range(count):
+                    mass[np.uintp(i * joints + j), s] += inertia[i, j]
 
 
-@njit(**INLINE)
+@njit(inline="always")
 def _add_implicit(mass, implicit, damping, begin, count) -> None:
     """Add to the mass matrix what the damping becomes within the implicit time."""
     joints = len(damping)
     for i in range(joints):
         for j in range(i + 1):
             if damping[i, j] != 0.0:
-                _raise_by(mass, np.uintp(i * joints + j), implicit, damping[i, j], begin, count)
+                for s in range(count):
+                    mass[np.uintp(i * joints + j), s] += implicit[begin + s] * damping[i, j]
 
 
-@njit(f"void({ROBOT}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})", **OPTIONS)
-def _move_masses(  # pragma: no cover  (compiled)
-    robot, position, velocity, acceleration, torque, mass
-) -> None:
-    """Write torque and the mass matrix's lower triangle (row i * joints + j) of every state.
-
-    All tables are (rows, states); an empty one is not written.
-    """
-    joints, states = position.shape
-    tables = scratch(len(robot[1]))
-    q, v, a = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
-    out, matrix = np.zeros((joints, BLOCK)), np.empty((joints * joints, BLOCK))
-    for begin in range(0, states, BLOCK):
-        start, many = np.uintp(begin), min(BLOCK, states - begin)
-        _read_block(q, position, start, np.uintp(many))
-        _read_block(v, velocity, start, np.uintp(many))
-        _read_block(a, acceleration, start, np.uintp(many))
-        move_block(robot, tables, q, v, a, many)
-        if len(torque):
-            torque_of_block(robot, tables, out, many)
-            _write_block(torque, out, start, np.uintp(many))
-        if len(mass):
-            mass_of_block(robot, tables, matrix, joints, many)
-            _write_block(mass, matrix, start, np.uintp(many))
+@njit(inline="always")
+def _slide(out, weights, direction, level, begin, count) -> None:
+    """Subtract the friction of what slides."""
+    for i in range(len(out)):
+        for e in range(len(weights)):
+            for s in range(count):
+                sliding = direction[np.uintp(e), begin + s] * level[np.uintp(e), begin + s]
+                out[np.uintp(i), s] -= weights[e, i] * sliding
 
 
 @njit(
-    f"void({_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, float64[::1],"
-    f" {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE})",
+    f"void({TABLE}, {TABLE}, {TABLE}, {TABLE}, {TABLE}, {TABLE}, {TABLE}, {TABLE}, float64[::1],"
+    f" {TABLE}, {TABLE}, {TABLE}, {TABLE})",
     **OPTIONS,
 )
 def _accelerate(  # pragma: no cover  (compiled)
@@ -125,31 +82,29 @@ def _accelerate(  # pragma: no cover  (compiled)
     rate,
     held,
 ) -> None:
-    """Solve for the accelerations of every state, whose masses and bias `_move_masses` wrote."""
+    """Solve for the accelerations of every state, whose masses and bias `move_masses` gave."""
     joints, states = velocity.shape
-    v, bias, other = np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK)), np.zeros((joints, BLOCK))
-    out, scale = np.zeros((joints, BLOCK)), np.empty((joints, BLOCK))
+    out, scale = np.empty((joints, BLOCK)), np.empty((joints, BLOCK))
     mass = np.empty((joints * joints, BLOCK))
     for begin in range(0, states, BLOCK):
         start, many = np.uintp(begin), min(BLOCK, states - begin)
         count = np.uintp(many)
-        _read_block(v, velocity, start, count)
         _read_block(out, torque, start, count)
-        _read_block(bias, biases, start, count)
         _read_block(mass, matrices, start, count)
-        _add_drives(out, mass, v, inertia, damping, count)
+        _add_drives(out, mass, velocity, inertia, damping, start, count)
         for i in range(joints):
-            sub(out, np.uintp(i), bias, np.uintp(i), 1.0, count)
-            for e in range(len(weights)):
-                _slide(out, np.uintp(i), direction[e], level[e], weights[e, i], start, count)
+            for s in range(count):
+                out[np.uintp(i), s] -= biases[np.uintp(i), start + s]
+        _slide(out, weights, direction, level, start, count)
         if len(known):
-            _read_block(other, known, start, count)
-            less_mass_times(out, mass, other, joints, count)
+            less_mass_times(out, mass, known, joints, start, count)
         _add_implicit(mass, implicit, damping, start, count)
         factorise(mass, scale, joints, count)
         substitute(out, mass, scale, joints, count)
         hold_block(out, mass, scale, weights, direction, level, held, begin, many)
-        _write_block(rate, out, start, count)
+        for i in range(joints):
+            for s in range(count):
+                rate[np.uintp(i), start + s] = out[np.uintp(i), s]
 
 
 def accelerations(robot: Bodies, *tables: np.ndarray) -> None:
@@ -163,29 +118,30 @@ def accelerations(robot: Bodies, *tables: np.ndarray) -> None:
     """
     position, velocity = tables[3:5]
     joints, states = position.shape
-    mass, bias = np.empty((joints * joints, states)), np.empty((joints, states))
-    _move_masses(robot, position, velocity, np.zeros((joints, states)), bias, mass)
+    mass, bias = np.zeros((joints * joints, states)), np.zeros((joints, states))
+    move_masses(robot, position, velocity, np.zeros((joints, states)), bias, mass)
     _accelerate(mass, bias, *tables[:3], *tables[4:])
 
 
-def torques(robot: Bodies, *tables: np.ndarray) -> None:
-    """Write the torque that moves the masses, for every state.
+def torques(robot: Bodies, *motion: np.ndarray) -> np.ndarray:
+    """Give the torque that moves the masses; it, position, velocity and acceleration are (joints, states)."""
+    torque = np.zeros(motion[0].shape)
+    move_masses(robot, *motion, torque, _NONE)
+    return torque
 
-    Tables are position, velocity, acceleration, and the torque to write; all are (joints, states).
-    """
-    _move_masses(robot, *tables, _NONE)
 
-
-def mass_matrices(robot: Bodies, position: np.ndarray, matrices: np.ndarray) -> None:
-    """Write the whole mass matrix of every state (states, joints, joints); positions are (joints, states)."""
+def mass_matrices(robot: Bodies, position: np.ndarray) -> np.ndarray:
+    """Give the mass matrix of every state (states, joints, joints); positions are (joints, states)."""
     joints, states = position.shape
-    still, mass = np.zeros((joints, states)), np.empty((joints * joints, states))
-    _move_masses(robot, position, still, still, _NONE, mass)
+    matrices, still = np.empty((states, joints, joints)), np.zeros((joints, states))
+    mass = np.zeros((joints * joints, states))
+    move_masses(robot, position, still, still, _NONE, mass)
     lower, upper = np.tril_indices(joints)
     matrices[:, lower, upper] = matrices[:, upper, lower] = mass[lower * joints + upper].T
+    return matrices
 
 
-@njit(f"void({_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS)
+@njit(f"void({TABLE}, {TABLE}, {TABLE}, float64[::1], {TABLE}, {TABLE})", **OPTIONS)
 def predict(position, velocity, rate, time, ahead, speed) -> None:  # pragma: no cover  (compiled)
     """Write position and velocity a time later at a constant rate of the velocity."""
     for row in range(len(position)):
@@ -194,7 +150,7 @@ def predict(position, velocity, rate, time, ahead, speed) -> None:  # pragma: no
             speed[row, s] = velocity[row, s] + time[s] * rate[row, s]
 
 
-@njit(f"void({_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, float64[::1], {_TABLE}, {_TABLE})", **OPTIONS)
+@njit(f"void({TABLE}, {TABLE}, {TABLE}, {TABLE}, {TABLE}, float64[::1], {TABLE}, {TABLE})", **OPTIONS)
 def correct(  # pragma: no cover  (compiled)
     position, velocity, first, predicted, second, time, ahead, speed
 ) -> None:

@@ -12,14 +12,14 @@ projected Gauss-Seidel. Sources: Acary & Brogliato 2008, ch. 12 and 13.
 import numpy as np
 from numba import njit
 
-from .factor import INLINE, PART, solve_one
+from .factor import solve_one
 
 SWEEPS = 2_000
 CLOSE = 1e-13
 """Gauss-Seidel stops when a sweep changes no friction torque by more than this share of its level."""
 
 
-@njit(**PART)
+@njit(inline="always")
 def _settle(coupled, push, level, held) -> None:
     """Find friction torques within their levels that leave as little of the push as they can."""
     for _ in range(SWEEPS):
@@ -35,34 +35,38 @@ def _settle(coupled, push, level, held) -> None:
             break
 
 
-@njit(**PART)
+@njit(inline="always")
 def _stop(rate, s, weights, resting, held, level) -> None:
     """Take from joints that are held what rounding left of their acceleration."""
-    for e in resting:
+    for e in range(len(resting)):
         count, only = 0, 0
         for j in range(weights.shape[1]):
-            if weights[e, j] != 0.0:
+            if weights[resting[e], j] != 0.0:
                 count, only = count + 1, j
         if abs(held[e]) < level[e] and count == 1:
             rate[only, s] = 0.0
 
 
-@njit(**PART)
-def _resting(direction, level) -> np.ndarray:
+@njit(inline="always")
+def _resting(direction, level, at) -> np.ndarray:
     """List the frictions that are at rest and can hold."""
     count = 0
     resting = np.empty(len(level), np.int64)
     for e in range(len(level)):
-        if direction[e] == 0.0 and level[e] > 0.0:
+        if direction[e, at] == 0.0 and level[e, at] > 0.0:
             resting[count] = e
             count += 1
     return resting[:count]
 
 
-@njit(**PART)
-def _hold(rate, factor, scale, s, weights, direction, level, held, joints) -> None:
-    """Keep at rest what friction can keep at rest in one state: changes its accelerations, fills `held`."""
-    resting = _resting(direction, level)
+@njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, error_model="numpy")
+def _hold(rate, factor, scale, s, weights, direction, level, held, at) -> None:
+    """Keep at rest what friction can keep at rest in one state: changes its accelerations, fills `held`.
+
+    The state is number `s` of the block, `at` of all.
+    """
+    joints = len(rate)
+    resting = _resting(direction, level, at)
     answer = np.empty((len(resting), joints))
     coupled = np.empty((len(resting), len(resting)))
     push, limit = np.empty(len(resting)), np.empty(len(resting))
@@ -71,7 +75,7 @@ def _hold(rate, factor, scale, s, weights, direction, level, held, joints) -> No
         for j in range(joints):
             answer[e, j] = weights[resting[e], j]
         solve_one(answer[e], factor, scale, s, joints)
-        push[e], limit[e] = 0.0, level[resting[e]]
+        push[e], limit[e] = 0.0, level[resting[e], at]
         for j in range(joints):
             push[e] += weights[resting[e], j] * rate[j, s]
         for f in range(e + 1):
@@ -81,13 +85,13 @@ def _hold(rate, factor, scale, s, weights, direction, level, held, joints) -> No
             coupled[f, e] = coupled[e, f]
     _settle(coupled, push, limit, found)
     for e in range(len(resting)):
-        held[resting[e]] = found[e]
+        held[resting[e], at] = found[e]
         for j in range(joints):
             rate[j, s] -= found[e] * answer[e, j]
-    _stop(rate, s, weights, resting, held, level)
+    _stop(rate, s, weights, resting, found, limit)
 
 
-@njit(**INLINE)
+@njit(inline="always")
 def _rests(direction, level, s) -> bool:
     found = False
     for e in range(len(level)):
@@ -95,19 +99,9 @@ def _rests(direction, level, s) -> bool:
     return found
 
 
-@njit(**INLINE)
+@njit(inline="always")
 def hold_block(rate, factor, scale, weights, direction, level, held, begin, many) -> None:
     """Hold in every state of a block what is at rest and can be held."""
     for s in range(many):
         if _rests(direction, level, begin + s):
-            _hold(
-                rate,
-                factor,
-                scale,
-                s,
-                weights,
-                direction[:, begin + s],
-                level[:, begin + s],
-                held[:, begin + s],
-                len(rate),
-            )
+            _hold(rate, factor, scale, s, weights, direction, level, held, begin + s)

@@ -21,10 +21,8 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
     links
         Ten inertial parameters per link about its frame's origin (kg m2, kg m, kg).
     """
-    torque = np.empty((len(robot.joints), len(state.position)))
     motion = (columns(series) for series in (state.position, state.velocity, state.acceleration))
-    forward.torques(bodies_of(robot, links), *motion, torque)
-    return np.ascontiguousarray(torque.T)
+    return np.ascontiguousarray(forward.torques(bodies_of(robot, links), *motion).T)
 
 
 def bodies_of(robot: RobotModel, links: LinkTable) -> Bodies:

@@ -29,7 +29,7 @@ def _copy(table, index, rows, many, count) -> None:
 
 @njit(inline="always")
 def _place_link(
-    frame, parent, own, moved, position, joint, count, scale, offset, slides, fixed, shift
+    frame, parent, own, moved, position, joint, begin, count, scale, offset, slides, fixed, shift
 ) -> None:
     """Write the link's frame in the base's: nine rows of rotation, three of position."""
     f00, f01, f02 = fixed[0, 0], fixed[0, 1], fixed[0, 2]
@@ -37,7 +37,7 @@ def _place_link(
     f20, f21, f22 = fixed[2, 0], fixed[2, 1], fixed[2, 2]
     t0, t1, t2 = shift[0], shift[1], shift[2]
     for s in range(count):
-        coordinate = scale * position[joint, s] + offset
+        coordinate = scale * position[joint, begin + s] + offset
         d, c = sine_cosine((1.0 - slides) * coordinate)
         q = slides * coordinate
         x0, x1, x2 = c * f00 + d * f01, c * f10 + d * f11, c * f20 + d * f21
@@ -74,10 +74,10 @@ def _place_axis(axis, frame, own, turns, slides, count) -> None:
 
 
 @njit(inline="always")
-def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, count) -> None:
+def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, begin, count) -> None:
     """Carry spin, origin's speed, and the rates of both less gravity (three rows each) one link outwards."""
     for s in range(count):
-        v, a = velocity[joint, s], acceleration[joint, s]
+        v, a = velocity[joint, begin + s], acceleration[joint, begin + s]
         x0, x1, x2 = axis[own, 0, s], axis[own, 1, s], axis[own, 2, s]
         y0, y1, y2 = axis[own, 3, s], axis[own, 4, s], axis[own, 5, s]
         w0, w1, w2 = motion[parent, 0, s], motion[parent, 1, s], motion[parent, 2, s]
@@ -190,10 +190,10 @@ def _momentum(pushed, body, axis, own, mass, count) -> None:
 
 
 @njit(inline="always")
-def _project(out, row, axis, link, rows, count) -> None:
+def _project(out, row, axis, link, rows, begin, count) -> None:
     """Add a wrench or momentum, seen along a joint's axis, to a row of the output."""
     for s in range(count):
-        out[row, s] += (
+        out[row, begin + s] += (
             axis[link, 0, s] * rows[0, s]
             + axis[link, 1, s] * rows[1, s]
             + axis[link, 2, s] * rows[2, s]
@@ -203,6 +203,7 @@ def _project(out, row, axis, link, rows, count) -> None:
         )
 
 
+TABLE = "float64[:,::1]"
 ROBOT = (
     "Tuple((boolean[::1], int64[::1], int64[::1], float64[::1], float64[::1], float64[:,:,::1],"
     " float64[:,::1], float64[::1], float64[:,::1], float64[::1]))"
@@ -218,12 +219,16 @@ OPTIONS = {
 
 
 @njit(inline="always")
-def scratch(links) -> tuple[np.ndarray, ...]:
+def _scratch(links, gravity) -> tuple[np.ndarray, ...]:
     """Give the tables that a block of states needs: frames, axes, motions, bodies, wrenches, moved rows."""
+    frame, motion = np.zeros((links + 1, 12, BLOCK)), np.zeros((links + 1, 12, BLOCK))
+    frame[0, 0], frame[0, 4], frame[0, 8] = 1.0, 1.0, 1.0
+    for k in range(3):
+        motion[0, 9 + k] = -gravity[k]
     return (
-        np.zeros((links + 1, 12, BLOCK)),
+        frame,
         np.zeros((links + 1, 6, BLOCK)),
-        np.zeros((links + 1, 12, BLOCK)),
+        motion,
         np.zeros((links + 1, 9, BLOCK)),
         np.zeros((links + 1, 6, BLOCK)),
         np.zeros((12, BLOCK)),
@@ -231,54 +236,16 @@ def scratch(links) -> tuple[np.ndarray, ...]:
 
 
 @njit(inline="always")
-def move_block(robot, tables, position, velocity, acceleration, many) -> None:
-    """Fill the tables of a block of states, from the base outwards and back; subtrees are summed.
-
-    The tables have to come from `scratch` in the same function: the compiler then knows that they are apart.
-    """
-    prismatic, antecedent, joint, ratio, offset, rotation, translation, gravity, bodies, _ = robot
-    frame, axis, motion, body, wrench, moved = tables
-    count = np.uintp(many)
-    frame[0, 0], frame[0, 4], frame[0, 8] = 1.0, 1.0, 1.0
-    for k in range(3):
-        motion[0, 9 + k] = -gravity[k]
-    for j in range(len(antecedent)):
-        own, parent, drive = np.uintp(j + 1), np.uintp(antecedent[j]), np.uintp(joint[j])
-        slides = 1.0 if prismatic[j] else 0.0
-        fixed, shift = rotation[j], translation[j]
-        _place_link(
-            frame, parent, own, moved, position, drive, count, ratio[j], offset[j], slides, fixed, shift
-        )
-        _place_axis(axis, frame, own, ratio[j] * (1.0 - slides), ratio[j] * slides, count)
-        _move_link(motion, parent, own, moved, axis, velocity, acceleration, drive, count)
-        _place_body(body, frame, own, bodies[j], count)
-        _load_link(wrench, motion, body, own, bodies[j, 9], count)
-    for j in range(len(antecedent) - 1, -1, -1):
-        if antecedent[j] > 0:
-            own, parent = np.uintp(j + 1), np.uintp(antecedent[j])
-            _gather(wrench, parent, own, np.uintp(6), count)
-            _gather(body, parent, own, np.uintp(9), count)
-
-
-@njit(inline="always")
-def torque_of_block(robot, tables, torque, many) -> None:
-    """Write the joints' torques of a block that has been moved."""
-    joint = robot[2]
-    axis, wrench = tables[1], tables[4]
-    count = np.uintp(many)
-    torque[:] = 0.0
+def _torque_of_block(joint, axis, wrench, torque, begin, count) -> None:
+    """Add the joints' torques of a block that has been moved."""
     for j in range(len(joint)):
         own = np.uintp(j + 1)
-        _project(torque, np.uintp(joint[j]), axis, own, wrench[own], count)
+        _project(torque, np.uintp(joint[j]), axis, own, wrench[own], begin, count)
 
 
 @njit(inline="always")
-def mass_of_block(robot, tables, mass, joints, many) -> None:
-    """Write the lower triangle of the mass matrix of a block that has been moved, row i * joints + j."""
-    antecedent, joint, masses = robot[1], robot[2], robot[9]
-    axis, body, pushed = tables[1], tables[3], tables[5]
-    count = np.uintp(many)
-    mass[:] = 0.0
+def _mass_of_block(antecedent, joint, masses, axis, body, pushed, mass, joints, begin, count) -> None:
+    """Add the lower triangle of the mass matrix of a block that has been moved, row i * joints + j."""
     for j in range(len(joint)):
         _momentum(pushed, body, axis, np.uintp(j + 1), masses[j], count)
         carrier = j + 1
@@ -287,5 +254,41 @@ def mass_of_block(robot, tables, mass, joints, many) -> None:
             row = np.uintp(max(one, other) * joints + min(one, other))
             # two links that move with one joint meet twice on its diagonal: i with j, and j with i
             for _ in range(2 if one == other and carrier != j + 1 else 1):
-                _project(mass, row, axis, np.uintp(carrier), pushed, count)
+                _project(mass, row, axis, np.uintp(carrier), pushed, begin, count)
             carrier = antecedent[carrier - 1]
+
+
+@njit(f"void({ROBOT}, {TABLE}, {TABLE}, {TABLE}, {TABLE}, {TABLE})", **OPTIONS)
+def move_masses(  # pragma: no cover  (compiled)
+    robot, position, velocity, acceleration, torque, mass
+) -> None:
+    """Add torque and the mass matrix's lower triangle (row i * joints + j) of every state to two tables.
+
+    All tables are (rows, states); an empty one gets nothing. Each block goes from the base outwards and back,
+    and sums subtrees. Scratch tables are made here, so that the compiler knows that they are apart.
+    """
+    prismatic, antecedent, joint, ratio, offset, rotation, translation, gravity, bodies, masses = robot
+    joints, states = position.shape
+    frame, axis, motion, body, wrench, moved = _scratch(len(antecedent), gravity)
+    for begin in range(0, states, BLOCK):
+        start, count = np.uintp(begin), np.uintp(min(BLOCK, states - begin))
+        for j in range(len(antecedent)):
+            own, parent, drive = np.uintp(j + 1), np.uintp(antecedent[j]), np.uintp(joint[j])
+            scale, zero, slides = ratio[j], offset[j], 1.0 if prismatic[j] else 0.0
+            fixed, shift = rotation[j], translation[j]
+            _place_link(
+                frame, parent, own, moved, position, drive, start, count, scale, zero, slides, fixed, shift
+            )
+            _place_axis(axis, frame, own, scale * (1.0 - slides), scale * slides, count)
+            _move_link(motion, parent, own, moved, axis, velocity, acceleration, drive, start, count)
+            _place_body(body, frame, own, bodies[j], count)
+            _load_link(wrench, motion, body, own, bodies[j, 9], count)
+        for j in range(len(antecedent) - 1, -1, -1):
+            if antecedent[j] > 0:
+                own, parent = np.uintp(j + 1), np.uintp(antecedent[j])
+                _gather(wrench, parent, own, np.uintp(6), count)
+                _gather(body, parent, own, np.uintp(9), count)
+        if len(torque):
+            _torque_of_block(joint, axis, wrench, torque, start, count)
+        if len(mass):
+            _mass_of_block(antecedent, joint, masses, axis, body, moved, mass, joints, start, count)

@@ -95,20 +95,17 @@ class Mechanism:
 
     def mass_matrices(self, position: JointSeries) -> np.ndarray:
         """Give the mass matrix (kg m2), rotors included, for every row of positions; of `bodies`."""
-        matrices = np.empty((len(position), self.joints, self.joints))
-        forward.mass_matrices(self.bodies, columns(position), matrices)
-        return np.asarray(matrices + self.inertia)
+        return np.asarray(forward.mass_matrices(self.bodies, columns(position)) + self.inertia)
 
     def torque(self, state: MotionState) -> JointSeries:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""
-        moved = np.empty((self.joints, len(state.position)))
         tables = (columns(series) for series in (state.position, state.velocity, state.acceleration))
         parts = self.model.split(self.parameters)
         links = sum(
             (values.reshape(-1, 10) for term, values in parts if isinstance(term, RigidBody)),
             np.zeros((len(self.robot.links), 10)),
         )
-        forward.torques(bodies_of(self.robot, links), *tables, moved)
+        moved = forward.torques(bodies_of(self.robot, links), *tables)
         rest = [part for part in parts if not isinstance(part[0], RigidBody)]
         return np.asarray(moved.T + share_of(self.robot, rest).torque(state))
 
