@@ -3,6 +3,13 @@
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
+from pydantic.fields import FieldInfo
+
+
+def about(text: str) -> FieldInfo:
+    """Describe a field."""
+    described: FieldInfo = Field(description=text)
+    return described
 
 
 class Strict(BaseModel):
@@ -21,7 +28,7 @@ Identity = Annotated[str, Field(min_length=1, max_length=64, examples=["yumi-lef
 Name = Annotated[str, Field(max_length=200)]
 Options = Annotated[dict[str, JsonValue], Field(max_length=100)]
 Instant = Annotated[str, Field(description="ISO 8601, UTC", examples=["2026-01-31T12:00:00.000+00:00"])]
-Next = Annotated[str | None, Field(description="`cursor` of the next page; null on the last page")]
+Next = Annotated[str | None, about("`cursor` of the next page; null on the last page")]
 
 
 class ProblemDocument(Open):
@@ -33,11 +40,9 @@ class ProblemDocument(Open):
     title: str
     status: int
     detail: str
-    cause: Annotated[str, Field(description="what went wrong")]
-    evidence: Annotated[
-        dict[str, JsonValue], Field(description="numbers, names and JSON pointers that support it")
-    ]
-    remedy: Annotated[str, Field(description="what to change")]
+    cause: Annotated[str, about("what went wrong")]
+    evidence: Annotated[dict[str, JsonValue], about("numbers, names and JSON pointers that support it")]
+    remedy: Annotated[str, about("what to change")]
 
 
 class JointFit(Open):
@@ -54,6 +59,6 @@ class JointFit(Open):
 class HeldOutSpan(Open):
     """A held-out span of a log."""
 
-    log: Annotated[int, Field(description="counted from 1")]
+    log: Annotated[int, about("counted from 1")]
     begin_s: float
     end_s: float

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from .common import HeldOutSpan, JointFit, Open
+from .common import HeldOutSpan, JointFit, Open, about
 from .robots import RobotDescription
 
 Matrix = list[list[float | None]]
@@ -17,11 +17,11 @@ class FoundParameter(Open):
     """A parameter of a finding with its standard deviation."""
 
     name: Annotated[str, Field(examples=["load_coefficient"])]
-    joint: Annotated[int | None, Field(description="null if it belongs to the whole robot")]
+    joint: Annotated[int | None, about("null if it belongs to the whole robot")]
     unit: Annotated[str, Field(examples=["N m"])]
     value: float | None
     standard_deviation: float | None
-    relative_deviation_percent: Annotated[float | None, Field(description="%P")]
+    relative_deviation_percent: Annotated[float | None, about("%P")]
 
 
 class Evidence(Open):
@@ -40,7 +40,7 @@ class Alternative(Open):
     joints: list[int]
     statistic: float | None
     why: str
-    separating_experiment: Annotated[str, Field(description="empty if the alternative was rejected")]
+    separating_experiment: Annotated[str, about("empty if the alternative was rejected")]
 
 
 class Gain(Open):
@@ -65,7 +65,7 @@ class Curve(Open):
     after: Numbers
     model: Numbers
     standard_error: Numbers
-    direction: Annotated[Numbers, Field(description="1 forward motion, -1 backward motion, 0 both")]
+    direction: Annotated[Numbers, about("1 forward motion, -1 backward motion, 0 both")]
 
 
 class Finding(Open):
@@ -104,7 +104,7 @@ class Place(Open):
     unit: str
     low: float
     high: float
-    rms: Annotated[float, Field(description="RMS of the prediction in that range, N m or N")]
+    rms: Annotated[float, about("RMS of the prediction in that range, N m or N")]
 
 
 class Pattern(Open):
@@ -112,36 +112,30 @@ class Pattern(Open):
 
     joint: int
     statement: str
-    likelihood_ratio: Annotated[float, Field(description="log-likelihood ratio statistic")]
-    log10_p: Annotated[float, Field(description="log10 of the p-value, corrected for all patterns")]
+    likelihood_ratio: Annotated[float, about("log-likelihood ratio statistic")]
+    log10_p: Annotated[float, about("log10 of the p-value, corrected for all patterns")]
 
 
 class Unexplained(Open):
     """The unexplained residual per joint: its explainable variance and the noise floor."""
 
-    joints: Annotated[list[int], Field(description="joints with structure in the residual")]
-    pattern: Annotated[
-        Pattern | None, Field(description="the most significant pattern; null if there is none")
-    ]
+    joints: Annotated[list[int], about("joints with structure in the residual")]
+    pattern: Annotated[Pattern | None, about("the most significant pattern; null if there is none")]
     predictable_residual_fraction: Annotated[
-        PerJoint, Field(description="R2, upper bound; null if the joint moves too little")
+        PerJoint, about("R2, upper bound; null if the joint moves too little")
     ]
     interval_95: list[Interval]
     at_rest_fraction: Annotated[
-        PerJoint,
-        Field(description="share of the squared error due to stiction; null if the joint hardly moves"),
+        PerJoint, about("share of the squared error due to stiction; null if the joint hardly moves")
     ] = Field(default=[])
     rms_residual: PerJoint
-    places: Annotated[list[list[Place]], Field(description="per joint, the largest first")]
+    places: Annotated[list[list[Place]], about("per joint, the largest first")]
     noise_floor: PerJoint
     noise_floor_source: list[Literal["repeats", "high_band", "none"]]
     noise_tilt: Annotated[
-        PerJoint,
-        Field(description="power density of the noise at the low end of its band over that at the high end"),
+        PerJoint, about("power density of the noise at the low end of its band over that at the high end")
     ] = Field(default=[])
-    motion_period_s: Annotated[
-        float | None, Field(description="period of the motion; null if it does not repeat")
-    ] = None
+    motion_period_s: Annotated[float | None, about("period of the motion; null if it does not repeat")] = None
 
 
 class JointGain(Open):
@@ -163,13 +157,11 @@ class Side(Open):
     validation: list[JointFit]
     validation_total_percent: float | None = None
     base_parameters: list[dict[str, JsonValue]] = Field(default=[])
-    feasible: Annotated[
-        bool | None, Field(description="whether the extended model is physically consistent")
-    ] = None
+    feasible: Annotated[bool | None, about("whether the extended model is physically consistent")] = None
     solver: dict[str, JsonValue] = Field(default={})
     model: Annotated[
         dict[str, JsonValue] | None,
-        Field(description="the complete extended model, as in the file model.json of the results"),
+        about("the complete extended model, as in the file model.json of the results"),
     ] = None
 
 
@@ -180,10 +172,10 @@ class Repair(Open):
     joints: list[int]
     mends: Annotated[
         Literal["robot", "log", "model", "nothing"],
-        Field(description="corrected object: robot description, log, model (a further term), or nothing"),
+        about("corrected object: robot description, log, model (a further term), or nothing"),
     ]
     what: Annotated[str, Field(examples=["Joint 3's d in the kinematic table goes from 0.25 to 0.268 m"])]
-    numbers: Annotated[dict[str, float], Field(description="values of the correction, SI units")]
+    numbers: Annotated[dict[str, float], about("values of the correction, SI units")]
 
 
 class Motion(Open):
@@ -193,7 +185,7 @@ class Motion(Open):
     windows: int = 0
     position_rms: Matrix = Field(default=[])
     velocity_rms: Matrix = Field(default=[])
-    steady_rms: Annotated[Matrix, Field(description="error of constant velocity")] = Field(default=[])
+    steady_rms: Annotated[Matrix, about("error of constant velocity")] = Field(default=[])
 
 
 class Simulation(Open):
@@ -201,9 +193,7 @@ class Simulation(Open):
 
     before: Motion
     after: Motion
-    note: Annotated[
-        str, Field(description="findings that are simulation inputs, or why there is no simulation")
-    ] = ""
+    note: Annotated[str, about("findings that are simulation inputs, or why there is no simulation")] = ""
     held_out: bool = True
     improvement_percent: Matrix = Field(default=[])
     improvement_total_percent: PerJoint = Field(default=[])
@@ -240,7 +230,7 @@ class SearchStep(Open):
     action: Literal["added", "dropped", "swapped", "kept"]
     cause: str
     joints: list[int]
-    statistic: Annotated[float | None, Field(description="log-likelihood ratio statistic")]
+    statistic: Annotated[float | None, about("log-likelihood ratio statistic")]
 
 
 class ComparedParameter(Open):
@@ -254,14 +244,11 @@ class ComparedParameter(Open):
 class Reference(Open):
     """The reference model of a diagnosis."""
 
-    name: Annotated[str, Field(description="the id of a job, or prior")]
+    name: Annotated[str, about("the id of a job, or prior")]
     left_open: Annotated[
-        list[str],
-        Field(description="base parameters that it does not determine; they are identified from the logs"),
+        list[str], about("base parameters that it does not determine; they are identified from the logs")
     ]
-    worse_than_nothing: Annotated[
-        list[int], Field(description="joints whose torque error exceeds their RMS torque")
-    ]
+    worse_than_nothing: Annotated[list[int], about("joints whose torque error exceeds their RMS torque")]
     base_parameters: list[ComparedParameter]
 
 
@@ -272,24 +259,19 @@ class Diagnosis(Open):
     findings: list[Finding]
     not_identifiable: list[NotIdentifiable]
     unexplained: Unexplained
-    reference: Annotated[
-        Reference | None, Field(description="null if the model was identified from the logs")
-    ] = None
+    reference: Annotated[Reference | None, about("null if the model was identified from the logs")] = None
     gain: list[JointGain]
     before: Side
     after: Side
-    repairs: Annotated[list[Repair], Field(description="corrections, one per finding, in the same order")] = (
-        Field(default=[])
+    repairs: Annotated[list[Repair], about("corrections, one per finding, in the same order")] = Field(
+        default=[]
     )
     repaired_robot: Annotated[
-        RobotDescription | None,
-        Field(description="corrected description, for POST /v1/robots; null if there is none"),
+        RobotDescription | None, about("corrected description, for POST /v1/robots; null if there is none")
     ] = None
     simulation: Simulation
     atlas: list[Dependence]
     spectra: list[Spectrum] = Field(default=[])
-    search: Annotated[list[SearchStep], Field(description="steps in chronological order")] = Field(default=[])
-    band_hz: Annotated[float | None, Field(description="upper frequency limit of the diagnosis")] = None
-    held_out: Annotated[list[HeldOutSpan], Field(description="spans held out from the search")] = Field(
-        default=[]
-    )
+    search: Annotated[list[SearchStep], about("steps in chronological order")] = Field(default=[])
+    band_hz: Annotated[float | None, about("upper frequency limit of the diagnosis")] = None
+    held_out: Annotated[list[HeldOutSpan], about("spans held out from the search")] = Field(default=[])

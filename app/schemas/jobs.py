@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, JsonValue
 
 from ..kinds.registry import KINDS
-from .common import Identity, Instant, Next, Open, Options, ProblemDocument, Strict
+from .common import Identity, Instant, Next, Open, Options, ProblemDocument, Strict, about
 
 if TYPE_CHECKING:
     Kind = str
@@ -18,7 +18,7 @@ State = Literal["accepted", "running", "successful", "failed", "dismissed"]
 class JobRequest(Strict):
     """A request for a job: kind, robot and logs by id, and options."""
 
-    kind: Annotated[Kind, Field(description="what to compute")]
+    kind: Annotated[Kind, about("what to compute")]
     robot: Identity
     logs: Annotated[list[Identity], Field(min_length=FEWEST_LOGS, max_length=100)]
     options: Options = Field(
@@ -46,10 +46,8 @@ class Job(Open):
     created_at: Instant
     started_at: Instant | None
     finished_at: Instant | None
-    problem: Annotated[ProblemDocument | None, Field(description="why a failed job has no results")]
-    links: Annotated[
-        dict[str, str], Field(description="paths of this job and, once it is successful, of its results")
-    ]
+    problem: Annotated[ProblemDocument | None, about("why a failed job has no results")]
+    links: Annotated[dict[str, str], about("paths of this job and, once it is successful, of its results")]
 
 
 class JobList(Open):

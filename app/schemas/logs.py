@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field, JsonValue
 
 from ...core.log.channels import JOINT_CHANNELS
-from .common import Instant, Next, Open
+from .common import Instant, Next, Open, about
 
 
 class Defect(Open):
@@ -13,9 +13,9 @@ class Defect(Open):
 
     kind: Annotated[str, Field(examples=["gap", "jitter", "repeated_rows", "standstill"])]
     channel: str
-    joint: Annotated[int | None, Field(description="counted from 1; null if it concerns all joints")]
-    count: Annotated[int, Field(description="number of affected samples")]
-    intervals: Annotated[list[list[float]], Field(description="start and end in s, at most twenty")]
+    joint: Annotated[int | None, about("counted from 1; null if it concerns all joints")]
+    count: Annotated[int, about("number of affected samples")]
+    intervals: Annotated[list[list[float]], about("start and end in s, at most twenty")]
     statement: str
 
 
@@ -30,14 +30,10 @@ class LogSummary(Open):
     duration_s: float
     rate_hz: float
     joints: int
-    channels: Annotated[
-        list[str], Field(description=f"of {', '.join(channel.name for channel in JOINT_CHANNELS)}")
-    ]
-    ignored_columns: Annotated[list[str], Field(description="columns that the mapping does not name")]
+    channels: Annotated[list[str], about(f"of {', '.join(channel.name for channel in JOINT_CHANNELS)}")]
+    ignored_columns: Annotated[list[str], about("columns that the mapping does not name")]
     defects: list[Defect]
-    mapping: Annotated[
-        dict[str, JsonValue] | None, Field(description="as it was sent; null for the default names")
-    ]
+    mapping: Annotated[dict[str, JsonValue] | None, about("as it was sent; null for the default names")]
     created_at: Instant
 
 
@@ -52,10 +48,8 @@ class Trace(Open):
     """A channel of a joint, min/max decimated; null at gaps."""
 
     channel: Annotated[str, Field(examples=[channel.name for channel in JOINT_CHANNELS])]
-    joint: Annotated[int, Field(description="counted from 1")]
-    unit: Annotated[
-        str, Field(description="of two units, the type of the joint decides: revolute or prismatic")
-    ]
+    joint: Annotated[int, about("counted from 1")]
+    unit: Annotated[str, about("of two units, the type of the joint decides: revolute or prismatic")]
     values: Annotated[list[float | None], Field(max_length=4000)]
 
 
@@ -71,6 +65,6 @@ class LogTraces(Open):
 
     name: str
     samples: int
-    rows_per_stretch: Annotated[int, Field(description="rows per decimation group; 1 without decimation")]
+    rows_per_stretch: Annotated[int, about("rows per decimation group; 1 without decimation")]
     time: Stamps
     traces: list[Trace]

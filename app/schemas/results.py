@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from .common import HeldOutSpan, JointFit, Open
+from .common import HeldOutSpan, JointFit, Open, about
 from .diagnosis import Diagnosis
 
 
@@ -14,12 +14,10 @@ class BaseParameter(Open):
     name: Annotated[str, Field(examples=["ZZR1"])]
     joint: int
     unit: Annotated[str, Field(examples=["kg m2"])]
-    value: Annotated[float, Field(description="physically consistent estimate")]
-    value_ols: Annotated[
-        float, Field(description="ordinary least squares, without the consistency constraint")
-    ]
+    value: Annotated[float, about("physically consistent estimate")]
+    value_ols: Annotated[float, about("ordinary least squares, without the consistency constraint")]
     standard_deviation: float
-    relative_deviation_percent: Annotated[float | None, Field(description="%P")]
+    relative_deviation_percent: Annotated[float | None, about("%P")]
     essential: bool | None = None
     grouping: Annotated[str, Field(examples=["ZZ1 + IA1 + YY2"])]
 
@@ -37,13 +35,13 @@ class StandardParameter(Open):
 class Body(Open):
     """A link's body as the ellipsoid of uniform density with the same mass, centre of mass and inertia."""
 
-    link: Annotated[int, Field(description="counted from 1; the other fields are in its frame")]
-    mass: Annotated[float, Field(description="kg")]
+    link: Annotated[int, about("counted from 1; the other fields are in its frame")]
+    mass: Annotated[float, about("kg")]
     mass_centre: Annotated[list[float], Field(min_length=3, max_length=3, description="m")]
     half_axes: Annotated[
-        list[float] | None, Field(description="m, ascending; null if the body is physically inconsistent")
+        list[float] | None, about("m, ascending; null if the body is physically inconsistent")
     ]
-    axes: Annotated[list[list[float]] | None, Field(description="their directions, as columns of a rotation")]
+    axes: Annotated[list[list[float]] | None, about("their directions, as columns of a rotation")]
 
 
 class ResultDocument(Open):
@@ -62,15 +60,14 @@ class ResultDocument(Open):
     ] = Field(default=[])
     standard_parameters: list[StandardParameter]
     bodies: Annotated[
-        list[Body],
-        Field(description="one feasible representative of each link; empty if links are not modelled"),
+        list[Body], about("one feasible representative of each link; empty if links are not modelled")
     ] = Field(default=[])
     feasibility: dict[str, JsonValue]
     solver: dict[str, JsonValue]
     fit: list[JointFit]
-    validation: Annotated[list[JointFit], Field(description="on held-out blocks")]
+    validation: Annotated[list[JointFit], about("on held-out blocks")]
     held_out: list[HeldOutSpan] = Field(default=[])
     condition_number: float | None
     defects: list[JsonValue]
-    doubts: Annotated[list[str], Field(description="warnings, as sentences")]
-    diagnosis: Annotated[Diagnosis | None, Field(description="of a job of kind diagnose")] = None
+    doubts: Annotated[list[str], about("warnings, as sentences")]
+    diagnosis: Annotated[Diagnosis | None, about("of a job of kind diagnose")] = None

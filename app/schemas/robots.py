@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
-from .common import Instant, Next, Open, Strict
+from .common import Instant, Next, Open, Strict, about
 
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -17,7 +17,7 @@ Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 class Limits(Strict):
     """Bounds of a joint; null where unknown."""
 
-    position: Annotated[Pair | None, Field(description="lower and upper, rad or m")] = None
+    position: Annotated[Pair | None, about("lower and upper, rad or m")] = None
     velocity: Annotated[float | None, Field(gt=0, description="rad/s or m/s")] = None
     torque: Annotated[float | None, Field(gt=0, description="N m or N")] = None
 
@@ -36,43 +36,31 @@ class JointDescription(Strict):
         int | None,
         Field(ge=0, description="the joint that carries this one, 0 for the base; default: the joint before"),
     ] = None
-    alpha: Annotated[
-        float | None, Field(description="rad, about x, from the antecedent's z axis to this one")
-    ] = None
-    d: Annotated[float | None, Field(description="m, along x, from the antecedent's z axis to this one")] = (
-        None
-    )
-    r: Annotated[
-        float | None, Field(description="m, along z; the variable of a prismatic joint adds to it")
-    ] = None
+    alpha: Annotated[float | None, about("rad, about x, from the antecedent's z axis to this one")] = None
+    d: Annotated[float | None, about("m, along x, from the antecedent's z axis to this one")] = None
+    r: Annotated[float | None, about("m, along z; the variable of a prismatic joint adds to it")] = None
     theta_offset: Annotated[
-        float | None, Field(description="rad, about z; the variable of a revolute joint adds to it")
+        float | None, about("rad, about z; the variable of a revolute joint adds to it")
     ] = None
-    gamma: Annotated[float, Field(description="rad, about the antecedent's z axis (branches of a tree)")] = (
-        0.0
-    )
-    b: Annotated[float, Field(description="m, along the antecedent's z axis (branches of a tree)")] = 0.0
+    gamma: Annotated[float, about("rad, about the antecedent's z axis (branches of a tree)")] = 0.0
+    b: Annotated[float, about("m, along the antecedent's z axis (branches of a tree)")] = 0.0
     rotation: Annotated[
         list[Triple] | None,
         Field(min_length=3, max_length=3, description="frames: from this frame into the antecedent's"),
     ] = None
-    translation: Annotated[
-        Triple | None, Field(description="frames: origin in the antecedent's frame, m")
-    ] = None
-    ratio: Annotated[float, Field(description="frames: of a joint that mimics another")] = 1.0
-    offset: Annotated[float, Field(description="frames: of a joint that mimics another, rad or m")] = 0.0
-    mimics: Annotated[
-        str | None, Field(description="frames: the joint whose coordinate moves this one too")
-    ] = None
+    translation: Annotated[Triple | None, about("frames: origin in the antecedent's frame, m")] = None
+    ratio: Annotated[float, about("frames: of a joint that mimics another")] = 1.0
+    offset: Annotated[float, about("frames: of a joint that mimics another, rad or m")] = 0.0
+    mimics: Annotated[str | None, about("frames: the joint whose coordinate moves this one too")] = None
     limits: Limits | None = None
-    rotor_inertia: Annotated[bool, Field(description="identify the rotor's inertia IA of this joint")] = True
+    rotor_inertia: Annotated[bool, about("identify the rotor's inertia IA of this joint")] = True
     friction: list[Literal["viscous", "coulomb", "offset"]] = Field(
         default=["viscous", "coulomb", "offset"], max_length=3
     )
     torque_constant: Annotated[
-        float | None, Field(description="N m/A, motor side; turns a logged current into torque")
+        float | None, about("N m/A, motor side; turns a logged current into torque")
     ] = None
-    gear_ratio: Annotated[float | None, Field(description="motor turns per joint turn")] = None
+    gear_ratio: Annotated[float | None, about("motor turns per joint turn")] = None
 
 
 class CouplingDescription(Strict):
@@ -105,8 +93,8 @@ class LinkPrior(Strict):
     """Prior of a link: either standard, or mass, center_of_mass and inertia_at_com."""
 
     standard: StandardParameters | None = None
-    mass: Annotated[float | None, Field(description="kg")] = None
-    center_of_mass: Annotated[Triple | None, Field(description="m, in the link's frame")] = None
+    mass: Annotated[float | None, about("kg")] = None
+    center_of_mass: Annotated[Triple | None, about("m, in the link's frame")] = None
     inertia_at_com: Annotated[
         list[float] | None, Field(min_length=6, max_length=6, description="XX XY XZ YY YZ ZZ, kg m2")
     ] = None
@@ -123,7 +111,7 @@ class RobotDescription(Strict):
         description="acceleration of gravity in the base frame, m/s2; points down on a level base",
     )
     couplings: list[CouplingDescription] | None = None
-    prior: Annotated[list[LinkPrior] | None, Field(description="one entry per joint")] = None
+    prior: Annotated[list[LinkPrior] | None, about("one entry per joint")] = None
 
 
 class RobotSummary(Open):
@@ -140,7 +128,7 @@ class Robot(RobotSummary):
     """A robot. Robots are immutable: the same description has the same id."""
 
     suspicions: Annotated[
-        list[str], Field(description="warnings about a valid description, such as degrees instead of radians")
+        list[str], about("warnings about a valid description, such as degrees instead of radians")
     ]
     description: RobotDescription
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from .common import Open
+from .common import Open, about
 from .logs import Stamps
 
 Span = Annotated[list[float], Field(min_length=2, max_length=2, description="begin and end, s")]
@@ -14,7 +14,7 @@ class ResultTrace(Open):
     """A signal of a joint, min/max decimated; null at gaps."""
 
     signal: Annotated[str, Field(examples=["torque_filtered", "torque_estimated", "residual"])]
-    joint: Annotated[int, Field(description="counted from 1")]
+    joint: Annotated[int, about("counted from 1")]
     unit: Annotated[str, Field(examples=["N m"])]
     values: Annotated[list[float | None], Field(max_length=4000)]
 
@@ -48,10 +48,10 @@ class ResidualDensity(Open):
 class ResidualViews(Open):
     """The residual of one joint over coordinates and frequency."""
 
-    log: Annotated[int, Field(description="counted from 1")]
-    joint: Annotated[int, Field(description="counted from 1")]
+    log: Annotated[int, about("counted from 1")]
+    joint: Annotated[int, about("counted from 1")]
     unit: str
-    samples: Annotated[int, Field(description="number of samples used")]
+    samples: Annotated[int, about("number of samples used")]
     over: list[ResidualOver]
     densities: list[ResidualDensity]
 
@@ -59,13 +59,13 @@ class ResidualViews(Open):
 class ResultTraces(Open):
     """Signals of one joint over a span of one log, on one time axis."""
 
-    log: Annotated[int, Field(description="counted from 1")]
-    joint: Annotated[int, Field(description="counted from 1")]
-    extent: Annotated[Span, Field(description="first and last time stamp of the log, s")]
+    log: Annotated[int, about("counted from 1")]
+    joint: Annotated[int, about("counted from 1")]
+    extent: Annotated[Span, about("first and last time stamp of the log, s")]
     rows_per_stretch: Annotated[
-        int, Field(description="rows per decimation group (minimum and maximum); 1 without decimation")
+        int, about("rows per decimation group (minimum and maximum); 1 without decimation")
     ]
     time: Stamps
     traces: list[ResultTrace]
-    held_out: Annotated[list[Span], Field(description="held-out spans")]
-    left_out: Annotated[list[Span], Field(description="spans not used for this joint: standstill, ends")]
+    held_out: Annotated[list[Span], about("held-out spans")]
+    left_out: Annotated[list[Span], about("spans not used for this joint: standstill, ends")]
