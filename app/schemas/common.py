@@ -25,7 +25,6 @@ class Open(BaseModel):
 
 
 Identity = Annotated[str, Field(min_length=1, max_length=64, examples=["yumi-left"])]
-Name = Annotated[str, Field(max_length=200)]
 Options = Annotated[dict[str, JsonValue], Field(max_length=100)]
 Instant = Annotated[str, Field(description="ISO 8601, UTC", examples=["2026-01-31T12:00:00.000+00:00"])]
 Next = Annotated[str | None, about("`cursor` of the next page; null on the last page")]
