@@ -71,7 +71,11 @@ def told(capsys, result, hidden=None):
 
 def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
     page = told(capsys, diagnosed())
-    assert "1 cause of simulation error found for bench arm. 1. Load-dependent friction on joint 1:" in page
+    head = (
+        "One cause of simulation error found for bench arm: "
+        "load-dependent friction, or a similar cause (joint 1)."
+    )
+    assert f"{head} 1. Load-dependent friction on joint 1:" in page
     assert "Confidence 98 %, p = 1e-09, corrected for all candidates." in page
     gain = "reduces the error on the joint by 33 % (95 %: 20 to 45 %), up to 20 Hz, on held-out data."
     assert gain in page
@@ -221,7 +225,7 @@ def test_the_demonstration_identifies_the_arm_through_the_real_service(tmp_path,
     assert len(told) == 4
     assert all(abs(float(z)) < 3.0 for z in told)  # one log in four hundred exceeds 3 per number
     guide = (demo.ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
-    shown = re.search(r"```\n(\d+ causes of simulation error.*?)```", guide, re.DOTALL)
+    shown = re.search(r"```\n(\w+ causes of simulation error.*?)```", guide, re.DOTALL)
     assert all(is_printed(line, words) for line in shown.group(1).splitlines() if line[:1] != " ")
     report = (tmp_path / "data" / "diagnosis.html").read_text(encoding="utf-8")
     assert "Two causes of simulation error found" in report

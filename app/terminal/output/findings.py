@@ -10,6 +10,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
 
+from ....core.report.page.overview import headline
+from ....core.report.page.words import is_significant
 from .columns import Column, print_table
 from .tables import effort_column, percent
 
@@ -33,18 +35,12 @@ def print_diagnosis(console: Console, result: Document) -> None:
             gain_columns(result),
             title=title,
             caption=evaluation_note(result),
-            styles=["green" if is_significant(row) else "" for row in diagnosis["gain"]],
+            styles=[
+                "green" if is_significant(row["improvement_percent"], row["interval_95"]) else ""
+                for row in diagnosis["gain"]
+            ],
         )
     console.print(remainder(diagnosis["unexplained"]))
-
-
-def headline(result: Document) -> str:
-    """Give the result in one sentence."""
-    findings, name = result["diagnosis"]["findings"], result["robot"]["name"]
-    found = len({finding["cause"] for finding in findings})
-    if not found:
-        return f"No cause of simulation error found for {name} in this log."
-    return f"{found} cause{'s' if found > 1 else ''} of simulation error found for {name}."
 
 
 def reasons(finding: Document, band_hz: float) -> list[str]:
@@ -93,12 +89,6 @@ def gain_columns(result: Document) -> list[Column]:
         Column("95 %", ["" if span is None else f"{span[0]:.1f} to {span[1]:.1f}" for span in ends], spare=3),
         Column("motion improvement, %", [percent(moved[row["joint"] - 1]) if moved else "" for row in rows]),
     ]
-
-
-def is_significant(row: Document) -> bool:
-    """Decide whether an improvement is significant and at least 1 %."""
-    ends = row["interval_95"]
-    return ends is not None and ends[0] > 0.0 and row["improvement_percent"] >= 1.0
 
 
 def evaluation_note(result: Document) -> str:
