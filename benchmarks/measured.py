@@ -18,6 +18,8 @@ from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
 from veritorque.core.validation.scores import JointScore
 
+POINT_TO_POINT = "UR10e, point to point"
+
 
 @dataclass(frozen=True)
 class Run:
@@ -30,8 +32,8 @@ class Run:
 
 
 def run(*, quick: bool) -> list[Figure]:
-    """Diagnose every run, or the TX40 alone."""
-    runs = {"TX40 without its coupling": _tx40()} if quick else _runs()
+    """Diagnose every run, or the cheapest alone."""
+    runs = {POINT_TO_POINT: _points()} if quick else _runs()
     return [figure for name, one in runs.items() for figure in _figures(name, one)]
 
 
@@ -42,20 +44,25 @@ def _runs() -> dict[str, Run]:
         measured_log("ur10e_open", "fourier_20s_8h", 320, 2310),
     )
     unseen = measured_log("ur10e_open", "fourier_40s_12h", 500, 4460)
-    points = measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200)
     panda = tuple(measured_log("franka_panda", "traj1", *rows) for rows in ((0, half), (half, FRANKA_ROWS)))
+    tx40 = tuple(measured_log("staubli_tx40", "run1", *rows) for rows in (TX40_TRAIN, TX40_TEST))
     return {
-        "TX40 without its coupling": _tx40(),
+        "TX40 without its coupling": Run(
+            measured_robot("staubli_tx40", coupled=False), tx40, None, {5: 13.0, 6: 11.0}
+        ),
         "UR10e": Run(measured_robot("ur10e_open"), (*fitted, unseen), 3, {1: 5.6, 2: 2.2, 3: 2.7}),
-        "UR10e, point to point": Run(measured_robot("ur10e_open"), (fitted[0], points), 2),
+        POINT_TO_POINT: _points(),
         "Panda": Run(measured_robot("franka_panda"), panda, 2),
         "Rokae": Run(measured_robot("rokae_xmate3"), (measured_log("rokae_xmate3", "excit"),), None),
     }
 
 
-def _tx40() -> Run:
-    logs = tuple(measured_log("staubli_tx40", "run1", *rows) for rows in (TX40_TRAIN, TX40_TEST))
-    return Run(measured_robot("staubli_tx40", coupled=False), logs, None, {5: 13.0, 6: 11.0})
+def _points() -> Run:
+    logs = (
+        measured_log("ur10e_open", "fourier_30s_12h", 635, 3510),
+        measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200),
+    )
+    return Run(measured_robot("ur10e_open"), logs, 2)
 
 
 def _figures(name: str, one: Run) -> list[Figure]:

@@ -45,20 +45,19 @@ def listening_service(directory, executor=None, **settings):
         thread.join()
 
 
-@pytest.fixture
-def port(tmp_path, monkeypatch):
-    """A service whose patience is a second."""
-    for name in ("HEAD_TICKS", "BODY_TICKS", "ANSWER_TICKS", "CLOSING_TICKS"):
-        monkeypatch.setattr(connection, name, 1)
-    with listening_service(tmp_path) as (_, port):
-        yield port
-
-
 @pytest.fixture(scope="module")
 def patient_port(tmp_path_factory):
     """A service that is as patient as it is meant to be."""
     with listening_service(tmp_path_factory.mktemp("data")) as (_, port):
         yield port
+
+
+@pytest.fixture
+def port(patient_port, monkeypatch):
+    """The same service; its patience is a second meanwhile."""
+    for name in ("HEAD_TICKS", "BODY_TICKS", "ANSWER_TICKS", "CLOSING_TICKS"):
+        monkeypatch.setattr(connection, name, 1)
+    return patient_port
 
 
 def connected(port):
