@@ -6,8 +6,9 @@ error of a joint that turns about the vertical changes no torque), another joint
 robot.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
+from typing import Any
 
 import numpy as np
 
@@ -61,7 +62,10 @@ class Truth:
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """Hold what the code under test gets (`believed`, `log`) and what it is scored by."""
+    """Hold what the code under test gets (`believed`, `log`) and what it is scored by.
+
+    `attempt` and `effects` say how it was drawn; a case that comes out of the cache does not know.
+    """
 
     believed: RobotModel
     log: JointLog
@@ -70,6 +74,8 @@ class Case:
     noise_rms: np.ndarray
     robot: str
     seed: int
+    attempt: int = 0
+    effects: tuple[Effect, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +88,7 @@ class World:
     noise_rms: np.ndarray
     rate_hz: float
     seed: int
+    attempt: int = 0
     _last: dict[tuple[Effect, ...], Recording] = field(default_factory=dict)
 
     @cached_property
@@ -149,16 +156,9 @@ def draw(
     for attempt in range(WORLDS):
         rng = np.random.default_rng([seed, attempt])
         world = draw_world(rng, seed, noise=noise, robot=robot, rate_hz=rate_hz, duration=duration)
-        names = [str(name) for name in rng.permutation([name for name in EFFECTS if name != cause])]
-        hidden: list[tuple[Effect, Residue]] = []
-        for name in ([cause] if cause else []) + names:
-            found = _of_strength(world, name, strength, rng)
-            if found is not None:
-                hidden.append(found)
-            elif name == cause:
-                break
-            if len(hidden) == effects:
-                return _case(world, hidden)
+        hidden = _hidden(world, cause, strength, effects, rng)
+        if hidden:
+            return case_of(replace(world, attempt=attempt), tuple(one for one, _ in hidden), _truth(hidden))
     raise Impossible(f"no {cause or 'effect'} of strength {strength} is possible in case {seed}")
 
 
@@ -172,15 +172,15 @@ def draw_clean(
 ) -> Case:
     """Draw a case with nothing hidden."""
     rng = np.random.default_rng([seed, 0])
-    return _case(draw_world(rng, seed, noise=noise, robot=robot, rate_hz=rate_hz, duration=duration), [])
+    return case_of(
+        draw_world(rng, seed, noise=noise, robot=robot, rate_hz=rate_hz, duration=duration), (), ()
+    )
 
 
-def draw_foreign(
-    seed: int, strength: float = 1.0, *, noise: str | None = None, robot: str | None = None
-) -> Case:
+def draw_foreign(seed: int, strength: float = 1.0, **options: Any) -> Case:
     """Draw a case with an effect that is in no list."""
     name = str(np.random.default_rng([seed, 3]).choice(list(FOREIGN)))
-    return draw(seed, name, strength, noise=noise, robot=robot)
+    return draw(seed, name, strength, **options)
 
 
 def draw_world(
@@ -199,6 +199,23 @@ def draw_world(
     share = rng.uniform(*NOISE_SHARES, arm.joints)
     noise_rms = share * np.sqrt(np.mean(steering.nominal**2, axis=0))
     return World(arm, steering, noise or kind, noise_rms, rate_hz, seed)
+
+
+def _hidden(
+    world: World, cause: str | None, strength: float, effects: int, rng: np.random.Generator
+) -> list[tuple[Effect, Residue]]:
+    """Draw effects, a given cause first, until there are enough; give none where there cannot be."""
+    names = [str(name) for name in rng.permutation([name for name in EFFECTS if name != cause])]
+    hidden: list[tuple[Effect, Residue]] = []
+    for name in ([cause] if cause else []) + names:
+        found = _of_strength(world, name, strength, rng)
+        if found is not None:
+            hidden.append(found)
+        elif name == cause:
+            break
+        if len(hidden) == effects:
+            return hidden
+    return []
 
 
 def _of_strength(
@@ -232,30 +249,40 @@ def _solved(world: World, effect: Effect, strength: float) -> tuple[Effect, Resi
     return None
 
 
-def _case(world: World, hidden: list[tuple[Effect, Residue]]) -> Case:
-    effects = tuple(effect for effect, _ in hidden)
+def case_of(world: World, effects: tuple[Effect, ...], truth: tuple[Truth, ...]) -> Case:
+    """Record a world in which these effects are hidden."""
     rng = np.random.default_rng([world.seed, 2])
     return Case(
         believed=world.believed(effects),
         log=record(world.signals(effects), world.noise_rms, world.noise, rng),
-        truth=tuple(_truth(place, hidden) for place in range(len(hidden))),
+        truth=truth,
         noise=world.noise,
         noise_rms=world.noise_rms,
         robot=world.arm.name,
         seed=world.seed,
+        attempt=world.attempt,
+        effects=effects,
     )
 
 
-def _truth(place: int, hidden: list[tuple[Effect, Residue]]) -> Truth:
-    effect, left = hidden[place]
-    others = [other.whitened for index, (_, other) in enumerate(hidden) if index != place]
-    noncentrality = given(left.whitened, others)
+def truth_of(effect: Effect, strength: float, noncentrality: float) -> Truth:
+    """Say what an effect of a measured strength is, and whether the oracle names it."""
     return Truth(
         cause=effect.cause,
         joints=effect.joints,
         parameters=effect.truth(),
-        strength=float(left.strength.max()),
+        strength=strength,
         noncentrality=noncentrality,
         nameable=nameable(noncentrality),
         local=effect.local,
+    )
+
+
+def _truth(hidden: list[tuple[Effect, Residue]]) -> tuple[Truth, ...]:
+    whitened = [left.whitened for _, left in hidden]
+    return tuple(
+        truth_of(
+            effect, float(left.strength.max()), given(left.whitened, whitened[:place] + whitened[place + 1 :])
+        )
+        for place, (effect, left) in enumerate(hidden)
     )

@@ -1,11 +1,14 @@
 """Drawn cases: of the wanted strength, alike for the same seed, with the noise that they say."""
 
+import json
+
 import numpy as np
 import pytest
 
 from tests.plant import cache
 from tests.plant.cases import draw, draw_clean, draw_foreign
 from tests.plant.effects.registry import EFFECTS, FOREIGN
+from tests.plant.known import known, known_case
 from tests.plant.sensors import CORRELATION, NOISES, noise, spectrum
 from tests.plant.strength import given, nameable
 from veritorque.core.log.model import whole_rows
@@ -16,7 +19,7 @@ from veritorque.core.log.model import whole_rows
     "cause", ["friction_stribeck", "time_delay", "joint_elasticity", "encoder_quantization", "cable_force"]
 )
 def test_a_case_has_the_strength_it_was_asked_for(cause, strength):
-    case = draw(2, cause, strength, robot="planar-2", duration=8.0)
+    case = draw(2, cause, strength, robot="planar-2", duration=6.0)
     (truth,) = case.truth
     assert truth.cause == cause
     assert truth.strength == pytest.approx(strength, rel=EFFECTS[cause].tolerance)
@@ -25,13 +28,25 @@ def test_a_case_has_the_strength_it_was_asked_for(cause, strength):
 
 
 def test_the_same_seed_draws_the_same_case():
-    one, other = (draw(5, robot="planar-2", duration=8.0) for _ in range(2))
+    one, other = (draw(5, robot="planar-2", duration=5.0) for _ in range(2))
     assert one.truth == other.truth
     np.testing.assert_array_equal(whole_rows(one.log).torque, whole_rows(other.log).torque)
 
 
+def test_a_known_case_is_the_one_that_a_search_finds():
+    asked = next(one for one in known() if json.loads(one)[1][1] == "torque_ripple")
+    _, arguments, options = json.loads(asked)
+    made, found = known_case(asked), draw(*arguments, **dict(options))
+    for one, other in zip(made.truth, found.truth, strict=True):
+        assert (one.cause, one.joints) == (other.cause, other.joints)
+        assert one.strength == pytest.approx(other.strength, rel=1e-9)
+    for name in ("position", "torque"):
+        wanted = getattr(whole_rows(found.log), name)
+        np.testing.assert_allclose(getattr(whole_rows(made.log), name), wanted, rtol=0.0, atol=1e-9)
+
+
 def test_several_effects_differ_and_all_are_told():
-    case = draw(3, effects=3, robot="planar-3", duration=8.0)
+    case = draw(3, effects=3, robot="planar-3", duration=5.0)
     causes = [truth.cause for truth in case.truth]
     assert len(set(causes)) == 3
     assert set(causes) <= set(EFFECTS)
@@ -39,7 +54,7 @@ def test_several_effects_differ_and_all_are_told():
 
 def test_a_clean_case_hides_nothing_and_a_foreign_one_what_nobody_lists():
     assert draw_clean(4, robot="planar-2", duration=8.0).truth == ()
-    assert draw_foreign(4, robot="planar-2").truth[0].cause in FOREIGN
+    assert draw_foreign(4, robot="planar-2", duration=8.0).truth[0].cause in FOREIGN
 
 
 def test_a_log_has_its_length_its_rate_and_its_encoder_counts():
