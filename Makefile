@@ -70,9 +70,10 @@ containers: $(READY)
 answers: $(READY) ## keep what the product answers before a change, or compare after it (DO=record|compare KEPT=dir ARGS=..)
 	$(RUN) -m tests.answers $(or $(DO),compare) $(if $(KEPT),--kept $(KEPT)) $(ARGS)
 
-hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis (SEED=n CASES=m STRENGTH=.. CAUSE=.. KIND=..)
+hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis, then diagnose what was answered wrongly once (SEED=n CASES=m STRENGTH=.. CAUSE=.. KIND=..)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --cases $(or $(CASES),60) \
 		$(if $(STRENGTH),--strength $(STRENGTH)) $(if $(CAUSE),--cause $(CAUSE)) $(if $(KIND),--kind $(KIND))
+	$(RUN) -m tests.hidden regressions
 
 battery: $(READY) ## the whole examination of the diagnosis: every cause 20 times, 300 clean logs (SEED=n; hours)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --battery

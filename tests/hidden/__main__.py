@@ -3,6 +3,7 @@
 Run ``make hidden SEED=3 CASES=60``, with STRENGTH, CAUSE or KIND (single, combination, clean, foreign) to
 look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours. ``make ablate
 SEED=3 CASES=20`` halves and doubles every threshold of the diagnosis instead, and counts changed answers.
+``python -m tests.hidden regressions`` diagnoses the logs that were answered wrongly once.
 """
 
 import argparse
@@ -17,7 +18,7 @@ from tests.hidden.score import Score
 from tests.hidden.tables import tables
 from tests.plant.effects.registry import EFFECTS
 
-COMMANDS = ("ablate", "calibrate")
+COMMANDS = ("ablate", "calibrate", "regressions")
 """Modules of this folder with a task of their own, loaded late: one must not have loaded the diagnosis."""
 
 
