@@ -2,7 +2,7 @@
 
 The import hook has to be in place before core is imported, so nothing in this file imports core. Packages
 with kernels compiled by numba are left out, because a wrapped function cannot be compiled. Slow tests go
-without: half of their time would go into checking the same few functions a hundred thousand times.
+without, and others check the first calls of each function (see `tests.shapes`).
 """
 
 import os
@@ -10,8 +10,10 @@ from pathlib import Path
 
 import jaxtyping
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, is_hypothesis_test, settings
 from jaxtyping import install_import_hook
+
+from tests.shapes import start_test
 
 CHECKED_PACKAGES = (
     "veritorque.core.diagnosis",
@@ -33,7 +35,7 @@ collect_ignore = ["veritorque/app/store/migrations/env.py"]  # a script, which o
 # Where `make serve` keeps its kernels: services that tests start compile none again.
 os.environ.setdefault("NUMBA_CACHE_DIR", str(Path(__file__).parent / "data" / "kernels"))
 
-install_import_hook(CHECKED_PACKAGES, "beartype.beartype")
+install_import_hook(CHECKED_PACKAGES, "tests.shapes.first_calls")
 
 settings.register_profile(
     "veritorque",
@@ -49,3 +51,4 @@ settings.load_profile("veritorque")
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Check shapes unless the test is slow."""
     jaxtyping.config.update("jaxtyping_disable", item.get_closest_marker("slow") is not None)
+    start_test(of_a_law=is_hypothesis_test(getattr(item, "obj", None)))
