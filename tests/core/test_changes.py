@@ -17,6 +17,7 @@ from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest
 
 NAME, SEED = "planar-3", 1
+SECONDS = 16.0
 LOAD = {"mass": 0.3, "com_x": 0.05, "com_y": 0.03}
 RUBBED = {"delta_viscous": 0.13, "delta_coulomb": 0.4}
 TILT = {"tilt_x": -0.03, "tilt_y": 0.02}
@@ -36,7 +37,7 @@ def log_with(change: str, name: str = NAME):
     if change == "tilt":
         arm = with_gravity(arm, rotation_y(TILT["tilt_y"]) @ rotation_x(TILT["tilt_x"]))
     seeds = ("nothing before", "nothing", "payload", "gain", "all gains", "friction", "tilt")
-    return logged(arm, 100 + seeds.index(change), *effects)
+    return logged(arm, 100 + seeds.index(change), *effects, duration=SECONDS)
 
 
 @cache
@@ -77,6 +78,7 @@ def the_finding(document):
     return one
 
 
+@pytest.mark.slow
 def test_nothing_has_changed_where_nothing_has():
     diagnosis = compared("nothing")["diagnosis"]
     assert (diagnosis["verdict"], diagnosis["findings"]) == ("nothing_found", [])
@@ -98,6 +100,7 @@ def test_friction_that_has_grown_on_one_joint_is_named_with_its_two_parts():
     assert_sizes(found, RUBBED)
 
 
+@pytest.mark.slow
 def test_a_channel_whose_scale_has_changed_is_named_with_its_error():
     found = the_finding(compared("gain"))
     assert (found["cause"], found["joints"]) == ("torque_gain", [2])
@@ -118,6 +121,7 @@ def test_a_base_that_was_tilted_is_named_with_its_two_angles():
     assert_sizes(found, TILT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", ["payload", "friction", "all gains"])
 def test_what_a_new_identification_absorbs_is_not_seen_without_a_reference(change):
     request = IdentifyRequest(arm_of(NAME, SEED).robot, (log_with(change),), FEW)
@@ -224,6 +228,7 @@ def test_a_result_that_does_not_tell_its_precision_is_refused():
         study.check_reference(request)
 
 
+@pytest.mark.slow
 def test_a_smoothed_model_is_compared_with_by_the_same_smoothing():
     old = earlier(smooth_coulomb=True)
     options = FEW | {"reference": "job-1"}

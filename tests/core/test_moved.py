@@ -38,6 +38,7 @@ def found(cause: str):
     return diagnose(IdentifyRequest(case.believed, (case.log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cause", CASES)
 def test_the_cured_robot_moves_better_beyond_doubt_and_worse_nowhere(cause):
     moved = found(cause)["simulation"]

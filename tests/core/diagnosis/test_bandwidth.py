@@ -40,6 +40,7 @@ def test_stamps_that_scatter_are_noise_in_proportion_to_speed():
     assert rms(beyond_cubics(time, swing))[0] < 0.01 * SCATTER * speed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("off", [1, 20])
 def test_few_stamps_that_are_off_hide_no_late_torque(off):
     """Of 5000: they spoil the rows beside them, and say nothing of the rest."""
@@ -57,6 +58,7 @@ def test_few_stamps_that_are_off_hide_no_late_torque(off):
     assert {"torque_filter_lag", "time_delay"} & {one["cause"] for one in found["findings"]}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scatter", "seconds", "noise"), [(SCATTER, 20.0, 0.02), (3e-4, 12.0, 0.05)])
 def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter(
     scatter, seconds, noise

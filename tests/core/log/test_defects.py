@@ -1,8 +1,10 @@
 """Every defect is planted in a healthy log and must be found where it is; the healthy log itself has none."""
 
+from functools import cache
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.core.log.writers import swing
@@ -11,11 +13,20 @@ from veritorque.core.log.defects.spikes import median_of_five
 from veritorque.core.log.defects.stretch import STRETCH_ROWS
 from veritorque.core.log.reader import log_from_arrays
 
+FEWER = settings(max_examples=40)
+"""Each looks for defects in a log of thousands of rows."""
 
-def healthy(seconds=20.0, rate_hz=250.0, joints=2, seed=0):
+
+@cache
+def made(seconds, rate_hz, joints, seed):
     columns = swing(seconds, rate_hz, joints, seed)
     gather = lambda prefix: np.column_stack([columns[f"{prefix}_{j + 1}"] for j in range(joints)])  # noqa: E731  (a formula)
     return columns["time"], gather("q"), gather("tau")
+
+
+def healthy(seconds=20.0, rate_hz=250.0, joints=2, seed=0):
+    """Give time, position and torque, to be spoilt."""
+    return tuple(series.copy() for series in made(seconds, rate_hz, joints, seed))
 
 
 def log_of(time, position, torque):
@@ -28,11 +39,13 @@ def only(log, kind):
     return log.defects
 
 
+@FEWER
 @given(seed=st.integers(0, 10_000), rate_hz=st.sampled_from([100.0, 250.0, 1000.0]), joints=st.integers(1, 7))
 def test_a_healthy_log_has_no_defect_whatever_its_noise(seed, rate_hz, joints):
     assert log_of(*healthy(12.0, rate_hz, joints, seed)).defects == ()
 
 
+@FEWER
 @given(row=st.integers(200, 4800), missing=st.floats(0.03, 2.0))
 def test_missing_samples_are_a_gap_that_splits_the_log(row, missing):
     time, position, torque = healthy()
@@ -44,6 +57,7 @@ def test_missing_samples_are_a_gap_that_splits_the_log(row, missing):
     assert gap.intervals == ((pytest.approx(time[row - 1]), pytest.approx(time[row])),)
 
 
+@FEWER
 @given(row=st.integers(200, 4800), missing=st.floats(0.010, 0.020))
 def test_a_few_missing_milliseconds_are_said_and_bridged(row, missing):
     time, position, torque = healthy()
@@ -65,6 +79,7 @@ def test_jitter_is_stated_with_its_size_and_without_alarm():
     assert jitter.count == pytest.approx(np.sum(abs(steps - 0.004) > 0.0004), rel=0.05)
 
 
+@FEWER
 @given(seed=st.integers(0, 1000), share=st.floats(0.01, 0.2))
 def test_repeated_rows_are_counted_exactly(seed, share):
     time, position, torque = healthy()
@@ -199,6 +214,7 @@ def test_torque_without_noise_that_a_steady_motion_keeps_the_same_is_not_stuck()
     assert not [one for one in log_of(time, position, torque).defects if one.kind == "stuck_channel"]
 
 
+@FEWER
 @given(row=st.integers(2, 4997), joint=st.integers(0, 1), sign=st.sampled_from([-1.0, 1.0]))
 def test_a_torque_spike_is_found_at_its_sample(row, joint, sign):
     time, position, torque = healthy()
@@ -208,6 +224,7 @@ def test_a_torque_spike_is_found_at_its_sample(row, joint, sign):
     assert spike.intervals == ((time[row], time[row]),)
 
 
+@FEWER
 @given(row=st.integers(2, 4997), joint=st.integers(0, 1))
 def test_a_position_spike_is_found_at_its_sample(row, joint):
     time, position, torque = healthy()
@@ -222,6 +239,7 @@ def test_steps_of_torque_as_friction_makes_them_are_no_spikes():
     assert log_of(time, position, torque).defects == ()
 
 
+@FEWER
 @given(limit=st.floats(0.4, 0.9), sign=st.sampled_from([-1.0, 1.0]))
 def test_a_torque_that_stops_at_a_limit_is_saturated(limit, sign):
     time, position, torque = healthy()
@@ -235,6 +253,7 @@ def test_a_torque_that_stops_at_a_limit_is_saturated(limit, sign):
     assert np.ptp(torque[held, 1]) == 0.0
 
 
+@FEWER
 @given(lsb=st.floats(0.01, 0.3))
 def test_the_flat_top_of_a_quantised_torque_is_no_saturation(lsb):
     time, position, _ = healthy()
@@ -242,6 +261,7 @@ def test_the_flat_top_of_a_quantised_torque_is_no_saturation(lsb):
     assert not [d for d in log_of(time, position, smooth).defects if d.kind == "saturation"]
 
 
+@FEWER
 @given(lsb=st.floats(2e-3, 1e-2))
 def test_a_coarse_encoder_is_stated_with_its_resolution(lsb):
     time, position, torque = healthy(rate_hz=1000.0)
@@ -263,6 +283,7 @@ def test_a_fine_encoder_is_not_worth_a_word():
     assert log_of(time, 1e-6 * np.round(position / 1e-6), torque).defects == ()
 
 
+@FEWER
 @given(start=st.integers(500, 2500), seconds=st.floats(1.0, 8.0))
 def test_a_rest_of_one_joint_is_found_with_its_length(start, seconds):
     time, position, torque = healthy()

@@ -48,14 +48,16 @@ def delayed(delay):
     return effect
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("time_constant", [0.012, 0.02, 0.04])
 def test_a_filter_is_found_at_its_time_constant(time_constant):
-    (found,) = diagnose(asked(measured_arm(filtered(time_constant)))).findings
+    (found,) = diagnose(asked(measured_arm(filtered(time_constant), seconds=12.0))).findings
     assert found.cause == "torque_filter_lag"
     (size,) = found.quantities
     assert abs(size.value - time_constant) < 3.0 * size.standard_deviation
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("delay", [-0.012, 0.012, 0.03])
 def test_a_delay_is_found_at_its_length(delay):
     (found,) = diagnose(asked(measured_arm(delayed(delay)))).findings
