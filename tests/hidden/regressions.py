@@ -18,25 +18,17 @@ from tests.hidden.score import Score, score
 
 @dataclass(frozen=True)
 class Regression:
-    """Remember a log that was answered wrongly once.
-
-    Attributes
-    ----------
-    why
-        What made its answer wrong.
-    exact
-        Whether the cause has to be the finding's own name, and not one of its rivals'.
-    swaps
-        Whether the search has to swap causes, each there and back at most.
-    alone
-        Whether nothing else may be named.
-    """
+    """Remember a log that was answered wrongly once."""
 
     why: str
+    """What made its answer wrong."""
     order: Order
     exact: bool = False
+    """Whether the cause has to be the finding's own name, and not one of its rivals'."""
     swaps: bool = False
+    """Whether the search has to swap causes, each there and back at most."""
     alone: bool = True
+    """Whether nothing else may be named."""
 
 
 def _single(why: str, seed: int, cause: str, strength: float = 1.0) -> Regression:
