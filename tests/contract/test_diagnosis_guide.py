@@ -56,7 +56,7 @@ def test_the_numbers_that_decide_are_those_of_the_code():
     assert SELECTION.undecided == 6.0
     assert "differ by less than 6" in GUIDE
     assert ENTRY.level == 1e-4
-    assert "once in ten thousand logs" in GUIDE
+    assert "one false cause in ten thousand logs" in GUIDE
     assert SEARCH.causes == 5
     assert "Five at most" in GUIDE
     assert VERDICT.unexplained_share == 0.03
