@@ -18,7 +18,7 @@ from .prediction import Prediction
 class Gear:
     """Predict the torque through one joint's transmission."""
 
-    operating_point: Prediction
+    believed: Prediction
     joint: int
     """Counted from 1."""
     motor_inertia: float = 0.0
@@ -27,13 +27,13 @@ class Gear:
     def load(self, state: MotionState, robot: RobotModel | None = None) -> Samples:
         """Give the transmitted torque, N m (N), on the operating point's robot or another one."""
         own = self.joint - 1
-        transmitted = self.operating_point.transmitted(state, robot)[:, own]
+        transmitted = self.believed.transmitted(state, robot)[:, own]
         return np.asarray(transmitted - self.motor_inertia * state.acceleration[:, own])
 
     def inertia(self, state: MotionState) -> Samples:
         """Give the moved inertia while the other joints rest, kg m2 (kg)."""
         own = self.joint - 1
-        return self.operating_point.slopes(state, own)[2][:, own] - self.motor_inertia
+        return self.believed.slopes(state, own)[2][:, own] - self.motor_inertia
 
     def change(self, state: MotionState, shift: MotionState) -> JointSeries:
         """Give the first-order change of all joints' loads where the link's motion differs from the motor's.
@@ -44,6 +44,6 @@ class Gear:
             Difference of the link's position, velocity and acceleration, one column each.
         """
         own = self.joint - 1
-        change = self.operating_point.change(state, own, shift)
+        change = self.believed.change(state, own, shift)
         change[:, own] -= self.motor_inertia * shift.acceleration[:, 0]
         return change

@@ -46,7 +46,7 @@ _SPECIMEN = {
     "couplings": [{"name": "wrist", "joints": [1, 2], "weights": [1.0, 1.0]}],
 }
 """A robot that has every parameter of the standard model."""
-_NOT_SCANNED = {"joint", "operating_point", "robot"}
+_NOT_SCANNED = {"joint", "believed", "robot"}
 _WITHOUT_CAUSE = ("", "unlisted")
 Effect = type[OneJointTerm] | type[AllJointsTerm]
 

@@ -43,4 +43,5 @@ class Term(Protocol):
 class LinearisedTerm(Protocol):
     """Define a term whose columns depend on the prediction that the model is linearised at."""
 
-    operating_point: object
+    believed: object
+    """That prediction, by the name that its key has in model files."""

@@ -28,7 +28,7 @@ class Backlash(AllJointsTerm):
     The `motor_inertia`, kg m2, is the rotor inertia that the operating point's load contains.
     """
 
-    operating_point: Prediction
+    believed: Prediction
     around: float
     band_hz: float
     motor_inertia: float = 0.0
@@ -39,7 +39,7 @@ class Backlash(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per rad of half width."""
         del robot
-        gear = Gear(self.operating_point, self.joint, self.motor_inertia)
+        gear = Gear(self.believed, self.joint, self.motor_inertia)
         free = gear.load(state) / np.maximum(gear.inertia(state), 1e-9)
         twist = smooth(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
         lag = twist / -self.around

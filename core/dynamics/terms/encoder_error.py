@@ -23,21 +23,21 @@ SMALL = 1e-5
 class EncoderOffset(AllJointsTerm):
     """Model a reading that is the true angle plus `offset`."""
 
-    operating_point: Prediction
+    believed: Prediction
     symbols = (("offset", "rad", None),)
     kind = "encoder_offset"
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give minus the change of load per rad."""
         del robot
-        return [-self.operating_point.slopes(state, self.joint - 1)[0]]
+        return [-self.believed.slopes(state, self.joint - 1)[0]]
 
 
 @dataclass(frozen=True, eq=False)
 class EncoderEccentricity(AllJointsTerm):
     """Model a reading that is the true angle plus `sine` sin(q) + `cosine` cos(q)."""
 
-    operating_point: Prediction
+    believed: Prediction
     symbols = (("sine", "rad", None), ("cosine", "rad", None))
     kind = "encoder_eccentricity"
 
@@ -51,11 +51,11 @@ class EncoderEccentricity(AllJointsTerm):
             MotionState(sine, cosine * dq, cosine * ddq - sine * dq**2),
             MotionState(cosine, -sine * dq, -sine * ddq - cosine * dq**2),
         )
-        plain = self.operating_point.torque(state)
+        plain = self.believed.torque(state)
         out = []
         for error in errors:
             shift = MotionState(
                 *(-SMALL * series for series in (error.position, error.velocity, error.acceleration))
             )
-            out.append((self.operating_point.torque(shift_joint(state, own, shift)) - plain) / SMALL)
+            out.append((self.believed.torque(shift_joint(state, own, shift)) - plain) / SMALL)
         return out

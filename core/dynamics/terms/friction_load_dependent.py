@@ -22,12 +22,12 @@ class LoadFriction(OneJointTerm):
     The `motor_inertia`, kg m2 (kg), is the rotor inertia that the operating point's load contains.
     """
 
-    operating_point: Prediction
+    believed: Prediction
     motor_inertia: float = 0.0
     symbols = (("load_coefficient", "1", 0.0),)
     kind = "friction_load_dependent"
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give sign(v) |load|, with the load on this robot."""
-        load = Gear(self.operating_point, self.joint, self.motor_inertia).load(state, robot)
+        load = Gear(self.believed, self.joint, self.motor_inertia).load(state, robot)
         return np.array([np.sign(state.velocity[:, self.joint - 1]) * np.abs(load)])

@@ -20,7 +20,7 @@ from .effect import AllJointsTerm, without_rounding
 class Tilt(AllJointsTerm):
     """Model gravity rotated by `tilt_x` and `tilt_y` about the base's axes."""
 
-    operating_point: Prediction
+    believed: Prediction
     symbols = (("tilt_x", "rad", None), ("tilt_y", "rad", None))
     kind = "gravity_misalignment"
     loads = True
@@ -31,7 +31,7 @@ class Tilt(AllJointsTerm):
         gravity = np.asarray(robot.gravity, dtype=float)
         return without_rounding(
             [
-                self.operating_point.load(rest, replace(robot, gravity=np.cross(axis, gravity)))
+                self.believed.load(rest, replace(robot, gravity=np.cross(axis, gravity)))
                 for axis in tilt_axes(gravity)
             ]
         )

@@ -25,7 +25,7 @@ from .effect import AllJointsTerm, rates, step_of
 class Elasticity(AllJointsTerm):
     """Model joint elasticity."""
 
-    operating_point: Prediction
+    believed: Prediction
     band_hz: float
     """Bandwidth at which loads are smoothed before differentiation."""
     resonance_hz: float
@@ -47,7 +47,7 @@ class Elasticity(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per unit of compliance."""
         del robot
-        gear = Gear(self.operating_point, self.joint, self.motor_inertia)
+        gear = Gear(self.believed, self.joint, self.motor_inertia)
         load = _load_spectrum(gear, state, self.band_hz)
         lag = -resonate(load, state, self.resonance_hz, self.damping_ratio)[:, None]
         return [gear.change(state, MotionState(lag, *rates(lag, state)))]

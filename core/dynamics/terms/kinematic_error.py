@@ -22,7 +22,7 @@ SMALL = 1e-5
 class KinematicError(AllJointsTerm):
     """Model an entry (rad or m) of a link's modified DH row that is larger by `error` than described."""
 
-    operating_point: Prediction
+    believed: Prediction
     entry: EntryName
     kind = "kinematic_error"
     loads = True
@@ -40,7 +40,7 @@ class KinematicError(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of load per unit of the entry."""
         changed = with_entry(robot, self.joint, self.entry, SMALL)
-        return [(self.operating_point.load(state, changed) - self.operating_point.load(state, robot)) / SMALL]
+        return [(self.believed.load(state, changed) - self.believed.load(state, robot)) / SMALL]
 
 
 def with_entry(robot: RobotModel, joint: int, entry: EntryName, error: float) -> RobotModel:

@@ -21,7 +21,7 @@ from .effect import AllJointsTerm, rates
 class Delay(AllJointsTerm):
     """Model a delay of the torque channels, the same on all joints, in s near `around`."""
 
-    operating_point: Prediction
+    believed: Prediction
     around: float = 0.0
     symbols = (("delay", "s", None),)
     kind = "time_delay"
@@ -31,7 +31,7 @@ class Delay(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (delayed minus predicted torque) / delay; for no delay, minus the rate."""
         del robot
-        torque = self.operating_point.scaled(state)
+        torque = self.believed.scaled(state)
         if self.around == 0.0 or state.time is None:
             return [-rates(torque, state)[0]]
         then = np.clip(state.time - self.around, state.time[0], state.time[-1])

@@ -22,7 +22,7 @@ from .effect import AllJointsTerm, step_of
 class FilterLag(AllJointsTerm):
     """Model a first-order low-pass of all torque channels; `around` is the linearisation point in s."""
 
-    operating_point: Prediction
+    believed: Prediction
     around: float
     symbols = (("time_constant", "s", 0.0),)
     kind = "torque_filter_lag"
@@ -32,7 +32,7 @@ class FilterLag(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give (filtered minus predicted torque) / time constant."""
         del robot
-        torque = self.operating_point.scaled(state)
+        torque = self.believed.scaled(state)
         return [(filter_first_order(torque, step_of(state), self.around) - torque) / self.around]
 
 

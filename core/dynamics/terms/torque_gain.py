@@ -17,21 +17,21 @@ from .effect import AllJointsTerm, OneJointTerm
 class TorqueGain(OneJointTerm):
     """Model a relative gain error of a torque channel."""
 
-    operating_point: Prediction
+    believed: Prediction
     symbols = (("relative_error", "1", None),)
     kind = "torque_gain"
     channel = True
 
     def columns(self, state: MotionState) -> list[Samples]:
         """Give the joint's predicted torque."""
-        return [self.operating_point.applied(state)[:, self.joint - 1]]
+        return [self.believed.applied(state)[:, self.joint - 1]]
 
 
 @dataclass(frozen=True, eq=False)
 class CommonGain(AllJointsTerm):
     """Model the same relative gain error of all torque channels."""
 
-    operating_point: Prediction
+    believed: Prediction
     symbols = (("relative_error", "1", None),)
     kind = "torque_gain"
     channel = True
@@ -39,4 +39,4 @@ class CommonGain(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the predicted torque."""
         del robot
-        return [self.operating_point.applied(state)]
+        return [self.believed.applied(state)]

@@ -17,11 +17,11 @@ from .effect import OneJointTerm
 class CubicGain(OneJointTerm):
     """Model a channel whose gain changes with the square of the torque."""
 
-    operating_point: Prediction
+    believed: Prediction
     symbols = (("cubic_coefficient", "1/(N m)^2", None),)
     kind = "torque_gain_nonlinear"
     channel = True
 
     def columns(self, state: MotionState) -> list[Samples]:
         """Give the predicted torque cubed."""
-        return [self.operating_point.applied(state)[:, self.joint - 1] ** 3]
+        return [self.believed.applied(state)[:, self.joint - 1] ** 3]

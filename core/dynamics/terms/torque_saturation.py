@@ -20,7 +20,7 @@ from .effect import OneJointTerm
 class Saturation(OneJointTerm):
     """Model the excess of a command over `limit`, N m (N)."""
 
-    operating_point: Prediction
+    believed: Prediction
     limit: float
     symbols = (("bulge", "N m/s2", 0.0), ("skew", "N m/s3", None))
     kind = "torque_saturation"
@@ -29,7 +29,7 @@ class Saturation(OneJointTerm):
 
     def columns(self, state: MotionState) -> list[Samples]:
         """Give parabola and skew over every interval in which the predicted torque is beyond the limit."""
-        torque = self.operating_point.applied(state)[:, self.joint - 1]
+        torque = self.believed.applied(state)[:, self.joint - 1]
         bulge, skew = np.zeros_like(torque), np.zeros_like(torque)
         if state.time is None:
             return [bulge, skew]

@@ -137,7 +137,7 @@ BROKEN = {
     "a term that is not known": changed(terms=[TERM | {"term": "Exec", "made_with": {}}]),
     "a term without its fields": changed(terms=[TERM | {"made_with": {"joint": 1}}]),
     "a belief that is not there": changed(
-        terms=[TERM | {"term": "TorqueGain", "made_with": {"joint": 1, "operating_point": 4}}]
+        terms=[TERM | {"term": "TorqueGain", "made_with": {"joint": 1, "believed": 4}}]
     ),
     "parameters of another term": changed(terms=[{"term": "Viscous", "made_with": {}, "parameters": []}]),
 }
