@@ -77,8 +77,8 @@ def test_a_prediction_that_several_terms_share_is_written_once_and_shared_again(
     text = write_model(found)
     assert len(json.loads(text)["beliefs"]) == 1
     first, second = read_model(text).model.terms[-2:]
-    assert first.operating_point is second.operating_point
-    np.testing.assert_array_equal(first.operating_point.standard, scene.operating_point.standard)
+    assert first.believed is second.believed
+    np.testing.assert_array_equal(first.believed.standard, scene.operating_point.standard)
 
 
 def test_a_prediction_comes_back_with_what_joined_it_and_with_what_that_is_built_on():
