@@ -19,6 +19,8 @@ LOCK_FLAGS := --universal --generate-hashes --extra postgres --extra ros \
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
+# Where bytecode is switched off, each of the many processes that tests start would compile every module again.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: help setup demo serve test check style types imports drift containers answers hidden battery ablate hostile fuzz contract chaos life image-test bench lock openapi reference docs
 
