@@ -37,7 +37,7 @@ def test_the_hour_written_to_parquet_is_the_hour_that_was_meant(tmp_path):
 
 
 def test_coverage_counts_standardised_errors_of_every_base_parameter():
-    names, misses = coverage.standardised_errors("wls", draws=1, until=15.0)
+    names, misses = coverage.standardised_errors("wls", draws=1, until=8.0)
     assert misses.shape == (1, len(names))
     assert 0.3 < np.std(misses) < 3.0
 
