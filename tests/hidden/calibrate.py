@@ -50,7 +50,7 @@ def main(arguments: Sequence[str]) -> int:
         "checked_on": {"seeds": asked.check, "cases_per_seed": asked.cases, "findings": len(checked)},
         "brier": round(brier(found, checked), 4),
         "reliability": reliability(found, checked),
-        "command": "python -m tests.hidden calibrate " + " ".join(arguments),
+        "command": "python -m tests.hidden calibrate",
     }
     text = json.dumps(coefficients(found) | {"provenance": provenance}, indent=2) + "\n"
     sys.stdout.write(f"before: Brier {brier(Calibration.read(), checked):.4f} on the checked seeds\n{text}")
