@@ -195,7 +195,8 @@ class Fields:
             self.refuse(name, "is not a list")
         least, most = bounds
         if not least <= len(value) <= most:
-            length = str(least) if least == most else f"{least} to {most}"
+            upper = "" if least == most else f" to {most}"
+            length = f"at least {least}" if most == np.inf else f"{least}{upper}"
             self.refuse(name, f"holds {len(value)} entries and must hold {length}")
         return value
 

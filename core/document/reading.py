@@ -75,7 +75,7 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
         raise RobotError(
             "the result does not name the torque terms of its model",
             evidence={"missing": "/terms", "version": document["provenance"].get("version")},
-            remedy="identify the robot from its logs again",
+            remedy="it is of an earlier build: delete its job, and identify the robot from its logs again",
         )
     return with_widths(standard_model(robot, tuple(names)), tuple(document["coulomb_smoothing_widths"]))
 

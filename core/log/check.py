@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..errors import LogError
-from .layout import Binding, Layout
+from .layout import Binding
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
 from .suggestion import suggest_mapping, suggest_units
@@ -67,12 +67,13 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
         log = read_table(table, layout, name=path.stem, sha256="")
     except LogError as error:
         return LogCheck(form.name, table.names, recognised, refusal=error)
+    recognised = tuple(bound for bound in recognised if bound is layout.time or bound.name in log.channels)
     units = None if mapping else suggest_units(table, layout, log.defects)
-    return LogCheck(form.name, table.names, recognised, log, _reach(log, layout), suggestion=units)
+    return LogCheck(form.name, table.names, recognised, log, _reach(log), suggestion=units)
 
 
-def _reach(log: JointLog, layout: Layout) -> tuple[Reach, ...]:
-    names = [channel.name for channel in layout.channels]
+def _reach(log: JointLog) -> tuple[Reach, ...]:
+    names = list(log.channels)
     pieces = [_extremes(log, names, start) for start in range(0, log.samples, PIECE_ROWS)]
     return tuple(
         Reach(name, np.min([low for low, _ in piece], axis=0), np.max([high for _, high in piece], axis=0))

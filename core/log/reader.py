@@ -6,6 +6,7 @@ the samples refuses what cannot be used and lists what is wrong but usable.
 
 import hashlib
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -38,7 +39,7 @@ OPENERS: dict[Form, Callable[[Path], Table]] = {
 
 
 def read_log(
-    path: Path,
+    path: Path | str,
     *,
     media_type: str | None = None,
     mapping: Mapping[str, object] | None = None,
@@ -70,6 +71,7 @@ def read_log(
     LogError
         If the file cannot be read, a column is missing or of unknown unit, or the samples cannot be used.
     """
+    path = Path(path)
     table = open_table(path, media_type)[1]
     layout = bind_columns(table, mapping)
     return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
@@ -101,12 +103,35 @@ def bind_columns(table: Table, mapping: Mapping[str, object] | None) -> Layout:
 def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> JointLog:
     """Read the samples and find their defects.
 
+    No computation uses reference channels, so that a log is read without those that cannot be used.
+
     Raises
     ------
     LogError
         If the samples cannot be used.
     """
-    return _log_of(name, _source(table, layout), layout, sha256)
+    try:
+        return _log_of(name, _source(table, layout), layout, sha256)
+    except LogError:
+        measured = _without_references(layout)
+        if measured == layout:
+            raise
+        return _log_of(name, _source(table, measured), measured, sha256)
+
+
+def _without_references(layout: Layout) -> Layout:
+    """Leave out the reference channels that have their default names."""
+    left = [
+        bound
+        for bound in layout.channels
+        if CHANNELS[bound.name].need == "reference"
+        and all(column.startswith(CHANNELS[bound.name].prefix) for column in bound.columns)
+    ]
+    return replace(
+        layout,
+        channels=tuple(bound for bound in layout.channels if bound not in left),
+        ignored=(*layout.ignored, *(column for bound in left for column in bound.columns)),
+    )
 
 
 def log_from_arrays(

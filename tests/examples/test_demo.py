@@ -52,7 +52,7 @@ def test_a_parameter_without_a_grouping_has_no_true_value(page):
 def test_the_page_tells_counts_feasibility_solver_and_truth(page):
     assert "98 standard -> 71 base -> 57 essential" in page
     assert "Least squares: physically inconsistent" in page
-    assert "Semidefinite programme: physically consistent" in page
+    assert "Identified parameters: physically consistent" in page
     assert "optimal, 11 iterations" in page
     assert "0 of 1 base parameters within" in page
 

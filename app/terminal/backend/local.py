@@ -9,6 +9,7 @@ from ...json_text import json_bytes
 from ..computing import COMPILING, limit_threads, share_compiled_kernels
 from ..output.files import save
 from ..output.streams import note
+from ..results import read_result
 from .protocol import WHOLE, Document, FromUrdf, Progress, Study, require_whole
 
 
@@ -132,6 +133,7 @@ def _result_file(named: str | None) -> Path | None:
             evidence={"reference": named},
             remedy='name the file of an earlier result document, or "prior"',
         )
+    read_result(named)
     return Path(named)
 
 

@@ -80,7 +80,7 @@ def summary(result: Document) -> list[str]:
     lines = [
         f"Parameters: {steps}.",
         f"Least squares: {consistency(feasibility.get('ols_feasible'))}.",
-        f"Semidefinite programme: {consistency(smallest > 0.0)}.",
+        f"Identified parameters: {consistency(feasibility.get('feasible'))}.",
         f"Smallest eigenvalue of a link's pseudo-inertia: {smallest:.2g}.",
         f"Solver: {solver['status']}, {solver['iterations']} iterations.",
         f"Cost of the consistency constraint: objective {objective}, least squares {least}.",

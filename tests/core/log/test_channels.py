@@ -138,6 +138,43 @@ def test_default_names_of_a_reference_that_mean_something_else_are_left_alone(ke
     assert set(log.ignored_columns) == ({"tau_1", "tau_2"} if mapping else set(kept))
 
 
+UNUSABLE = {
+    "text": np.array(["MOVE"] * 3000, dtype=object),
+    "empty cells": np.full(3000, np.nan),
+    "a few gaps": np.where(np.arange(3000) % 300 == 0, np.nan, 1.0),
+    "numbers beyond any": np.full(3000, 1e300),
+}
+
+
+def write_text(path, columns):
+    rows = (",".join(map(str, row)) for row in zip(*columns.values(), strict=True))
+    path.write_text("\n".join([",".join(columns), *rows]))
+    return path
+
+
+@pytest.mark.parametrize("what", UNUSABLE)
+@pytest.mark.parametrize(("name", "write"), [("log.csv", write_text), ("log.parquet", write_parquet)])
+def test_references_that_cannot_be_used_refuse_no_log(what, name, write, tmp_path):
+    """No computation uses them, and recorders fill such columns with anything."""
+    columns = swing(joints=JOINTS) | {f"command_{joint}": UNUSABLE[what] for joint in (1, 2)}
+    path = write(tmp_path / name, columns)
+    log = read_log(str(path))
+    assert log.channels == ("position", "torque")
+    assert set(log.ignored_columns) == {"command_1", "command_2"}
+    check = check_log(path)
+    assert check.refusal is None
+    assert [bound.name for bound in check.recognised] == [TIME, "position", "torque"]
+    assert [reach.channel for reach in check.reach] == ["position", "torque"]
+
+
+def test_a_reference_that_the_mapping_names_has_to_be_usable(tmp_path):
+    columns = swing(joints=JOINTS) | {f"target_{joint}": np.full(3000, np.nan) for joint in (1, 2)}
+    path = write_csv(tmp_path / "log.csv", columns)
+    mapping = {"position_ref": {"columns": ["target_1", "target_2"], "unit": "rad"}}
+    with pytest.raises(LogError):
+        read_log(path, mapping=mapping)
+
+
 def test_what_was_measured_is_suggested_before_what_was_asked_for(tmp_path):
     columns = swing(joints=JOINTS)
     renamed = {"time": columns["time"]}
