@@ -88,12 +88,15 @@ def _query_names(dependant: Dependant) -> Iterator[str]:
         yield from _query_names(inner)
 
 
+def _takes_more(dependant: Dependant) -> bool:
+    more = dependant.query_params or dependant.cookie_params or dependant.body_params
+    return bool(more) or any(inner.call is not context_of for inner in dependant.dependencies)
+
+
 def _direct_handler(dependant: Dependant) -> Handler | None:
     """Give what calls an endpoint straight away; None where it takes more than strings and the context."""
     endpoint = dependant.call
-    more = dependant.query_params or dependant.cookie_params or dependant.body_params
-    others = [inner for inner in dependant.dependencies if inner.call is not context_of]
-    if more or others or not iscoroutinefunction(endpoint):
+    if _takes_more(dependant) or not iscoroutinefunction(endpoint):
         return None
     contexts = [str(inner.name) for inner in dependant.dependencies]
     request_name = dependant.request_param_name

@@ -9,6 +9,7 @@ import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 from sqlalchemy import Connection, and_, bindparam, delete, insert, select
 
@@ -72,6 +73,7 @@ class NewJob:
 
 
 Outcome = JobRecord | Exception
+Decided = TypeVar("Decided", JobRecord, Outcome)
 
 
 def queue_all(connection: Connection, tenant: str, quota: Quota, jobs: Sequence[NewJob]) -> list[Outcome]:
@@ -81,8 +83,8 @@ def queue_all(connection: Connection, tenant: str, quota: Quota, jobs: Sequence[
         lock_in_turn(connection, about)  # in the same order as everybody, so that no two wait for each other
     decisions = _Decisions(connection, tenant, quota, jobs)
     decided = [decisions.decide(job) for job in jobs]
-    queued = decisions.write()
-    return [queued[decision] if isinstance(decision, str) else decision for decision in decided]
+    decisions.write()
+    return [decisions.outcome(decision) for decision in decided]
 
 
 class _Decisions:
@@ -101,6 +103,7 @@ class _Decisions:
         }
         self._room = room_for_jobs(connection, tenant, quota)
         self._new: list[NewJob] = []
+        self._queued: dict[str, JobRecord] = {}
         self._noted: dict[str, tuple[NewJob, JobRecord | str]] = {}
 
     def decide(self, job: NewJob) -> Outcome | str:
@@ -120,20 +123,19 @@ class _Decisions:
             self._noted[job.key] = (job, known)
         return known
 
-    def write(self) -> dict[str, JobRecord]:
-        """Write what is new, and give the new jobs by name."""
-        queued: dict[str, JobRecord] = {}
+    def write(self) -> None:
+        """Write what is new."""
         if self._new:
             rows = self._connection.execute(NEW, [_row(self._tenant, job) for job in self._new])
-            queued = {row.fingerprint: job_record(row) for row in rows}
+            self._queued = {row.fingerprint: job_record(row) for row in rows}
         if self._noted:
             self._connection.execute(FORGET, {"tenant": self._tenant, "keys": list(self._noted)})
-            notes = [
-                self._note(new, queued[found] if isinstance(found, str) else found)
-                for new, found in self._noted.values()
-            ]
+            notes = [self._note(new, self.outcome(found)) for new, found in self._noted.values()]
             self._connection.execute(insert(REPEATS), notes)
-        return queued
+
+    def outcome(self, decision: Decided | str) -> Decided | JobRecord:
+        """Give what a decision led to: the new job for its fingerprint, else the decision itself."""
+        return self._queued[decision] if isinstance(decision, str) else decision
 
     def _add(self, job: NewJob) -> str:
         self._room -= 1

@@ -8,6 +8,8 @@ import numpy as np
 
 from ..arrays import JointVector, Mask
 from ..estimate.estimate import Estimate
+from ..log.model import Defect
+from ..regressor.observe import Block
 from .result import Identification
 
 HIGH_COST = 1.25
@@ -101,10 +103,13 @@ def _joints_with_held_out_outliers(found: Identification) -> str:
         for block in found.observation.blocks
         if (block.log, block.number) in found.held_out
         for defect in found.logs[block.log].defects
-        if (defect.kind, defect.channel) == ("outliers", "torque") and defect.joint is not None
-        if any(start <= block.end and end >= block.start for start, end in defect.intervals)
+        if (defect.kind, defect.channel) == ("outliers", "torque") and _overlaps(defect, block)
     }
-    return ", ".join(map(str, sorted(joints)))
+    return ", ".join(map(str, sorted(filter(None, joints))))
+
+
+def _overlaps(defect: Defect, block: Block) -> bool:
+    return any(start <= block.end and end >= block.start for start, end in defect.intervals)
 
 
 def _not_excited(found: Identification) -> list[str]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..errors import LogError
+from .channels import TIME
 from .layout import Binding
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
@@ -62,12 +63,12 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
     except LogError as error:
         suggestion = None if mapping else suggest_mapping(table)
         return LogCheck(form.name, table.names, refusal=error, suggestion=suggestion)
-    recognised = (*((layout.time,) if layout.time else ()), *layout.channels)
+    recognised = tuple(filter(None, (layout.time, *layout.channels)))
     try:
         log = read_table(table, layout, name=path.stem, sha256="")
     except LogError as error:
         return LogCheck(form.name, table.names, recognised, refusal=error)
-    recognised = tuple(bound for bound in recognised if bound is layout.time or bound.name in log.channels)
+    recognised = tuple(bound for bound in recognised if bound.name in (TIME, *log.channels))
     units = None if mapping else suggest_units(table, layout, log.defects)
     return LogCheck(form.name, table.names, recognised, log, _reach(log), suggestion=units)
 

@@ -121,17 +121,17 @@ def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> Joint
 
 def _without_references(layout: Layout) -> Layout:
     """Leave out the reference channels that have their default names."""
-    left = [
-        bound
-        for bound in layout.channels
-        if CHANNELS[bound.name].need == "reference"
-        and all(column.startswith(CHANNELS[bound.name].prefix) for column in bound.columns)
-    ]
+    left = [bound for bound in layout.channels if _is_default_reference(bound)]
     return replace(
         layout,
         channels=tuple(bound for bound in layout.channels if bound not in left),
         ignored=(*layout.ignored, *(column for bound in left for column in bound.columns)),
     )
+
+
+def _is_default_reference(bound: Binding) -> bool:
+    channel = CHANNELS[bound.name]
+    return channel.need == "reference" and all(name.startswith(channel.prefix) for name in bound.columns)
 
 
 def log_from_arrays(

@@ -109,11 +109,7 @@ def robot_from_description(description: object) -> RobotModel:
     array([0. , 0. , 0.3])
     """
     top = RobotFields(description, "the description", "", ROBOT_FIELDS)
-    convention = top.choice("convention", (MODIFIED_DH, FRAMES)) if "convention" in top.value else MODIFIED_DH
-    rows = [
-        RobotFields(row, f"joint {number}", f"/joints/{number - 1}", JOINT_FIELDS_OF[convention])
-        for number, row in enumerate(top.items("joints", least=1, most=MOST_JOINTS), start=1)
-    ]
+    rows = _rows(top)
     owners = [(number, row) for number, row in enumerate(rows, start=1) if not row.has("mimics")]
     joints = tuple(_joint(row, number) for number, row in owners)
     numbers = _numbers(joints, owners)
@@ -127,6 +123,14 @@ def robot_from_description(description: object) -> RobotModel:
         couplings=_couplings(top, len(joints)),
         prior=_prior(top, len(links)),
     )
+
+
+def _rows(top: RobotFields) -> list[RobotFields]:
+    convention = top.choice("convention", (MODIFIED_DH, FRAMES)) if "convention" in top.value else MODIFIED_DH
+    return [
+        RobotFields(row, f"joint {number}", f"/joints/{number - 1}", JOINT_FIELDS_OF[convention])
+        for number, row in enumerate(top.items("joints", least=1, most=MOST_JOINTS), start=1)
+    ]
 
 
 def _numbers(joints: tuple[Joint, ...], owners: Sequence[tuple[int, Fields]]) -> dict[str, int]:

@@ -3,7 +3,7 @@
 The report holds the details and figures.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -80,15 +80,19 @@ def gain_columns(result: Document) -> list[Column]:
     """Give torque and motion errors on held-out data before and after the correction."""
     diagnosis = result["diagnosis"]
     rows, moved = diagnosis["gain"], diagnosis["simulation"].get("improvement_total_percent") or []
-    ends = [row["interval_95"] for row in rows]
+    ends = [_range(row["interval_95"]) for row in rows]
     return [
         Column("joint", [str(row["joint"]) for row in rows]),
         effort_column(result, "before", rows, "rms_residual_before", spare=2),
         effort_column(result, "after", rows, "rms_residual_after", spare=1),
         Column("torque improvement, %", [percent(row["improvement_percent"]) for row in rows]),
-        Column("95 %", ["" if span is None else f"{span[0]:.1f} to {span[1]:.1f}" for span in ends], spare=3),
+        Column("95 %", ends, spare=3),
         Column("motion improvement, %", [percent(moved[row["joint"] - 1]) if moved else "" for row in rows]),
     ]
+
+
+def _range(ends: Sequence[float] | None) -> str:
+    return "" if ends is None else f"{ends[0]:.1f} to {ends[1]:.1f}"
 
 
 def evaluation_note(result: Document) -> str:
