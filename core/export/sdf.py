@@ -98,7 +98,7 @@ def _sdf_name(name: str) -> str:
 
     Examples
     --------
-    >>> _allowed("left::elbow"), _allowed("world"), _allowed("__model__"), _sdf_name("joint_1")
+    >>> _sdf_name("left::elbow"), _sdf_name("world"), _sdf_name("__model__"), _sdf_name("joint_1")
     ('left_elbow', 'world_', 'model', 'joint_1')
     """
     plain = name.replace("::", "_")

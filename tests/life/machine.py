@@ -9,6 +9,7 @@ from pathlib import Path
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
+from tests.app.stubs import add_job
 from tests.chaos.run import MEMORY
 from veritorque.app.jobs.liveness import Presence
 from veritorque.app.jobs.reclaim import Reclaimer
@@ -67,7 +68,7 @@ class JobLives(RuleBasedStateMachine):
         if known is not None and known[1] in self.jobs:
             identity = known[1]
         identity = identity or next((i for i, job in self.jobs.items() if self._answers(job, number)), None)
-        given = self.mine.add(_request(number), key=key).id
+        given = add_job(self.mine, _request(number), key=key).id
         assert identity in (None, given)
         if identity is None:
             assert given not in self.jobs
@@ -191,7 +192,7 @@ class JobLives(RuleBasedStateMachine):
 
     def _assert_refused(self, number, key):
         try:
-            self.mine.add(_request(number), key=key)
+            add_job(self.mine, _request(number), key=key)
         except KeyReused:
             return
         raise AssertionError("a key stood for two requests")

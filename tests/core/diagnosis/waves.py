@@ -33,7 +33,7 @@ class BuiltOn(WaveTerm):
 
     def __init__(self, joint: int, waves: Mapping[float, float], operating_point: Prediction) -> None:
         super().__init__(joint, waves)
-        object.__setattr__(self, "operating_point", operating_point)
+        object.__setattr__(self, "believed", operating_point)
 
 
 class WaveCause(OwnJointCause):
