@@ -24,7 +24,9 @@ RESULT = {
         },
         {"name": "FC1", "unit": "N m", "value": 2.2, "value_ols": 2.2, "standard_deviation": 0.01},
     ],
-    "feasibility": {"pseudo_inertia_min_eigenvalue": [0.002, 0.001], "ols_feasible": False},
+    "feasibility": {
+        "feasible": True, "pseudo_inertia_min_eigenvalue": [0.002, 0.001], "ols_feasible": False,
+    },
     "solver": {"status": "optimal", "iterations": 11, "objective": 2.5, "objective_ols": 2.4},
     "fit": [{"joint": 1, "rms_torque": 4.0, "nrmse_of_range_percent": 1.25, "nrmse_of_rms_percent": 3.5}],
     "validation": [],
