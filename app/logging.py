@@ -27,7 +27,7 @@ def configure_logging(settings: Settings) -> None:
 
 
 def begin(**names: str) -> None:
-    """Forget what earlier lines were about; the next are about these."""
+    """Replace the fields that every following line carries."""
     structlog.contextvars.clear_contextvars()
     structlog.contextvars.bind_contextvars(**names)
 

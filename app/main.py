@@ -93,5 +93,5 @@ def create_app(
             app.openapi_schema = openapi.document(app)
         return app.openapi_schema
 
-    app.openapi = contract  # type: ignore[method-assign]  # as FastAPI tells to extend it
+    app.openapi = contract  # type: ignore[method-assign]  # the way FastAPI documents
     return app

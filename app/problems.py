@@ -10,7 +10,7 @@ from starlette.exceptions import HTTPException
 
 from ..core.errors import ExcitationError, LogError, OptionError, RobotError, SolverError, VeritorqueError
 from .json_text import plain
-from .store.errors import Damaged
+from .store.errors import DamagedError
 
 MEDIA_TYPE = "application/problem+json"
 URN = "urn:veritorque:problem:"
@@ -146,7 +146,7 @@ def problem_of(error: VeritorqueError) -> Problem:
     return Problem(kind, error.cause, evidence=error.evidence, remedy=error.remedy)
 
 
-def problem_of_damage(error: Damaged) -> Problem:
+def problem_of_damage(error: DamagedError) -> Problem:
     """Describe damaged stored data; the client is not at fault."""
     return Problem(
         "damaged",

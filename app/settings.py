@@ -1,7 +1,7 @@
 """Hold what an operator may choose, read once from the environment (``VERITORQUE_PORT=9000``).
 
 Settings never change afterwards. The command line offers the same by the same names, so that a container and
-a terminal are told the same thing.
+a terminal are configured alike.
 """
 
 import ipaddress
@@ -67,11 +67,11 @@ class Settings(BaseSettings):
         return reaches_other_machines(self.host)
 
     def environment(self) -> dict[str, str]:
-        """Write the settings as the environment of another process that shall be told the same."""
-        told = self.model_dump(mode="json", exclude_none=True)
+        """Write the settings as the environment of another process."""
+        chosen = self.model_dump(mode="json", exclude_none=True)
         return {
             PREFIX + name.upper(): value if isinstance(value, str) else json.dumps(value)
-            for name, value in told.items()
+            for name, value in chosen.items()
         }
 
 

@@ -34,7 +34,7 @@ def main() -> None:
         "seconds": time.process_time(),
         "peak_mb": _peak_mb(),
         "stages": {name: seconds for name, seconds in spent.items() if seconds >= 0.005},
-        "status": document["solver"]["status"],  # type: ignore[index]  # a document is plain data
+        "status": document["solver"]["status"],
     }
     sys.stdout.write(json.dumps(told))
 

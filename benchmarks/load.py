@@ -74,7 +74,7 @@ class _Client(asyncio.Protocol):
         self._begun = 0.0
         self.done = self._loop.create_future()
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # TCP only
+    def connection_made(self, transport: asyncio.Transport) -> None:
         self._transport = transport
         self._next()
 

@@ -7,7 +7,7 @@ orders differ.
 from typing import Any, Final
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
+import pinocchio as pin
 
 from veritorque.core.reduction.base import BaseModel
 from veritorque.core.robot.model import RobotModel

@@ -8,7 +8,7 @@ shows in the difference; it ends at the same motion as the steps get shorter.
 from typing import Any
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
+import pinocchio as pin
 
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import pinocchio_model

@@ -183,7 +183,7 @@ def _diagnose(task: _Task, tell: Progress) -> Extension:
 
 
 def _extend(found: Diagnosis, problem: Problem) -> Problem:
-    """Let the causes whose gain is beyond doubt join the model."""
+    """Add the causes whose gain is significant or verified to the model."""
     return replace(problem, base=extended_base(problem.base, corrections(found)), sizes=sizes(found))
 
 

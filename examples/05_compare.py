@@ -1,6 +1,6 @@
-"""Compare two identifications: which parameters differ by more than chance lets them.
+"""Compare two identifications: which parameters differ by more than noise explains.
 
-Here the same arm was logged twice, the second time with something hidden in it. A difference is told in
+Here the same arm was logged twice, the second time with something hidden in it. A difference is stated in
 standard deviations; among 71 parameters a few beyond 2 are expected by chance, and none beyond 4. Run
 ``python -m examples.05_compare``.
 """

@@ -107,7 +107,7 @@ def _npz(arrays: Mapping[str, Any]) -> bytes:
     return buffer.getvalue()
 
 
-def _parquet(frame: Any) -> bytes:  # noqa: ANN401  # whatever gives itself as an Arrow stream
+def _parquet(frame: Any) -> bytes:  # noqa: ANN401  # anything with an Arrow stream
     import pyarrow as pa
     import pyarrow.parquet as pq
 

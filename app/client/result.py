@@ -123,7 +123,7 @@ class Finding:
     ambiguous_with
         Causes that explain it as well.
     improvement_percent
-        Of the error on these joints that it takes away on motion no fit has seen; None where not judged.
+        Reduction of the error on these joints on held-out motion; None where it was not measured.
     """
 
     cause: str

@@ -15,7 +15,7 @@ from ...core.errors import VeritorqueError
 from ..json_text import json_bytes
 from ..pages.files import STRICT, shell
 from ..problems import KINDS, MEDIA_TYPE, Problem, problem_of, problem_of_damage
-from ..store.errors import Damaged, KeyReused, OverQuota, Unavailable
+from ..store.errors import DamagedError, KeyReusedError, OverQuotaError, UnavailableError
 from .body.json_body import invalid
 from .negotiation import preferred
 
@@ -49,10 +49,10 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _on_http)
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(VeritorqueError, _on_core_error)
-    app.add_exception_handler(Unavailable, _on_unavailable)
-    app.add_exception_handler(OverQuota, _on_quota)
-    app.add_exception_handler(KeyReused, _on_key)
-    app.add_exception_handler(Damaged, _on_damage)
+    app.add_exception_handler(UnavailableError, _on_unavailable)
+    app.add_exception_handler(OverQuotaError, _on_quota)
+    app.add_exception_handler(KeyReusedError, _on_key)
+    app.add_exception_handler(DamagedError, _on_damage)
     app.add_exception_handler(ClientDisconnect, _on_loss)
     app.add_exception_handler(OSError, _on_system)
     app.add_exception_handler(Exception, _on_mistake)
@@ -102,7 +102,7 @@ async def _on_unavailable(_request: Request, error: Exception) -> Response:
 
 
 async def _on_quota(_request: Request, error: Exception) -> Response:
-    if not isinstance(error, OverQuota):
+    if not isinstance(error, OverQuotaError):
         raise error
     problem = Problem(
         "quota",
@@ -116,7 +116,7 @@ async def _on_quota(_request: Request, error: Exception) -> Response:
 
 
 async def _on_key(_request: Request, error: Exception) -> Response:
-    if not isinstance(error, KeyReused):
+    if not isinstance(error, KeyReusedError):
         raise error
     problem = Problem(
         "key-reused",
@@ -129,7 +129,9 @@ async def _on_key(_request: Request, error: Exception) -> Response:
 
 async def _on_damage(_request: Request, error: Exception) -> Response:
     LOGGER.error("what was kept is damaged: %s", error)
-    return problem_response(problem_of_damage(error) if isinstance(error, Damaged) else _internal_error(""))
+    return problem_response(
+        problem_of_damage(error) if isinstance(error, DamagedError) else _internal_error("")
+    )
 
 
 async def _on_system(request: Request, error: Exception) -> Response:

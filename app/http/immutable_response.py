@@ -35,7 +35,7 @@ class Blob:
 
         Raises
         ------
-        Damaged
+        DamagedError
             If they are missing, or do not have the digest.
         """
         return self.store.read(self.sha256)
@@ -45,7 +45,7 @@ class Blob:
 
         Raises
         ------
-        Damaged
+        DamagedError
             If they are not.
         """
         self.store.check(self.sha256)
@@ -89,7 +89,7 @@ def file_response(blob: Blob, name: str, media_type: str, if_none_match: str | N
 
     Raises
     ------
-    Damaged
+    DamagedError
         If its bytes are missing, or do not have its digest.
     """
 

@@ -1,6 +1,6 @@
-"""See every request come and go: give it an id, time it, count it, and write down what is worth reading.
+"""Log every request: give it an id, measure its time, count it, and write a line.
 
-Reads that succeed are counted only: clients that poll would fill the disk with them.
+Reads that succeed are counted only: clients that poll would fill the disk with lines.
 """
 
 import logging

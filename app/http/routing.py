@@ -1,7 +1,7 @@
-"""Hold routes to their contract: what it does not name is refused, and what it makes simple is quick.
+"""Check requests against their route's contract, and call simple endpoints directly.
 
-The framework ignores parameters of the query that it does not know, so that a slip of the pen would go
-unseen. And it works out again at every request what an endpoint takes; where that is nothing but plain
+The framework ignores query parameters that it does not know, so that a misspelt one would have no effect. It
+also determines again at every request what an endpoint takes. Where that is nothing but plain
 strings and the caller's context, the endpoint is called straight away, because clients poll jobs thousands of
 times a second.
 """

@@ -17,7 +17,7 @@ from ...core.errors import LogError, VeritorqueError
 from ..json_text import json_bytes
 from ..problems import problem_of, problem_of_damage
 from ..processes.fork_server import READERS
-from ..store.errors import Damaged
+from ..store.errors import DamagedError
 from ..store.records import Document
 from .confinement import Budget, confine
 
@@ -47,7 +47,7 @@ def _answer_in_time(work: Work, budget: Budget) -> bytes:
         return RESULT + json_bytes(work())
     except VeritorqueError as error:
         return FAILURE + json_bytes(problem_of(error).document())
-    except Damaged as error:
+    except DamagedError as error:
         return FAILURE + json_bytes(problem_of_damage(error).document())
     except MemoryError:
         return FAILURE + json_bytes(problem_of(too_much_memory(budget)).document())

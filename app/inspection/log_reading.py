@@ -76,7 +76,7 @@ def trace_log(log: LogFile, selection: ChannelSelection) -> Document:
     ------
     OptionError
         If nothing was measured in the stretch of time that is asked for.
-    Damaged
+    DamagedError
         If the log is not what it was.
     """
     check_file(log.path, log.sha256)

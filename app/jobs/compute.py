@@ -19,7 +19,7 @@ def compute(computation: Computation, workspace: Workspace, progress: Progress) 
     ------
     VeritorqueError
         If the robot, the logs or the options do not allow it.
-    Damaged
+    DamagedError
         If a log or the earlier result is missing, or does not have its digest.
     """
     kind, files = kind_of(computation.kind), workspace.files

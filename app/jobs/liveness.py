@@ -49,7 +49,7 @@ class Presence:
         return True
 
     def tidy(self) -> None:
-        """Remove the files of the dead of whom no job speaks any more; call it when their jobs are taken."""
+        """Remove the files of ended workers that no job names any more; call it when their jobs are taken."""
         for path in self._directory.iterdir():
             if path.name != self.name and self.is_gone(path.name):
                 path.unlink(missing_ok=True)

@@ -83,7 +83,7 @@ class Queue:
                 earlier_result=self._result,
             )
             kind.admit(planned, options)
-        except Exception as error:  # noqa: BLE001 - it belongs to the one who asked
+        except Exception as error:  # noqa: BLE001 - it is the caller's answer
             return error
         ids = tuple(log.id for log in logs)
         request = JobRequestRecord(kind.name, robot.id, ids, submission.options)

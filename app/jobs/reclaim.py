@@ -49,10 +49,10 @@ class Reclaimer:
 
 
 def died_too_often() -> Problem:
-    """Report a job whose worker died or froze too often."""
+    """Report a job whose worker process ended or hung too often."""
     return Problem(
         "computation-stopped",
-        f"whoever computed this job died or froze {MOST_ATTEMPTS} times, so it is not tried again",
+        f"the process that computed this job ended or hung {MOST_ATTEMPTS} times, so it is not tried again",
         evidence={"attempts": MOST_ATTEMPTS},
         remedy="shorten the log or raise the decimation; the service's own log may say more",
     )

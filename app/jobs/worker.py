@@ -18,7 +18,7 @@ from ..lifecycle.retention import expire
 from ..problems import URN, Problem, problem_of
 from ..settings import Kept
 from ..store.blobs.sweep import Sweep
-from ..store.errors import Unavailable
+from ..store.errors import UnavailableError
 from ..store.records import Document, JobRecord
 from ..store.store import Store
 from ..store.work import Held
@@ -134,7 +134,7 @@ class Worker:
                     continue
                 with self._woken:
                     self._woken.wait(POLL_S)
-            except Unavailable as error:
+            except UnavailableError as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
                 self._closing.wait(PAUSE_S)
             except Exception:
@@ -160,7 +160,7 @@ class Worker:
                     expire(self._store.database, self._capacity.retention_days)
                     self._sweep.run()
                     sweep = now + SWEEP_EVERY_S
-            except Unavailable as error:
+            except UnavailableError as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
             except Exception:
                 LOGGER.exception("supervising the jobs failed with an internal error")
@@ -204,7 +204,7 @@ class Worker:
             return Failed(problem_of(error).document())
         except Problem as problem:
             return Failed(problem.document())
-        except Unavailable as error:
+        except UnavailableError as error:
             LOGGER.warning("the job is handed back because the database does not answer: %s", error.reason)
             self._closing.wait(PAUSE_S)
             return Stopped()
@@ -233,7 +233,7 @@ class Worker:
         while True:
             try:
                 return self._write(held, outcome, traces)
-            except (Unavailable, OSError) as error:
+            except (UnavailableError, OSError) as error:
                 LOGGER.warning("the outcome cannot be written yet: %s", error)
                 if self._closing.wait(PAUSE_S):
                     return None
@@ -263,5 +263,5 @@ class Reporter:
         self._stage, self._next = stage, time.monotonic() + REPORT_EVERY_S
         try:
             self._store.work.report(self._held, stage=stage, fraction=fraction)
-        except Unavailable as error:
+        except UnavailableError as error:
             LOGGER.warning("progress is not written: %s", error.reason)

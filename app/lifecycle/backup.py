@@ -16,7 +16,7 @@ from .copying import copy_store, is_empty
 NOTE = "backup.json"
 
 
-class NoBackup(Exception):  # noqa: N818 - it is what it says
+class NoBackupError(Exception):
     """Say why a backup cannot be made or restored, and what to do about it."""
 
 
@@ -25,13 +25,13 @@ def back_up(store: Store, directory: Path) -> dict[str, int]:
 
     Raises
     ------
-    NoBackup
+    NoBackupError
         If there is something in the directory already.
-    Damaged
+    DamagedError
         If bytes are missing or damaged.
     """
     if directory.exists() and any(directory.iterdir()):
-        raise NoBackup(f"there is something in {directory} already; name a new directory")
+        raise NoBackupError(f"there is something in {directory} already; name a new directory")
     copy = Store(directory)
     try:
         counts = copy_store(store, copy)
@@ -47,15 +47,15 @@ def restore(directory: Path, store: Store) -> dict[str, int]:
 
     Raises
     ------
-    NoBackup
+    NoBackupError
         If the directory holds no complete backup, or the store is not empty.
-    Damaged
+    DamagedError
         If bytes are missing or damaged.
     """
     if not (directory / NOTE).is_file():
-        raise NoBackup(f"{directory} holds no complete backup: it has no {NOTE}; name another directory")
+        raise NoBackupError(f"{directory} holds no complete backup: it has no {NOTE}; name another directory")
     if not is_empty(store):
-        raise NoBackup("there is data already where the backup would go; choose an empty data directory")
+        raise NoBackupError("there is data already where the backup would go; choose an empty data directory")
     backup = Store(directory)
     try:
         return copy_store(backup, store)

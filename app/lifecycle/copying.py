@@ -11,7 +11,7 @@ from sqlalchemy import Connection, insert, select, text
 
 from ..store.blobs.blob_store import BlobStore
 from ..store.blobs.incoming import CHUNK_BYTES
-from ..store.errors import Damaged
+from ..store.errors import DamagedError
 from ..store.store import Store
 from ..store.tables import METADATA
 
@@ -23,7 +23,7 @@ def copy_store(source: Store, target: Store) -> dict[str, int]:
 
     Raises
     ------
-    Damaged
+    DamagedError
         If bytes that a row needs are missing or not what they were; the copy is then not complete.
     """
     copied = _copy_blobs(source.blobs, target.blobs, source.needed(), patient=True)
@@ -68,7 +68,7 @@ def _copy_blobs(source: BlobStore, target: BlobStore, wanted: AbstractSet[str], 
         except FileNotFoundError:
             if patient:
                 continue
-            raise Damaged(sha256, "it is missing") from None
+            raise DamagedError(sha256, "it is missing") from None
         copied.add(sha256)
     return copied
 
@@ -78,5 +78,5 @@ def _copy_blob(source: BlobStore, target: BlobStore, sha256: str) -> None:
         while chunk := file.read(CHUNK_BYTES):
             incoming.write(chunk)
         if incoming.sha256 != sha256:
-            raise Damaged(sha256, f"its hash is {incoming.sha256}")
+            raise DamagedError(sha256, f"its hash is {incoming.sha256}")
         target.keep(incoming)

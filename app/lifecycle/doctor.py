@@ -13,7 +13,7 @@ from sqlalchemy import func, select, text
 from sqlalchemy.exc import SQLAlchemyError
 
 from ..settings import Settings
-from ..store.errors import Damaged, Unavailable
+from ..store.errors import DamagedError, UnavailableError
 from ..store.store import Store
 from ..store.tables import METADATA
 
@@ -46,13 +46,13 @@ def examine(settings: Settings) -> Iterator[Finding]:
     yield _disk(settings)
     try:
         store = Store(directory, settings.database_url)
-    except (SQLAlchemyError, Unavailable, OSError) as error:
+    except (SQLAlchemyError, UnavailableError, OSError) as error:
         yield _unreachable(settings, error)
         return
     try:
         yield from _database(store)
         yield from _blobs(store)
-    except (SQLAlchemyError, Unavailable) as error:
+    except (SQLAlchemyError, UnavailableError) as error:
         yield _unreachable(settings, error)
     finally:
         store.close()
@@ -114,7 +114,7 @@ def _blobs(store: Store) -> Iterator[Finding]:
     for sha256 in sorted(kept & needed):
         try:
             store.blobs.check(sha256)
-        except Damaged as error:
+        except DamagedError as error:
             damaged.append(f"{sha256} ({error.evidence})")
     missing = [sha256 for sha256 in sorted(needed - kept) if not _exists(store, sha256)]
     lost = "restore them from a backup, or delete the logs and jobs that need them: "

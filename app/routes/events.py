@@ -16,7 +16,7 @@ from ..json_text import json_bytes
 from ..services.job_feed import JobFeed, no_such_job
 from ..services.serialisers import job_document
 from ..services.services import ContextOf
-from ..store.errors import Unavailable
+from ..store.errors import UnavailableError
 from ..store.records import JobRecord
 
 ROUTER = chapter("/v1/jobs", tag="jobs")
@@ -73,7 +73,7 @@ async def _events(feed: JobFeed, job: JobRecord, known: int | None) -> AsyncIter
             return
         try:
             now = await feed.change((job.tenant, job.id), known=known, seconds=HEARTBEAT_S)
-        except Unavailable:
+        except UnavailableError:
             return  # the client reconnects, and gets a problem document if that lasts
         if now is None or (feed.ending and now.version == known):
             return

@@ -88,7 +88,7 @@ def _run_groups(groups: list[_Group[Asked, Given]]) -> list[list[Given | Excepti
 def _begin(group: _Group[Asked, Given]) -> Callable[[], list[Given | Exception]]:
     try:
         return group.begin(group.asked)
-    except Exception as error:  # noqa: BLE001 - it belongs to those who asked
+    except Exception as error:  # noqa: BLE001 - it is every caller's answer
         failed: list[Given | Exception] = [error] * len(group.asked)
         return lambda: failed
 
@@ -98,5 +98,5 @@ def _finish(
 ) -> list[Given | Exception]:
     try:
         return wait()
-    except Exception as error:  # noqa: BLE001 - it belongs to those who asked
+    except Exception as error:  # noqa: BLE001 - it is every caller's answer
         return [error] * len(group.asked)

@@ -87,7 +87,7 @@ def report_of(context: RequestContext, job: JobRecord) -> HTMLResponse:
     ------
     Problem
         If the job has no result (409), or its kind no report (404).
-    Damaged
+    DamagedError
         If its result or its traces are missing, or do not have their digests.
     """
     kind = kind_of(job.request.kind)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from ..problems import Problem
-from ..store.errors import Unavailable
+from ..store.errors import UnavailableError
 from ..store.many import ManyJobs, Place
 from ..store.records import JobRecord
 
@@ -67,7 +67,7 @@ class JobFeed:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the database does not answer.
         """
         answer = self._asked.get(place)
@@ -82,7 +82,7 @@ class JobFeed:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the database does not answer.
         """
         loop = asyncio.get_running_loop()
@@ -130,7 +130,7 @@ class JobFeed:
             asked, self._asked = self._asked, {}
             try:
                 found = await self._in_thread(self._jobs.records, tuple(asked))
-            except Exception as error:  # noqa: BLE001 - it belongs to those who asked
+            except Exception as error:  # noqa: BLE001 - it is every caller's answer
                 for answer in asked.values():
                     answer.set_exception(error)
             else:
@@ -152,7 +152,7 @@ class JobFeed:
     async def _poll_once(self, watched: tuple[Place, ...]) -> None:
         try:
             versions = await self._in_thread(self._jobs.versions, watched)
-        except Unavailable as error:
+        except UnavailableError as error:
             LOGGER.warning("changes of jobs cannot be seen: %s", error.reason)
             versions = {}  # requests that wait then ask by themselves, and fail with the reason
         for place in watched:

@@ -12,7 +12,7 @@ import anyio
 
 from ..problems import Problem
 from ..settings import Settings
-from ..store.errors import Unavailable
+from ..store.errors import UnavailableError
 from ..store.store import Store
 
 FRESH_S = 1.0
@@ -95,7 +95,7 @@ class Readiness:
     def _write(self) -> str | None:
         try:
             self._store.prove_writable()
-        except Unavailable as error:
+        except UnavailableError as error:
             return error.reason
         return None
 

@@ -19,7 +19,7 @@ from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
-from .errors import Unavailable
+from .errors import UnavailableError
 from .migrations.upgrade import upgrade
 
 MOST_TOGETHER = 256
@@ -41,7 +41,7 @@ class Database:
 
     Raises
     ------
-    Unavailable
+    UnavailableError
         If the database does not answer.
     """
 
@@ -50,7 +50,7 @@ class Database:
         try:
             upgrade(self._engine)
         except OperationalError as error:
-            raise Unavailable(str(error.orig)) from None
+            raise UnavailableError(str(error.orig)) from None
         self._waiting: SimpleQueue[_Unit | None] = SimpleQueue()
         self._writer = threading.Thread(target=self._serve, name="writer", daemon=True)
         self.embedded = self._engine.dialect.name == "sqlite"
@@ -67,21 +67,21 @@ class Database:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the database does not answer.
         """
         try:
             with self._engine.connect() as connection:
                 return work(connection)
         except OperationalError as error:
-            raise Unavailable(str(error.orig)) from None
+            raise UnavailableError(str(error.orig)) from None
 
     def snapshot(self, work: Work[Given]) -> Given:
         """Run a unit of work that reads all as it is at one instant, however long it takes.
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the database does not answer.
         """
         level = {} if self.embedded else {"isolation_level": "REPEATABLE READ"}  # SQLite reads so anyway
@@ -89,7 +89,7 @@ class Database:
             with self._engine.connect().execution_options(**level) as connection:
                 return work(connection)
         except OperationalError as error:
-            raise Unavailable(str(error.orig)) from None
+            raise UnavailableError(str(error.orig)) from None
 
     def write(self, work: Work[Given]) -> Given:
         """Run a unit of work, and give what it gives once that is on the disk.
@@ -98,7 +98,7 @@ class Database:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the database cannot be written: locked by another process, its disk full, or gone.
         """
         return self.begin(work).result()
@@ -111,7 +111,7 @@ class Database:
             return outcome
         try:
             outcome.set_result(self._write_at_once(work))
-        except Exception as error:  # noqa: BLE001 - it comes out where the outcome is asked for
+        except Exception as error:  # noqa: BLE001 - it is raised where the outcome is read
             outcome.set_exception(error)
         return outcome
 
@@ -127,7 +127,7 @@ class Database:
             with self._engine.begin() as connection:
                 return work(connection)
         except OperationalError as error:
-            raise Unavailable(str(error.orig)) from None
+            raise UnavailableError(str(error.orig)) from None
 
     def _serve(self) -> None:
         open_ended = True
@@ -154,8 +154,8 @@ class Database:
                 writing = connection.execution_options(writes=True)
                 with writing.begin():
                     outcomes = [_run_unit(work, writing) for work, _ in units]
-        except Exception as error:  # noqa: BLE001 - it belongs to those who wait, and the thread lives on
-            failure = Unavailable(str(error.orig)) if isinstance(error, OperationalError) else error
+        except Exception as error:  # noqa: BLE001 - those who wait get it, and the thread goes on
+            failure = UnavailableError(str(error.orig)) if isinstance(error, OperationalError) else error
             outcomes = [failure] * len(units)
         for (_, outcome), given in zip(units, outcomes, strict=True):
             if isinstance(given, Exception):

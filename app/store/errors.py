@@ -1,7 +1,7 @@
 """Say what can go wrong with what is kept, in terms of the store."""
 
 
-class KeyReused(Exception):  # noqa: N818 - it is what it says
+class KeyReusedError(Exception):
     """Say that a request came with a key that another request had before."""
 
     def __init__(self, key: str) -> None:
@@ -9,7 +9,7 @@ class KeyReused(Exception):  # noqa: N818 - it is what it says
         self.key = key
 
 
-class OverQuota(Exception):  # noqa: N818 - it is what it says
+class OverQuotaError(Exception):
     """Say that a tenant has as much of something as it may have."""
 
     def __init__(self, what: str, *, most: int, setting: str) -> None:
@@ -17,7 +17,7 @@ class OverQuota(Exception):  # noqa: N818 - it is what it says
         self.what, self.most, self.setting = what, most, setting
 
 
-class Damaged(Exception):  # noqa: N818 - it is what it says
+class DamagedError(Exception):
     """Say that bytes are not what they were when they were kept."""
 
     def __init__(self, sha256: str, evidence: str) -> None:
@@ -25,7 +25,7 @@ class Damaged(Exception):  # noqa: N818 - it is what it says
         self.sha256, self.evidence = sha256, evidence
 
 
-class Unavailable(Exception):  # noqa: N818 - it is what it says
+class UnavailableError(Exception):
     """Say that the database cannot be reached or written, and why."""
 
     def __init__(self, reason: str) -> None:

@@ -30,10 +30,10 @@ class JobStore(TenantRecords[JobRecord]):
         return job_record(row)
 
     def begin_to_add(self, jobs: list[NewJob]) -> Callable[[], list[Outcome]]:
-        """Queue jobs together, and give what waits until they are.
+        """Queue jobs together, and give a function that waits until they are.
 
-        For each it gives the job, one that asked for the same, or why not: `KeyReused`, if its key came with
-        another request before, or `OverQuota`, if the tenant has as many unfinished jobs as it may have.
+        For each it gives the job, an equal earlier one, or the reason: `KeyReusedError`, if its key
+        came with another request before, or `OverQuotaError`, if the tenant has its quota of unfinished jobs.
         """
         if not jobs:
             return list
@@ -42,7 +42,7 @@ class JobStore(TenantRecords[JobRecord]):
         def wait() -> list[Outcome]:
             try:
                 return coming.result()
-            except Exception as error:  # noqa: BLE001 - it belongs to the one request that brought it about
+            except Exception as error:  # noqa: BLE001 - it is the answer to this one request
                 if len(jobs) == 1:
                     return [error]
             return [outcome for job in jobs for outcome in self.begin_to_add([job])()]

@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 
 
-class DirectoryInUse(Exception):  # noqa: N818 - it is what it says
+class DirectoryInUseError(Exception):
     """Say that another service uses a data directory."""
 
 
@@ -17,7 +17,7 @@ class DirectoryLock:
 
     Raises
     ------
-    DirectoryInUse
+    DirectoryInUseError
         If another service holds it.
     """
 
@@ -28,7 +28,7 @@ class DirectoryLock:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             os.close(self._file)
-            raise DirectoryInUse(str(directory)) from None
+            raise DirectoryInUseError(str(directory)) from None
 
     def release(self) -> None:
         """Release it."""

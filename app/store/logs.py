@@ -32,7 +32,7 @@ class LogStore(TenantRecords[LogRecord]):
 
         Raises
         ------
-        OverQuota
+        OverQuotaError
             If the tenant would have more bytes than it may.
         """
         if self._quota.stored_bytes is not None and self.get(identity) is None:
@@ -43,7 +43,7 @@ class LogStore(TenantRecords[LogRecord]):
 
         Raises
         ------
-        OverQuota
+        OverQuotaError
             If the tenant would have more bytes than it may.
         """
         values = {

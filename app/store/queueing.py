@@ -16,7 +16,7 @@ from sqlalchemy import Connection, and_, bindparam, delete, insert, select
 from ..json_text import canonical_json
 from ..version import VERSION
 from .database import lock_in_turn
-from .errors import KeyReused, OverQuota
+from .errors import KeyReusedError, OverQuotaError
 from .quota import room_for_jobs
 from .records import UNFINISHED, JobRecord, JobRequestRecord, Quota
 from .tables import JOBS, REPEATS, job_record, now, one_of
@@ -77,7 +77,7 @@ Decided = TypeVar("Decided", JobRecord, Outcome)
 
 
 def queue_all(connection: Connection, tenant: str, quota: Quota, jobs: Sequence[NewJob]) -> list[Outcome]:
-    """Queue jobs; give for each the job, or why there is none: `KeyReused` or `OverQuota`."""
+    """Queue jobs; give for each the job, or why there is none: `KeyReusedError` or `OverQuotaError`."""
     keys = [job.key for job in jobs if job.key is not None]
     for about in sorted({*(job.fingerprint for job in jobs), *(f"{tenant} {key}" for key in keys)}):
         lock_in_turn(connection, about)  # in the same order as everybody, so that no two wait for each other
@@ -110,7 +110,7 @@ class _Decisions:
         """Give the job that answers a request, why there is none, or the name of a new one."""
         digest, found = self._repeated.get(job.key or "", (job.digest, None))
         if digest != job.digest:
-            return KeyReused(str(job.key))
+            return KeyReusedError(str(job.key))
         if found is not None:
             return found
         known = self._alike.get(job.fingerprint)
@@ -143,9 +143,9 @@ class _Decisions:
         self._alike[job.fingerprint] = job.fingerprint
         return job.fingerprint
 
-    def _quota_problem(self) -> OverQuota:
+    def _quota_problem(self) -> OverQuotaError:
         most = self._quota.queued or 0
-        return OverQuota("unfinished jobs", most=most, setting="VERITORQUE_QUEUED_PER_TENANT")
+        return OverQuotaError("unfinished jobs", most=most, setting="VERITORQUE_QUEUED_PER_TENANT")
 
     def _note(self, new: NewJob, job: JobRecord) -> dict[str, str | None]:
         mine = {"tenant": self._tenant, "key": new.key, "digest": new.digest}

@@ -5,7 +5,7 @@ import math
 from sqlalchemy import Connection, bindparam, func, literal, select
 
 from .database import lock_in_turn
-from .errors import OverQuota
+from .errors import OverQuotaError
 from .records import UNFINISHED, Quota
 from .tables import JOBS, LOGS, one_of
 
@@ -32,7 +32,7 @@ def refuse_beyond(connection: Connection, tenant: str, quota: Quota) -> None:
 
     Raises
     ------
-    OverQuota
+    OverQuotaError
         If the tenant has more bytes than it may have.
     """
     if quota.stored_bytes is not None:
@@ -45,11 +45,11 @@ def refuse_more(connection: Connection, tenant: str, quota: Quota, size: int) ->
 
     Raises
     ------
-    OverQuota
+    OverQuotaError
         If the tenant would have more bytes than it may have.
     """
     if quota.stored_bytes is not None and stored_bytes(connection, tenant) + size > quota.stored_bytes:
-        raise OverQuota("bytes", most=quota.stored_bytes, setting="VERITORQUE_STORED_BYTES_PER_TENANT")
+        raise OverQuotaError("bytes", most=quota.stored_bytes, setting="VERITORQUE_STORED_BYTES_PER_TENANT")
 
 
 def stored_bytes(connection: Connection, tenant: str) -> int:

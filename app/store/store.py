@@ -79,7 +79,7 @@ class Store:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If it cannot be written.
         """
         self.database.write(touch)
@@ -123,7 +123,7 @@ class TenantStore:
 
         Raises
         ------
-        OverQuota
+        OverQuotaError
             If the tenant would have more bytes than it may; as a rule none of them are kept then.
         """
         identity = log_id(sha256=incoming.sha256, name=str(summary["name"]), mapping=mapping)

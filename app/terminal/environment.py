@@ -27,12 +27,12 @@ def read_settings(**chosen: object) -> Settings:
 @contextmanager
 def open_store(settings: Settings) -> Iterator["Store"]:
     """Open what is kept, or say why that cannot be."""
-    from ..store.errors import Unavailable
+    from ..store.errors import UnavailableError
     from ..store.store import Store
 
     try:
         store = Store(settings.data_dir, settings.database_url)
-    except Unavailable as error:
+    except UnavailableError as error:
         stop(f"the database does not answer: {error.reason}; start it, or correct {PREFIX}DATABASE_URL")
     except ModuleNotFoundError as error:
         stop(f"PostgreSQL needs the package {error.name}: pip install 'veritorque[postgres]'")

@@ -84,7 +84,7 @@ def of_motors(identified: IdentifiedRobot) -> list[str]:
 
 def smoothing(identified: IdentifiedRobot) -> tuple[str, ...]:
     """Note the widths of smoothed Coulomb friction; empty if it was not smoothed."""
-    widths = next((term.widths for term in identified.model.terms if term.name == "coulomb"), ())  # type: ignore[attr-defined]  # Coulomb friction alone has them
+    widths = identified.model.smoothing_widths
     if not np.any(widths):
         return ()
     listed = ", ".join(f"{width:g}" for width in widths)

@@ -46,7 +46,7 @@ class IdentifiedRobot:
     identifiable: tuple[str, ...]
     """Per parameter ``individually``, ``in_combination`` or ``no``."""
     base: tuple[BaseValue, ...] = ()
-    """What the motion told: the base parameters."""
+    """The base parameters, which the motion identifies."""
     remarks: tuple[str, ...] = ()
     """Sentences about how the numbers came about."""
 

@@ -55,6 +55,11 @@ class DynamicModel:
             start += len(term.parameters(self.robot))
         return tuple(found)
 
+    @property
+    def smoothing_widths(self) -> tuple[float, ...]:
+        """Give the width of each joint's smoothed Coulomb friction, rad/s or m/s; empty for a sign."""
+        return next((term.widths for term in self.terms if isinstance(term, Coulomb)), ())
+
     def torque(self, parameters: Parameters, state: MotionState) -> JointSeries:
         """Predict joint torque (N m or N) from standard parameters, by the terms' own plain series."""
         torque = np.zeros_like(state.position, dtype=float)

@@ -18,7 +18,7 @@ Entry = tuple[int, int]
 class Term(Protocol):
     """Define the columns of one torque effect."""
 
-    remembers: ClassVar[bool] = False
+    has_memory: ClassVar[bool] = False
     """Whether the torque depends on the motion before the instant."""
     channel: ClassVar[bool] = False
     """Whether the torque is an error of the torque channel, which moves nothing."""

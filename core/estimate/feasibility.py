@@ -24,7 +24,7 @@ _CAP = 1.0
 
 @dataclass(frozen=True)
 class Feasibility:
-    """Tell whether a robot exists.
+    """Tell whether a physically consistent robot exists.
 
     `margin` is the largest least scaled eigenvalue (or signed parameter) any choice reaches.
     """

@@ -22,7 +22,7 @@ STANDARD_COLUMNS = ("name", "joint", "unit", "value", "identifiable")
 
 
 def base_parameter_table(result: Document) -> str:
-    """Write the base parameters: what the motion told, and in `grouping` which standard ones each sums up."""
+    """Write the base parameters, which are identifiable, with the standard ones that each groups."""
     return _table(result.get("base_parameters"), BASE_COLUMNS)
 
 

@@ -73,7 +73,7 @@ def global_indices(diagnosis: Diagnosis, base: BaseModel) -> Indices:
 def input_note(diagnosis: Diagnosis) -> str:
     """Say which findings are inputs to a simulation of the extended model, and how; nothing where none is."""
     joined = list(_entering_terms(diagnosis))
-    past = [_label(finding) for finding, term in joined if term.remembers and not term.channel]
+    past = [_label(finding) for finding, term in joined if term.has_memory and not term.channel]
     channel = [_label(finding) for finding, term in joined if term.channel]
     parts = [f"the torque of {' and '.join(past)} is the one along the measured motion"] if past else []
     if channel:

@@ -16,7 +16,7 @@ from ..diagnosis.search.hypothesis import Candidate
 from ..robot.model import RobotModel
 from .cure import enters
 
-NOT_SURE = "Nothing is changed for it: its gain on rows that no fit has seen is not beyond doubt"
+NOT_SURE = "Nothing is changed for it: its gain on held-out rows is not significant"
 
 
 @dataclass(frozen=True)

@@ -95,7 +95,7 @@ def judge(
         active_constraints=active_constraints(model, answer.standard, prior, options.estimate.bounds),
         trajectory=check_mass_matrix(model, answer.standard, observation.positions),
         workspace=check_mass_matrix(model, answer.standard, workspace(model.robot)),
-        widths=next((term.widths for term in model.terms if term.name == "coulomb"), ()),  # type: ignore[attr-defined]  # Coulomb friction alone has them
+        widths=model.smoothing_widths,
         seed=options.bootstrap.seed,
         held_out=problem.held_out,
     )

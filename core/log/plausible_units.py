@@ -50,7 +50,7 @@ def plausible_readings(channel: str, values: Vector) -> list[str]:
 
 
 def _size(channel: str, values: Vector) -> tuple[float, str]:
-    """Give what the size of a channel's values is told by, and a sentence on it."""
+    """Give the number that measures the size of a channel's values, and a sentence on it."""
     largest, steps = float(np.max(np.abs(values))), np.diff(values)
     if channel != TIME:
         return largest, f"values reach {largest:.4g} and span {np.ptp(values):.4g}"

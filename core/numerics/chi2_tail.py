@@ -1,6 +1,6 @@
-"""Give the chance of a statistic, however small it is.
+"""Give the p-value of a chi-square statistic, however small it is.
 
-Strong effects leave chances far below the smallest number a computer holds, and still have to be put in
+Strong effects have p-values far below the smallest number a computer holds, and still have to be put in
 order. Source: Abramowitz & Stegun, 6.5.32, for the tail of the incomplete gamma function.
 """
 

@@ -221,9 +221,9 @@ def sum_from_onsets(
 ) -> None:
     """Write the products of columns that are zero before some row, made white, for many such rows.
 
-    From as many rows on as the noise remembers, what is white is what is white all along: those rows are
-    summed from the last one back. Loose columns come in groups that have nothing to do with each other, and
-    only what the group spans in which the columns begin is not what it is all along.
+    Beyond the order of the noise model, prewhitened rows do not depend on where the columns begin: those
+    rows are summed from the last one back. Loose columns come in groups that share no rows, and only the
+    span of the group in which the columns begin differs.
 
     Parameters
     ----------

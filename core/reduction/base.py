@@ -137,8 +137,8 @@ def _link_of(robot: RobotModel, joint: int) -> int:
 def _idealise(robot: RobotModel) -> RobotModel:
     """Take right angles that were written with a few digits (1.5708) for right angles.
 
-    Such a robot has base parameters that differ from their neighbours by a few millionths and cannot be
-    told from them; only what is grouped is decided on the ideal robot, torque is computed with the given one.
+    Such a robot has base parameters whose columns differ from others by a few millionths and cannot be
+    identified separately. The grouping alone is decided on the ideal robot; torque is that of the given one.
     """
     return replace(robot, links=tuple(_square_link(link) for link in robot.links))
 

@@ -1,4 +1,4 @@
-"""Remember how rows relate to the rows shortly after them: a residual's memory, judged without storing W.
+"""Accumulate lagged products of rows: the autocovariance of a residual without storing W.
 
 For filtered samples the residuals are not independent, and the textbook variance is wrong. The variance of a
 least-squares estimate needs W'V W with V the residual's covariance; with V Toeplitz over a few lags that is a

@@ -12,7 +12,7 @@ from ..arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
 from ..log.model import STANDING_ROWS, LogRows, repeated_rows
 
 UNIFORM_TOLERANCE = 1e-3
-"""Stamps that stray from a uniform clock by less than a thousandth of a step are uniform."""
+"""Stamps that deviate from a uniform clock by less than a thousandth of a step are uniform."""
 
 
 def is_uniform(time: Samples, rate_hz: float) -> bool:

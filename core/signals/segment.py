@@ -42,7 +42,7 @@ class Segment:
     samples: int
     """Its uniform clock: first instant in s, mean rate, number of instants."""
     stamps: Samples | None
-    """The real stamps in s where they stray from that clock, else None."""
+    """The real stamps in s where they deviate from that clock, else None."""
 
     @cached_property
     def kept(self) -> int:
@@ -132,7 +132,7 @@ class Segment:
         return self._interpolate(rows, rows.time[inner])
 
     def _interpolate(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
-        """Interpolate at the instants of a grid; copied rows are worth as much as a gap in the stamps."""
+        """Interpolate at the instants of a grid; copied rows count as a gap in the stamps."""
         unknown = gap_mask(rows, grid, max(SHORT_GAP_S, GAP_STEPS / self.rate_hz))
         return *on_grid(rows, _effort(rows), grid), unknown
 

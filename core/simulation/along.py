@@ -1,9 +1,9 @@
-"""Take along the measured motion what a simulated robot's own state does not tell.
+"""Evaluate along the measured motion what the state of a simulated robot does not determine.
 
 A torque that depends on the motion before the instant (play, compliance, friction that builds up) is an input
-to the simulation: its value along the measured motion, which is exact to first order in how far the simulated
-motion strays. A fault of the torque channel moves nothing: it is taken out of what drives the robot, and put
-back where a simulated channel is to be read.
+to the simulation: its value along the measured motion, which is exact to first order in the error of the
+simulated motion. An error of the torque channel moves nothing: it is subtracted from the input, and added
+where a simulated channel is read.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from .windows import Stretch
 
 def memory_torque(mechanism: Mechanism, stretch: Stretch) -> JointSeries:
     """Give the torque (N m or N) that depends on the motion before, along the measured motion."""
-    return _along(mechanism.remembered, stretch)
+    return _along(mechanism.with_memory, stretch)
 
 
 def channel_torque(mechanism: Mechanism, stretch: Stretch) -> JointSeries:

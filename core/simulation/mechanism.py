@@ -68,7 +68,7 @@ class Mechanism:
     """One row per friction that can hold: the speed it acts on is `weights @ velocity`, its level in N m."""
     others: Share
     """All other terms of the state."""
-    remembered: Share
+    with_memory: Share
     """Terms whose torque depends on the motion before the instant."""
     channel: Share
     """Terms that are logged as torque and move nothing."""
@@ -137,7 +137,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
     levels = np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]])
     _check_levels(levels)
     channel, rest = _partition(others, lambda term: term.channel)
-    remembered, of_state = _partition(rest, lambda term: term.remembers)
+    with_memory, of_state = _partition(rest, lambda term: term.has_memory)
     # Any term may jump where its joint stands: only a model without such terms can leave joints out.
     kept = (levels > 0.0) | (np.arange(len(levels)) < joints) & bool(of_state)
     return Mechanism(
@@ -149,7 +149,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         weights=weights[kept],
         levels=levels[kept],
         others=share_of(model.robot, of_state),
-        remembered=share_of(model.robot, remembered),
+        with_memory=share_of(model.robot, with_memory),
         channel=share_of(model.robot, channel),
     )
 

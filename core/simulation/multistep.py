@@ -1,9 +1,9 @@
-"""Ask how far the simulated robot strays from the measured one when both get the measured torque.
+"""Measure the position error of a robot that is simulated under the measured torque.
 
 Torque residuals say how wrong a model is at an instant; what a user of a simulation sees is motion that
 drifts away. From measured states, every so often, the model is simulated over a short window and compared at
-several horizons; a robot without any model, which keeps its velocity, stands beside it as the scale. What the
-model says of the torque channel, and of torques that remember the motion, is taken out of what drives.
+several horizons; a robot without any model, which keeps its velocity, stands beside it as the scale. Errors
+of the torque channel, and torques that depend on the past, are subtracted from the input.
 """
 
 from collections.abc import Callable

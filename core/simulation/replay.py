@@ -205,11 +205,11 @@ def _drive(
 
 
 def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> JointSeries:
-    """Give what the drives are told, N m or N: no fault of the torque channel is in it."""
+    """Give the feed-forward torque of the drives, N m or N, without errors of the torque channel."""
     if kind == "none":
         return np.zeros_like(stretch.torque)
-    told = stretch.torque if kind == "measured" else mechanism.torque(stretch.around)[stretch.inside]
-    return np.asarray(told - channel_torque(mechanism, stretch))
+    torque = stretch.torque if kind == "measured" else mechanism.torque(stretch.around)[stretch.inside]
+    return np.asarray(torque - channel_torque(mechanism, stretch))
 
 
 def _pad(series: list[JointSeries], longest: int) -> np.ndarray:

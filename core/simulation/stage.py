@@ -16,9 +16,9 @@ from .inverse import columns
 from .mechanism import Mechanism
 
 CREEP = 1e-9
-"""Speed (rad/s or m/s) at which a term tells its torque just beside standstill."""
+"""Speed (rad/s or m/s) at which a term's torque just beside standstill is evaluated."""
 SLIGHTLY = 1e-3
-"""Step in speed (rad/s or m/s) over which the damping of a term is told."""
+"""Step in speed (rad/s or m/s) over which the damping of a term is evaluated."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -56,7 +56,7 @@ def link_bodies() -> list[dict[str, object]]:
 
 
 def robot_description() -> dict[str, object]:
-    """Describe the arm as the service wants to be told: geometry, limits, gravity; nothing to be found."""
+    """Describe the arm for the service: geometry, limits and gravity, without what is to be identified."""
     joints = [
         {
             "name": f"joint_{number + 1}",

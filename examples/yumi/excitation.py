@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
+import pinocchio as pin
 
 from examples.yumi import arm
 

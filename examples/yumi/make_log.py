@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
+import pinocchio as pin
 from scipy.signal import lfilter
 
 from examples.yumi import arm

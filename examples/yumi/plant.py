@@ -1,15 +1,15 @@
-"""Move the arm as nature would: rigid bodies by pinocchio, drives with offset and set-valued friction.
+"""Simulate the arm: rigid bodies by pinocchio, drives with offset and set-valued friction.
 
 Coulomb friction at rest is any torque up to the bound, not a sign that flips at every step. One implicit step
 therefore asks for the velocity v that minimises v'Av/2 - c'v + sum_j f_j |v_j|, whose optimum sticks exactly
-where nature does. Sources: Featherstone, Rigid Body Dynamics Algorithms (2008); Stewart & Trinkle, IJNME 39
-(1996), for the implicit step.
+where a real joint does. Sources: Featherstone, Rigid Body Dynamics Algorithms (2008); Stewart & Trinkle,
+IJNME 39 (1996), for the implicit step.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin  # type: ignore[import-untyped,import-not-found,unused-ignore]  # untyped
+import pinocchio as pin
 
 from examples.yumi import arm
 from examples.yumi.hidden import NOTHING, Hidden

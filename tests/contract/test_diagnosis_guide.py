@@ -38,7 +38,7 @@ def test_the_guide_says_of_every_cause_that_is_an_input_to_the_simulation_which_
     terms = [(cause.id, term) for cause, term in cures_by_cause()]
     assert set(re.findall(r"`(\w+)`", channel)) == {name for name, term in terms if term.channel}
     assert set(re.findall(r"`(\w+)`", past)) == {
-        name for name, term in terms if term.remembers and not term.channel
+        name for name, term in terms if term.has_memory and not term.channel
     }
 
 

@@ -16,7 +16,7 @@ def test_a_public_name_is_there_and_explained(name):
 
 def test_an_unknown_name_is_refused_with_the_list_of_known_ones():
     with pytest.raises(AttributeError, match="read_log"):
-        veritorque.identfy  # noqa: B018  (the look is the test)
+        veritorque.identfy  # noqa: B018  (the access is the test)
 
 
 def test_reading_an_error_class_loads_neither_solver_nor_compiler():

@@ -16,7 +16,7 @@ from veritorque.app.inspection.inspector import Inspector
 from veritorque.app.inspection.log_reading import LogFile
 from veritorque.app.problems import Problem
 
-MEMORY_DISK = Path("/dev/shm")  # noqa: S108  (a folder of chance name within)
+MEMORY_DISK = Path("/dev/shm")  # noqa: S108  (a folder with a random name in it)
 
 
 def main() -> int:

@@ -70,7 +70,7 @@ class Tally:
 
 def case(form: str, seed: int, number: int) -> bytes:
     """Give the spoilt file of a case."""
-    return spoilt(form, seeds()[form], Random(f"{form} {seed} {number}"))  # noqa: S311  (chance that can be repeated)
+    return spoilt(form, seeds()[form], Random(f"{form} {seed} {number}"))  # noqa: S311  (repeatable)
 
 
 def read(path: Path) -> str:
@@ -146,7 +146,7 @@ def _work(form: str, numbers: range, seed: int, path: Path, state: mmap.mmap) ->
         begin = time.process_time()
         try:
             ending = read(path)
-        except BaseException:  # noqa: BLE001  (what is no error of ours is what is looked for)
+        except BaseException:  # noqa: BLE001  (errors of other types are what it searches)
             counts["untyped"] += 1
             state[:] = STATE.pack(number, time.monotonic(), *counts.values(), *grown)
             os._exit(1)

@@ -17,7 +17,7 @@ from pkgutil import iter_modules
 from typing import NamedTuple
 
 from tests.hidden.plan import Order, answered, drawn, orders
-from tests.plant.cases import Impossible
+from tests.plant.cases import ImpossibleError
 
 PACKAGE = "veritorque.core.diagnosis"
 FACTORS = (0.5, 2.0)
@@ -138,7 +138,7 @@ def _possible(listed: list[Order]) -> Iterator[Order]:
     for order in listed:
         try:
             drawn(order)
-        except Impossible:
+        except ImpossibleError:
             continue
         yield order
 

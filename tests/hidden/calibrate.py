@@ -23,7 +23,7 @@ from sklearn.linear_model import LogisticRegression
 
 from tests.hidden.plan import Order, drawn, orders
 from tests.hidden.score import score
-from tests.plant.cases import Impossible
+from tests.plant.cases import ImpossibleError
 from veritorque.core.diagnosis.checks.confidence import CALIBRATION, Calibration, coefficients, probability
 from veritorque.core.document.diagnosis import diagnosis_document
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
@@ -112,7 +112,7 @@ def judged(order: Order) -> list[Sample]:
     """Diagnose one drawn log, and judge its findings; sample checks bring their own p-value."""
     try:
         case = drawn(order)
-    except Impossible:
+    except ImpossibleError:
         return []
     request = IdentifyRequest(case.believed, (case.log,), {"bootstrap": {"draws": 0}})
     found = diagnose_in_full(request)

@@ -8,7 +8,7 @@ from typing import Any
 
 from tests.hidden.score import Score, score
 from tests.plant.cache import kept
-from tests.plant.cases import Case, Impossible, draw, draw_clean, draw_foreign
+from tests.plant.cases import Case, ImpossibleError, draw, draw_clean, draw_foreign
 from tests.plant.effects.registry import EFFECTS
 from tests.plant.sensors import NOISES
 
@@ -111,7 +111,7 @@ def run(order: Order) -> tuple[Order, Score | None]:
     """Draw a case, ask, and score the answer; no score where no such case can be drawn."""
     try:
         case = drawn(order)
-    except Impossible:
+    except ImpossibleError:
         return order, None
     begun = time.process_time()
     try:

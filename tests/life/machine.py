@@ -14,7 +14,7 @@ from tests.chaos.run import MEMORY
 from veritorque.app.jobs.liveness import Presence
 from veritorque.app.jobs.reclaim import Reclaimer
 from veritorque.app.store.blobs.sweep import Sweep
-from veritorque.app.store.errors import KeyReused
+from veritorque.app.store.errors import KeyReusedError
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
 from veritorque.app.store.work import MOST_ATTEMPTS
@@ -193,7 +193,7 @@ class JobLives(RuleBasedStateMachine):
     def _assert_refused(self, number, key):
         try:
             add_job(self.mine, _request(number), key=key)
-        except KeyReused:
+        except KeyReusedError:
             return
         raise AssertionError("a key stood for two requests")
 

@@ -29,7 +29,7 @@ WORLDS, DRAWS, STEPS = 10, 8, 6
 """How many worlds, effects in each, and sizes of each are tried."""
 
 
-class Impossible(Exception):  # noqa: N818 - it is what it says
+class ImpossibleError(Exception):
     """Say that no world was found in which an effect of the wanted strength can be hidden."""
 
 
@@ -159,7 +159,7 @@ def draw(
         hidden = _hidden(world, cause, strength, effects, rng)
         if hidden:
             return case_of(replace(world, attempt=attempt), tuple(one for one, _ in hidden), _truth(hidden))
-    raise Impossible(f"no {cause or 'effect'} of strength {strength} is possible in case {seed}")
+    raise ImpossibleError(f"no {cause or 'effect'} of strength {strength} is possible in case {seed}")
 
 
 def draw_clean(

@@ -81,7 +81,7 @@ _YUMI = builtin_description("yumi-left")["joints"]
 
 SHEETS: dict[str, Sheet] = {
     "yumi-left": Sheet(
-        rows=tuple((row["alpha"], row["d"], row["r"], row["theta_offset"]) for row in _YUMI),  # type: ignore[union-attr,index]  # rows of JSON
+        rows=tuple((row["alpha"], row["d"], row["r"], row["theta_offset"]) for row in _YUMI),
         room=((-2.6, 2.6), (-2.2, 0.6), (-2.6, 2.6), (-1.9, 1.2), (-3.0, 3.0), (-1.4, 2.2), (-3.0, 3.0)),
         speed=(3.0, 3.0, 3.0, 3.0, 6.5, 6.5, 6.5),
         acceleration=(10.0, 10.0, 14.0, 14.0, 25.0, 25.0, 30.0),

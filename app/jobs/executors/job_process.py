@@ -19,7 +19,7 @@ from ....core.errors import VeritorqueError
 from ...json_text import json_bytes
 from ...kinds.kind import Progress
 from ...problems import Problem, problem_of, problem_of_damage
-from ...store.errors import Damaged
+from ...store.errors import DamagedError
 from ...store.records import Document
 from ..computation import Rehearse, Work
 from .limits import Limits
@@ -118,7 +118,7 @@ def _problem(error: Exception, limits: Limits) -> Problem | None:
     """Give the problem that an error means; None where it is an internal error."""
     if isinstance(error, VeritorqueError):
         return problem_of(error)
-    if isinstance(error, Damaged):
+    if isinstance(error, DamagedError):
         return problem_of_damage(error)
     if isinstance(error, MemoryError):
         limits.lift_memory()

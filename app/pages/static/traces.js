@@ -12,7 +12,7 @@ const EXTENDED = ["torque_estimated_after", "residual_after"];
  * @property {Object<string, (number|null)[]>} values by signal
  * @property {Object<string, string>} units by signal
  * @property {[number, number]} extent of the whole log, s since its first instant
- * @property {{from: number, to: number, label: string}[]} marks what no fit has seen
+ * @property {{from: number, to: number, label: string}[]} marks what is held out
  * @property {boolean} whole whether every instant is there
  */
 

@@ -11,7 +11,7 @@ from contextlib import AbstractContextManager
 from io import BufferedIOBase
 from pathlib import Path
 
-from ..errors import Damaged
+from ..errors import DamagedError
 from .incoming import CHUNK_BYTES, Incoming
 
 Mark = tuple[int, int]
@@ -80,7 +80,7 @@ class BlobStore(ABC):
 
         Raises
         ------
-        Damaged
+        DamagedError
             If it is missing, or its bytes do not have its digest.
         """
         try:
@@ -96,7 +96,7 @@ class BlobStore(ABC):
 
         Raises
         ------
-        Damaged
+        DamagedError
             If it is missing, or its bytes do not have its digest.
         """
         _check(lambda: self.open(sha256), sha256)
@@ -107,7 +107,7 @@ def check_file(path: Path, sha256: str) -> None:
 
     Raises
     ------
-    Damaged
+    DamagedError
         If they have another one, or cannot be read.
     """
     _check(lambda: path.open("rb"), sha256)
@@ -124,8 +124,8 @@ def _check(opened: Callable[[], BufferedIOBase], sha256: str) -> None:
 
 def _require(sha256: str, found: str) -> None:
     if found != sha256:
-        raise Damaged(sha256, f"its hash is {found}")
+        raise DamagedError(sha256, f"its hash is {found}")
 
 
-def _unreadable(sha256: str, error: OSError) -> Damaged:
-    return Damaged(sha256, f"it cannot be read: {error.strerror}")
+def _unreadable(sha256: str, error: OSError) -> DamagedError:
+    return DamagedError(sha256, f"it cannot be read: {error.strerror}")

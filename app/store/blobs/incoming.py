@@ -10,7 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from ..errors import Unavailable
+from ..errors import UnavailableError
 
 CHUNK_BYTES = 1 << 20
 
@@ -43,7 +43,7 @@ class Incoming:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the disk is full.
         """
         with _room():
@@ -56,7 +56,7 @@ class Incoming:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the disk is full.
         """
         with _room():
@@ -67,7 +67,7 @@ class Incoming:
 
         Raises
         ------
-        Unavailable
+        UnavailableError
             If the disk is full.
         """
         if not self._file.closed:
@@ -94,5 +94,5 @@ def _room() -> Iterator[None]:
         yield
     except OSError as error:
         if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
-            raise Unavailable("the disk is full") from error
+            raise UnavailableError("the disk is full") from error
         raise

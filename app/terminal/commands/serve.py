@@ -86,11 +86,11 @@ def _require_a_key(store: "Store", host: str) -> None:
 
 
 def _require_to_be_alone(data_dir: Path) -> None:
-    from ...store.lock import DirectoryInUse, DirectoryLock
+    from ...store.lock import DirectoryInUseError, DirectoryLock
 
     try:
         DirectoryLock(data_dir).release()
-    except DirectoryInUse:
+    except DirectoryInUseError:
         stop(f"another service uses {data_dir}; stop it, or choose another --data-dir")
 
 

@@ -8,13 +8,13 @@ from typing import Annotated
 
 import typer
 
-from ...lifecycle.backup import NoBackup, back_up
+from ...lifecycle.backup import NoBackupError, back_up
 from ...lifecycle.backup import restore as restore_backup
 from ...lifecycle.doctor import examine
 from ...lifecycle.retention import expire
 from ...settings import Settings
 from ...store.blobs.sweep import Sweep
-from ...store.errors import Damaged, Unavailable
+from ...store.errors import DamagedError, UnavailableError
 from ...store.store import Store
 from ..environment import read_settings, stop
 from ..output.exit_codes import Exit
@@ -80,11 +80,11 @@ def _open_store(settings: Settings) -> Iterator[Store]:
             yield store
         finally:
             store.close()
-    except NoBackup as error:
+    except NoBackupError as error:
         stop(str(error))
-    except Damaged as error:
+    except DamagedError as error:
         stop(f"{error.sha256} is damaged: {error.evidence}; veritorque doctor says who needs it")
-    except Unavailable as error:
+    except UnavailableError as error:
         stop(f"the database does not answer: {error.reason}; veritorque doctor says more")
     except OSError as error:
         stop(f"{error.filename}: {error.strerror}; choose another directory or make room")

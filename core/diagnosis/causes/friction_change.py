@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from operator import attrgetter
 
 from ...dynamics.term import Term
-from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.friction_change import FrictionChange as FrictionChangeTerm
 from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Setting
@@ -24,8 +23,7 @@ class FrictionChange(OwnJointCause):
 
     def term(self, at: Setting) -> Term:
         """Give the columns, smoothed as those of the operating point's model."""
-        terms = at.operating_point.model.terms
-        widths = next((term.widths for term in terms if isinstance(term, Coulomb)), ())
+        widths = at.operating_point.model.smoothing_widths
         return FrictionChangeTerm(at.joint, widths[at.joint - 1] if widths else 0.0)
 
     def statement(self, solved: FittedCause) -> str:

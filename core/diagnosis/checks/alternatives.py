@@ -154,7 +154,7 @@ def compare_member(state: SearchState, index: int) -> Comparison:
         like = _noise_statistic(fitter, own, (member, other))
         if not why and behind < max(like, _undecided_bound(member, other, own_ratio)):
             ambiguous.append(_undecided_alternative(member, other, ratio, behind, like))
-        elif ratio > ALTERNATIVES.worth_naming * own_ratio:
+        elif ratio > ALTERNATIVES.least_ratio_listed * own_ratio:
             refuted.append(_refuted_alternative(other, ratio, own_ratio, why))
     return Comparison(
         index, member, own_ratio, own_gain, float(margin), tuple(ambiguous), tuple(refuted), without

@@ -43,8 +43,8 @@ def memory(noise: ARNoise) -> int:
     4
     """
     covariance = irfft(spectrum(noise, _LONGEST), _LONGEST)[: _LONGEST // 2]
-    remembered = np.flatnonzero(np.abs(covariance) >= PREDICTION.forgotten * covariance[0])
-    return int(remembered[-1]) + 1
+    correlated = np.flatnonzero(np.abs(covariance) >= PREDICTION.uncorrelated * covariance[0])
+    return int(correlated[-1]) + 1
 
 
 def covariance_of_sums(noise: ARNoise, weights: Matrix, begins: Indices) -> SquareMatrix:

@@ -23,7 +23,7 @@ class Alternatives:
     """Per cent by which a cause has to reduce the error on held-out rows."""
     compared: int = 6
     """Alternatives that are fitted."""
-    worth_naming: float = 0.1
+    least_ratio_listed: float = 0.1
     """Share of a finding's likelihood ratio from which a refuted alternative is listed."""
 
 

@@ -27,7 +27,7 @@ class Prediction:
     """Rows of a joint from which on it is judged; a log in which no joint has them is refused."""
     longest_gap: float = 0.5
     """Blocks between rows learned from and rows judged at most: slower noise is no different from drift."""
-    forgotten: float = 0.1
+    uncorrelated: float = 0.1
     """Autocorrelation of the noise below which rows count as independent: the gap otherwise."""
 
 

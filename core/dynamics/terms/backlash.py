@@ -34,7 +34,7 @@ class Backlash(AllJointsTerm):
     motor_inertia: float = 0.0
     symbols = (("half_width", "rad", 0.0),)
     kind = "backlash"
-    remembers = True
+    has_memory = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of all joints' loads per rad of half width."""

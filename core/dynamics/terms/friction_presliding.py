@@ -28,7 +28,7 @@ class Presliding(OneJointTerm):
     presliding_distance: float
     symbols = (("coulomb_level", "N m", 0.0),)
     kind = "friction_presliding"
-    remembers = True
+    has_memory = True
 
     def columns(self, state: MotionState) -> list[Samples]:
         """Give Dahl's state minus sign(v)."""

@@ -35,7 +35,7 @@ class Elasticity(AllJointsTerm):
     """Rotor inertia that the operating point's load contains, kg m2 (kg)."""
     symbols = (("compliance", "rad/(N m)", 0.0),)
     kind = "joint_elasticity"
-    remembers = True
+    has_memory = True
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List the compliance, in the unit of its joint."""

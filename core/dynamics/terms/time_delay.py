@@ -25,7 +25,7 @@ class Delay(AllJointsTerm):
     around: float = 0.0
     symbols = (("delay", "s", None),)
     kind = "time_delay"
-    remembers = True
+    has_memory = True
     channel = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:

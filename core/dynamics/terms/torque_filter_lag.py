@@ -26,7 +26,7 @@ class FilterLag(AllJointsTerm):
     around: float
     symbols = (("time_constant", "s", 0.0),)
     kind = "torque_filter_lag"
-    remembers = True
+    has_memory = True
     channel = True
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:

@@ -24,7 +24,7 @@ class Saturation(OneJointTerm):
     limit: float
     symbols = (("bulge", "N m/s2", 0.0), ("skew", "N m/s3", None))
     kind = "torque_saturation"
-    remembers = True
+    has_memory = True
     channel = True
 
     def columns(self, state: MotionState) -> list[Samples]:

@@ -33,7 +33,7 @@ class Trace(OneJointTerm):
     or minus one, with a change of sign at each of the instants, s."""
     numbers: Numbers
     kind = "unlisted"
-    remembers = True
+    has_memory = True
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List a number per column."""

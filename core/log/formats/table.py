@@ -25,7 +25,7 @@ MAX_VALUES_IN_MEMORY = 40_000_000
 """Numbers which a format that cannot be streamed may hold: 320 MB as float64."""
 MAX_UNPACKING = 64
 FREE_BYTES = 1 << 24
-"""Real logs unpack to five times their bytes, coarse ones to twenty; short ones are not worth a question."""
+"""Real logs unpack to five times their bytes, coarse ones to twenty; short ones are not limited."""
 BATCH_ROWS = 32_768
 
 

@@ -57,7 +57,7 @@ class Traces:
     """How many rows became two points; 1 where every row is there."""
     held_out: Spans
     left_out: Spans
-    """Spans that no fit has seen, and spans that do not count for this joint."""
+    """Spans that are held out, and spans that do not count for this joint."""
 
 
 def read_traces(path: Path, view: View) -> Traces:

@@ -114,7 +114,7 @@ def _schema(robot: RobotModel, *, extended: bool) -> pa.Schema:
     fields = [
         pa.field(LOG, pa.int32(), metadata={"meaning": "number of the log, from 1"}),
         pa.field(TIME, pa.float64(), metadata={"unit": "s", "meaning": "on the log's own clock"}),
-        pa.field(HELD_OUT, pa.bool_(), metadata={"meaning": "whether no fit has seen it"}),
+        pa.field(HELD_OUT, pa.bool_(), metadata={"meaning": "whether it is held out from every fit"}),
         *(
             pa.field(column(signal, joint), pa.float32(), metadata={"unit": unit(signal, kinds[joint])})
             for signal in signals

@@ -12,7 +12,7 @@ from starlette.requests import Request
 from veritorque.app.http.body.uploads import AHEAD, PIECE, receive_body
 from veritorque.app.problems import Problem
 from veritorque.app.store.blobs.file_store import FileBlobStore
-from veritorque.app.store.errors import Unavailable
+from veritorque.app.store.errors import UnavailableError
 
 SCOPE = {"type": "http", "method": "POST", "path": "/v1/logs", "headers": []}
 
@@ -60,13 +60,13 @@ class Full:
     def write(self, piece):
         self.taken += 1
         if self.taken > 1:
-            raise Unavailable("the disk is full")
+            raise UnavailableError("the disk is full")
 
 
 @pytest.mark.parametrize("pieces", [2, 2 + AHEAD, 40])
 def test_a_disk_that_is_full_ends_an_upload_soon(pieces):
     full = Full()
-    with pytest.raises(Unavailable):
+    with pytest.raises(UnavailableError):
         received(request_of([bytes(PIECE)] * pieces, END), full)
     assert full.taken <= 3 + AHEAD
     assert writers() == []

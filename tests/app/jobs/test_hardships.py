@@ -21,7 +21,7 @@ from veritorque.app.jobs import worker as worker_module
 from veritorque.app.jobs.computation import Died, Stopped, Workspace
 from veritorque.app.jobs.executors.process_executor import ProcessExecutor
 from veritorque.app.store import tables
-from veritorque.app.store.errors import Unavailable
+from veritorque.app.store.errors import UnavailableError
 
 MIB = 1024**2
 
@@ -87,7 +87,9 @@ def asked_again(client, path):
     return {"kind": job["kind"], "robot": job["robot"], "logs": job["logs"], "options": {}}
 
 
-@pytest.mark.parametrize("trouble", [OSError(errno.ENOSPC, "No space left on device"), Unavailable("locked")])
+@pytest.mark.parametrize(
+    "trouble", [OSError(errno.ENOSPC, "No space left on device"), UnavailableError("locked")]
+)
 def test_an_outcome_that_cannot_be_written_is_written_later(tmp_path, log_bytes, monkeypatch, trouble):
     with service(tmp_path) as client:
         store = client.app.state.services.store
@@ -130,7 +132,7 @@ def test_a_worker_hands_back_what_the_database_gave_it_without_its_knowing(tmp_p
             job = claim(owner, most_per_tenant=most_per_tenant)
             if job is not None and not cut.is_set():
                 cut.set()
-                raise Unavailable("the connection was closed")
+                raise UnavailableError("the connection was closed")
             return job
 
         monkeypatch.setattr(client.app.state.services.store.work, "claim", claim_and_lose_the_answer)

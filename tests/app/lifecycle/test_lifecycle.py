@@ -13,11 +13,11 @@ from tests.app.conftest import service
 from tests.app.jobs.test_jobs import another, asked
 from tests.app.postgres import cluster, new_database
 from tests.app.stubs import StubExecutor, add_job
-from veritorque.app.lifecycle.backup import NOTE, NoBackup, back_up, restore
+from veritorque.app.lifecycle.backup import NOTE, NoBackupError, back_up, restore
 from veritorque.app.lifecycle.doctor import examine
 from veritorque.app.lifecycle.retention import expire
 from veritorque.app.settings import Settings
-from veritorque.app.store.errors import Damaged
+from veritorque.app.store.errors import DamagedError
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
 from veritorque.app.store.tables import JOBS, LOGS, REPEATS, time_text
@@ -113,7 +113,7 @@ def test_a_backup_that_was_cut_off_is_not_restored(tmp_path, filled):
     store, second = opened(tmp_path / "data"), opened(tmp_path / "second")
     back_up(store, tmp_path / "backup")
     (tmp_path / "backup" / NOTE).unlink()
-    with pytest.raises(NoBackup, match="no complete backup"):
+    with pytest.raises(NoBackupError, match="no complete backup"):
         restore(tmp_path / "backup", second)
     store.close()
     second.close()
@@ -122,9 +122,9 @@ def test_a_backup_that_was_cut_off_is_not_restored(tmp_path, filled):
 def test_nothing_is_overwritten_by_a_backup_or_a_restore(tmp_path, filled):
     store = opened(tmp_path / "data")
     back_up(store, tmp_path / "backup")
-    with pytest.raises(NoBackup, match="already"):
+    with pytest.raises(NoBackupError, match="already"):
         back_up(store, tmp_path / "backup")
-    with pytest.raises(NoBackup, match="already"):
+    with pytest.raises(NoBackupError, match="already"):
         restore(tmp_path / "backup", store)
     store.close()
 
@@ -143,7 +143,7 @@ def test_damaged_bytes_are_found_named_and_not_copied(tmp_path, filled):
     assert path.name in found["damaged bytes"].seen
     assert "job-" in found["damaged bytes"].remedy or "log-" in found["damaged bytes"].remedy
     store = opened(tmp_path / "data")
-    with pytest.raises(Damaged):
+    with pytest.raises(DamagedError):
         back_up(store, tmp_path / "backup")
     store.close()
 

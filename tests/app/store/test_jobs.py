@@ -3,7 +3,7 @@
 import pytest
 
 from tests.app.stubs import add_job
-from veritorque.app.store.errors import KeyReused
+from veritorque.app.store.errors import KeyReusedError
 from veritorque.app.store.records import JobRequestRecord
 
 
@@ -35,7 +35,7 @@ def test_a_key_stands_for_one_request_even_when_its_job_failed(store):
     first = add_job(jobs, request(), key="k")
     jobs.dismiss(first.id)
     assert add_job(jobs, request(), key="k").id == first.id
-    with pytest.raises(KeyReused):
+    with pytest.raises(KeyReusedError):
         add_job(jobs, request(1), key="k")
     jobs.remove(first.id)
     assert add_job(jobs, request(), key="k").id != first.id

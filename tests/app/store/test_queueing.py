@@ -5,7 +5,7 @@ from sqlalchemy.exc import DataError, IntegrityError
 
 from tests.app.stubs import add_job
 from veritorque.app.store import queueing
-from veritorque.app.store.errors import KeyReused, OverQuota
+from veritorque.app.store.errors import KeyReusedError, OverQuotaError
 from veritorque.app.store.queueing import NewJob
 from veritorque.app.store.records import JobRequestRecord, Quota
 from veritorque.app.store.store import Store
@@ -18,7 +18,7 @@ def asked(number=0, key=None):
 def names(outcomes):
     """Write each outcome as the place of the first that is the same, or as the name of the error."""
     ids = [type(one).__name__ if isinstance(one, Exception) else one.id for one in outcomes]
-    return [one if one.endswith(("Reused", "Quota")) else ids.index(one) for one in ids]
+    return [one if one.endswith("Error") else ids.index(one) for one in ids]
 
 
 TOGETHER = [
@@ -30,7 +30,7 @@ TOGETHER = [
 def test_together_gives_what_one_after_the_other_gives(store):
     one_by_one = [store.of("one").jobs.begin_to_add([one])()[0] for one in TOGETHER]
     together = store.of("two").jobs.begin_to_add(TOGETHER)()
-    assert names(together) == names(one_by_one) == [0, 1, 0, 3, 3, "KeyReused", 0, "KeyReused"]
+    assert names(together) == names(one_by_one) == [0, 1, 0, 3, 3, "KeyReusedError", 0, "KeyReusedError"]
     assert len(store.of("two").jobs.page(limit=9)) == 3
 
 
@@ -41,14 +41,14 @@ def test_what_was_asked_for_earlier_answers_those_who_come_together(store):
     found = jobs.begin_to_add([asked(1), asked(2, "k"), asked(2), asked(1, "k")])()
     assert [found[0].id, found[1].id] == [first.id, keyed.id]
     assert found[2].id not in (first.id, keyed.id)
-    assert isinstance(found[3], KeyReused)
+    assert isinstance(found[3], KeyReusedError)
 
 
 def test_a_full_queue_takes_the_first_and_refuses_the_rest(tmp_path, database_url):
     store = Store(tmp_path, database_url, quota=Quota(queued=2))
     outcomes = store.of("local").jobs.begin_to_add([asked(1), asked(2), asked(3), asked(1), asked(4)])()
-    assert names(outcomes) == [0, 1, "OverQuota", 0, "OverQuota"]
-    assert isinstance(store.of("local").jobs.begin_to_add([asked(5)])()[0], OverQuota)
+    assert names(outcomes) == [0, 1, "OverQuotaError", 0, "OverQuotaError"]
+    assert isinstance(store.of("local").jobs.begin_to_add([asked(5)])()[0], OverQuotaError)
     store.close()
 
 

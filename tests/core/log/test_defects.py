@@ -20,7 +20,10 @@ FEWER = settings(max_examples=40)
 @cache
 def made(seconds, rate_hz, joints, seed):
     columns = swing(seconds, rate_hz, joints, seed)
-    gather = lambda prefix: np.column_stack([columns[f"{prefix}_{j + 1}"] for j in range(joints)])  # noqa: E731  (a formula)
+
+    def gather(prefix):
+        return np.column_stack([columns[f"{prefix}_{j + 1}"] for j in range(joints)])
+
     return columns["time"], gather("q"), gather("tau")
 
 

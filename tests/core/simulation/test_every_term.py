@@ -104,8 +104,8 @@ def test_what_does_not_remember_needs_the_instant_alone_and_what_does_needs_more
         rows = np.searchsorted(state.time, few.time)
         whole, alone = term.series(robot, state)[:, rows], term.series(robot, few)
         same.append(np.allclose(alone, whole, atol=1e-9 * np.abs(whole).max()))
-        assert term.remembers or same[-1]
-    assert all(same) != searched(name)[0].remembers
+        assert term.has_memory or same[-1]
+    assert all(same) != searched(name)[0].has_memory
 
 
 @pytest.mark.parametrize(("cause", "term"), cures_by_cause(), ids=lambda one: getattr(one, "id", ""))
@@ -120,7 +120,7 @@ def test_the_torque_of_an_acceleration_gives_that_acceleration(name, robot):
     for term in [STANDARD_TERMS[name]()] if name in STANDARD_TERMS else searched(name, robot):
         model, values = model_with(robot, term)
         moved = mechanism_of(model, values)
-        driving = model.torque(values, state) - moved.remembered.torque(state) - moved.channel.torque(state)
+        driving = model.torque(values, state) - moved.with_memory.torque(state) - moved.channel.torque(state)
         found = accelerations(moved, state, driving)
         np.testing.assert_allclose(found, state.acceleration, atol=1e-6)
 
@@ -141,5 +141,5 @@ def test_a_robot_with_any_further_term_goes_the_motion_of_its_torque_and_one_wit
         missed, left = strayed(without, motion), strayed(mechanism_of(model, values), motion)
         shown.append(missed > 2.0 * least)
         # a reversal falls between two samples: up to thrice what friction alone leaves
-        assert left < 3.0 * least + LEFT[term.remembers] * missed
+        assert left < 3.0 * least + LEFT[term.has_memory] * missed
     assert any(shown)

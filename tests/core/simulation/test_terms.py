@@ -28,7 +28,7 @@ class Law:
 
     law: object
     name: str = "law"
-    remembers: ClassVar[bool] = False
+    has_memory: ClassVar[bool] = False
     channel: ClassVar[bool] = False
     loads: ClassVar[bool] = False
 

@@ -84,7 +84,9 @@ def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
     ("leaves", "rival"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
 )
 def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, rival, monkeypatch):
-    now_and_then = lambda state, _: [np.abs(np.sin(state.position[:, 1])) > 0.9]  # noqa: E731  (a formula)
+    def now_and_then(state, _):
+        return [np.abs(np.sin(state.position[:, 1])) > 0.9]
+
     clip, push = made_up("clip", now_and_then), made_up("push", now_and_then, transient=True)
     monkeypatch.setitem(MASKED_BY, "clip", Masking(leaves, ""))
     scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))

@@ -27,7 +27,9 @@ def test_a_push_without_a_shape_is_seen_on_its_joint_and_when_it_was(height):
 
 
 def test_single_spikes_are_no_burst():
-    spikes = lambda state: 20.0 * (np.arange(len(state.time)) % 400 == 0)  # noqa: E731  (a formula)
+    def spikes(state):
+        return 20.0 * (np.arange(len(state.time)) % 400 == 0)
+
     assert seen(on_joint(spikes)) is None
 
 

@@ -59,31 +59,38 @@ def freedom(arm: Scene, *columns) -> int:
     return fitter_of(arm, ()).fit((candidate(cause),)).freedom(0)
 
 
-SINE = lambda state: np.sin(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
-COSINE = lambda state: np.cos(TRUE * state.position[:, 1])  # noqa: E731  (a formula)
-VISCOUS = lambda state: state.velocity[:, 1]  # noqa: E731  (a formula)
+def sine(state):
+    return np.sin(TRUE * state.position[:, 1])
+
+
+def cosine(state):
+    return np.cos(TRUE * state.position[:, 1])
+
+
+def viscous(state):
+    return state.velocity[:, 1]
 
 
 def test_columns_of_their_own_are_directions_of_their_own(arm):
-    assert [freedom(arm, SINE), freedom(arm, SINE, COSINE)] == [1, 2]
+    assert [freedom(arm, sine), freedom(arm, sine, cosine)] == [1, 2]
 
 
 def test_the_size_of_a_column_does_not_matter_to_what_the_rows_tell(arm):
-    assert freedom(arm, SINE, lambda state: 1e6 * COSINE(state)) == 2
-    assert freedom(arm, SINE, lambda state: 1e-6 * COSINE(state)) == 2
+    assert freedom(arm, sine, lambda state: 1e6 * cosine(state)) == 2
+    assert freedom(arm, sine, lambda state: 1e-6 * cosine(state)) == 2
 
 
 def test_a_column_that_is_there_twice_is_one_direction(arm):
-    assert freedom(arm, SINE, lambda state: -3.0 * SINE(state)) == 1
+    assert freedom(arm, sine, lambda state: -3.0 * sine(state)) == 1
 
 
 def test_a_column_that_the_model_has_already_is_no_direction(arm):
-    assert freedom(arm, SINE, VISCOUS) == 1
+    assert freedom(arm, sine, viscous) == 1
 
 
 def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
     """A chance needs a direction; that it explains nothing is seen from its rise."""
-    assert freedom(arm, VISCOUS) == 1
+    assert freedom(arm, viscous) == 1
 
 
 def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
@@ -102,7 +109,9 @@ def at_rest(torque) -> float:
 
 
 def test_what_is_missed_only_while_a_joint_turns_round_is_friction_at_rest():
-    slow = lambda state: np.abs(state.velocity[:, 1]) < 0.02  # noqa: E731  (a formula)
+    def slow(state):
+        return np.abs(state.velocity[:, 1]) < 0.02
+
     assert at_rest(lambda state: 3.0 * slow(state) * np.sign(np.sin(state.time))) > 0.8
 
 

@@ -18,9 +18,18 @@ from veritorque.core.estimate.gaussian_prior import GaussianPrior
 from veritorque.core.reduction.base import base_model
 
 RATE = 7.0
-DRIFT: Effect = lambda state: 5.0 * np.exp(-state.time / 8.0)[:, None] * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
-SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
-STIFF: Effect = lambda state: np.sign(state.velocity) * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
+
+
+def drift(state):
+    return 5.0 * np.exp(-state.time / 8.0)[:, None] * [1.0, 0.0, 0.0]
+
+
+def sprung(state):
+    return 3.0 * state.position * [1.0, 0.0, 0.0]
+
+
+def stiff(state):
+    return np.sign(state.velocity) * [1.0, 0.0, 0.0]
 
 
 def free_fitter(effect: Effect) -> HypothesisFitter:
@@ -48,7 +57,7 @@ BENCHES = {
     [
         (wave_effect({RATE: 0.3}), wave_cause("wave", {RATE: 1.0})),
         (wave_effect({RATE: 3.0}), wave_cause("wave", {RATE: 1.0})),
-        (DRIFT, BY_ID["torque_offset_drift"]),
+        (drift, BY_ID["torque_offset_drift"]),
     ],
     ids=["wave", "large_wave", "drift"],
 )
@@ -62,7 +71,7 @@ def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its
 
 
 def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
-    fitter = fitter_of(measured_arm(SPRUNG), CAUSES)
+    fitter = fitter_of(measured_arm(sprung), CAUSES)
     none = nothing_found(fitter)
     scans = fitter.scan(none)[:16]
     brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
@@ -71,7 +80,7 @@ def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
 
 
 def test_beside_what_is_found_already_only_the_rest_is_foreseen():
-    fitter = fitter_of(measured_arm(SPRUNG), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
+    fitter = fitter_of(measured_arm(sprung), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
     none = nothing_found(fitter)
     spring, ripple = fitter.scan(none)[:2]
     assert (spring.candidate.cause.id, ripple.candidate.cause.id) == ("spring_compensator", "torque_ripple")
@@ -82,7 +91,7 @@ def test_beside_what_is_found_already_only_the_rest_is_foreseen():
 
 
 @pytest.mark.parametrize("make", BENCHES.values(), ids=BENCHES)
-@pytest.mark.parametrize("effect", [DRIFT, SPRUNG], ids=["drift", "sprung"])
+@pytest.mark.parametrize("effect", [drift, sprung], ids=["drift", "sprung"])
 def test_of_no_effect_nothing_is_foreseen(make, effect):
     fitter = make(effect)
     none = nothing_found(fitter)
@@ -92,7 +101,7 @@ def test_of_no_effect_nothing_is_foreseen(make, effect):
 
 @pytest.mark.parametrize(
     ("make", "effect"),
-    [(BENCHES["ordinary noise"], DRIFT), (BENCHES["ordinary noise"], SPRUNG), (BENCHES["a prior"], STIFF)],
+    [(BENCHES["ordinary noise"], drift), (BENCHES["ordinary noise"], sprung), (BENCHES["a prior"], stiff)],
     ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
 )
 def test_what_will_bring_most_is_foreseen_to(make, effect):

@@ -30,9 +30,18 @@ QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
 
 CLEAN = None
-UNEVEN: Effect = lambda state: 0.15 * np.abs(state.velocity) * [0.0, 1.0, 0.0]  # noqa: E731  (a formula)
-SPRUNG: Effect = lambda state: 3.0 * state.position * [1.0, 0.0, 0.0]  # noqa: E731  (a formula)
-BOTH: Effect = lambda state: UNEVEN(state) + SPRUNG(state)  # noqa: E731  (a formula)
+
+
+def uneven(state):
+    return 0.15 * np.abs(state.velocity) * [0.0, 1.0, 0.0]
+
+
+def sprung(state):
+    return 3.0 * state.position * [1.0, 0.0, 0.0]
+
+
+def both(state):
+    return uneven(state) + sprung(state)
 
 
 def names(selection: SearchState) -> list[tuple[str, tuple[int, ...]]]:
@@ -52,9 +61,9 @@ def test_nothing_is_named_where_nothing_is_hidden(seed):
 @pytest.mark.parametrize(
     ("effect", "hidden"),
     [
-        (UNEVEN, [("friction_asymmetric", (2,))]),
-        (SPRUNG, [("spring_compensator", (1,))]),
-        (BOTH, [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]),
+        (uneven, [("friction_asymmetric", (2,))]),
+        (sprung, [("spring_compensator", (1,))]),
+        (both, [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]),
     ],
     ids=["uneven", "sprung", "both"],
 )
@@ -63,7 +72,7 @@ def test_what_is_hidden_is_named_with_its_joint_and_nothing_else(effect, hidden)
 
 
 def test_the_size_that_is_found_is_the_size_that_was_hidden():
-    found = searched(UNEVEN, 5).chosen.solved(0)
+    found = searched(uneven, 5).chosen.solved(0)
     assert abs(found.values[0] - 0.15) < 3.0 * np.sqrt(found.covariance[0, 0])
 
 
@@ -178,7 +187,9 @@ def weakly(fitter, first, second):
 
 
 def test_a_second_cause_that_owes_nothing_to_the_first_need_be_no_clearer_than_that():
-    effect = lambda state: 0.3 * SPRUNG(state) + 0.045 * UNEVEN(state)  # noqa: E731  (a formula)
+    def effect(state):
+        return 0.3 * sprung(state) + 0.045 * uneven(state)
+
     fitter = fitter_of(measured_arm(effect), CAUSES)
     found = search_stepwise(fitter)
     assert names(found) == [("friction_asymmetric", (2,)), ("spring_compensator", (1,))]
@@ -222,7 +233,10 @@ def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
 
 def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rivals():
     """As a size that was possible beside another cause, and is not once that one was given up."""
-    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
+
+    def columns(state, scalars):
+        return [np.sin(QUICK * state.position[:, 1])]
+
     cause = made_up("forbidden", columns, allowed=lambda scalars: False)
     fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6})), (cause,))
     none = nothing_found(fitter)
@@ -249,7 +263,9 @@ def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explai
 def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_than_it_has(
     like_noise, share, named
 ):
-    columns = lambda state, scalars: [np.sin(QUICK * state.position[:, 1])]  # noqa: E731  (a formula)
+    def columns(state, scalars):
+        return [np.sin(QUICK * state.position[:, 1])]
+
     cause = made_up("noisy", columns, like_position_noise=like_noise)
     scene = measured_arm(wave_effect({QUICK: 0.04}))
     dataset = replace(scene.dataset, position_share=np.array([0.9, share, 0.9]))
@@ -324,7 +340,7 @@ def wave_of(*rates):
 
 
 def test_ordinary_noise_is_never_asked_for_where_it_is_learned_already(monkeypatch):
-    fitter = fitter_of(measured_arm(BOTH, seed=5), CAUSES)
+    fitter = fitter_of(measured_arm(both, seed=5), CAUSES)
     monkeypatch.setattr(fitter_module, "noise_absorbs_effect", lambda *_rows_and_fit: True)
     assert fitter.needs_ordinary_noise(nothing_found(fitter))
     other = fitter.with_ordinary_noise()

@@ -50,7 +50,7 @@ def test_a_curved_gain_adds_the_cube_of_the_torque_that_an_independent_engine_fi
 
 @pytest.mark.parametrize("time_constant", [0.5, 5.0, 200.0])
 def test_a_drift_goes_from_nothing_to_all_of_it(time_constant: float) -> None:
-    (column,) = Drift(1, 0.0, float(STATE.time[-1]), time_constant).series(ROBOT, STATE)  # type: ignore[index]  # it has times
+    (column,) = Drift(1, 0.0, float(STATE.time[-1]), time_constant).series(ROBOT, STATE)
     assert column[0] == 0.0
     assert column[-1] == pytest.approx(1.0)
     assert (np.diff(column) > 0.0).all()
