@@ -246,7 +246,7 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
     rows = [grouping_row(base, row) for row in range(len(base.kept))]
     counts = {"standard": len(base.model.parameters), "base": len(base.kept)}
     without = [base.model.parameters[column].name for column in base.without_effect]
-    document = {"counts": counts, "base_parameters": rows, "without_effect": without}
+    document = {"counts": counts, "rank": base.rank, "base_parameters": rows, "without_effect": without}
     return {key: plain(value) for key, value in document.items()}
 
 

@@ -19,6 +19,9 @@ from ..services.services import ContextOf, ServicesOf
 ROUTER = chapter("/v1/robots", tag="robots")
 XML_TYPES = ("application/xml", "text/xml")
 LinkName = Annotated[str | None, Query(max_length=200)]
+TipLinks = Annotated[
+    str | None, Query(max_length=2000, description="URDF: the last link, or several separated by commas")
+]
 
 
 @ROUTER.post(
@@ -38,7 +41,7 @@ async def create_robot(
     request: Request,
     context: ContextOf,
     base_link: LinkName = None,
-    tip_link: LinkName = None,
+    tip_link: TipLinks = None,
     gravity: Annotated[
         str | None,
         Query(max_length=100, description="URDF: x,y,z in m/s2 in the base frame; default 0,0,-9.81"),

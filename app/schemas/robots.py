@@ -145,4 +145,11 @@ class BaseParameters(Open):
 
     robot: str
     counts: dict[str, int]
+    rank: Annotated[
+        dict[str, float],
+        about(
+            "the share of a column below which it counts as dependent (`relative_tolerance`), and the least "
+            "share of one that was kept (`least_share_kept`)"
+        ),
+    ]
     base_parameters: list[dict[str, JsonValue]]

@@ -18,7 +18,7 @@ RobotArgument = Annotated[
     ),
 ]
 BaseLinkOption = Annotated[str, typer.Option(help="URDF: the fixed base link.")]
-TipLinkOption = Annotated[str, typer.Option(help="URDF: the last link of the robot.")]
+TipLinkOption = Annotated[str, typer.Option(help="URDF: the last link of the robot; several as A,B.")]
 GravityOption = Annotated[
     str, typer.Option(metavar="X,Y,Z", help="URDF: gravity in the base link's frame, m/s2.")
 ]

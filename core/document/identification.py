@@ -42,6 +42,7 @@ def identification_document(found: Identification, *, version: str, options: obj
             "base": len(found.base.kept),
             "essential": len(found.essential.kept),
         },
+        "rank": found.base.rank,
         "base_parameters": base_parameter_rows(found),
         "terms": named_terms(found.base.model),
         "standard_parameters": _standard_parameters(found),

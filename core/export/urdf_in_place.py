@@ -5,7 +5,7 @@ and nowhere else. A body welded to a moving link is part of the link's identifie
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -28,7 +28,11 @@ Edit = tuple[Span, str]
 
 
 def urdf_with_inertials(
-    text: bytes, identified: IdentifiedRobot, *, base_link: str | None = None, tip_link: str | None = None
+    text: bytes,
+    identified: IdentifiedRobot,
+    *,
+    base_link: str | None = None,
+    tip_link: str | Sequence[str] | None = None,
 ) -> bytes:
     """Put an identified robot's bodies and friction into its URDF.
 
@@ -99,7 +103,7 @@ def _carriers(document: UrdfDocument, moving: set[str]) -> dict[str, str]:
 def _bodies(
     document: UrdfDocument, links: dict[str, Element], bodies: dict[str, np.ndarray], carriers: dict[str, str]
 ) -> Iterable[Edit]:
-    axes = {joint.child: joint.axis for joint in document.joints}
+    axes = {joint.child: joint.axis for joint in document.joints if joint.child in bodies}
     for name, element in links.items():
         if name in bodies:
             part = ET.Element("link")

@@ -4,6 +4,8 @@ import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
+from ..robot.urdf_elements import without_blank_start
+
 Span = tuple[int, int]
 """First byte and the one after the last."""
 _TAG = re.compile(rb"<(?:\"[^\"]*\"|'[^']*'|[^\"'>])*>")
@@ -37,10 +39,12 @@ def find_elements(text: bytes) -> Elements:
     found, open_tags = Elements(), list[tuple[str, int]]()
     current = found.root
     parser = expat.ParserCreate()
+    whole = without_blank_start(text)
+    skipped = len(text) - len(whole)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal current
-        begin = parser.CurrentByteIndex
+        begin = parser.CurrentByteIndex + skipped
         open_tags.append((tag, begin))
         if len(open_tags) == 1:
             found.root.inside = _inside(text, begin)
@@ -52,11 +56,11 @@ def find_elements(text: bytes) -> Elements:
         _, begin = open_tags.pop()
         if len(open_tags) == 2 and tag in ("inertial", "dynamics"):
             low, high = _inside(text, begin)
-            stop = high if high > low else _after(text, parser.CurrentByteIndex)
+            stop = high if high > low else _after(text, parser.CurrentByteIndex + skipped)
             current.parts[tag] = (begin, stop)
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
-    parser.Parse(text, True)  # noqa: FBT003  (the signature of expat)
+    parser.Parse(whole, True)  # noqa: FBT003  (the signature of expat)
     return found
 
 

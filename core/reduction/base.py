@@ -6,24 +6,20 @@ parameter groups. This gives SYMORO's names and groupings without symbolic algeb
 1990; Gautier 1991 (numerical, by QR); Khalil & Dombre (2002), ch. 9.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BaseParameters, Matrix, Parameters, Rows
+from ..arrays import BaseParameters, Matrix, Parameters, Rows, Vector
 from ..dynamics.model import DynamicModel
 from ..regressor.columns import all_columns, dense
-from ..robot.model import INERTIAL_SYMBOLS, Link, Parameter, RobotModel
+from ..robot.model import INERTIAL_SYMBOLS, Parameter, RobotModel
 from ..signals.state import MotionState
 
 RANK_TOLERANCE = 1e-9
 """A column is dependent when less than this share of it lies outside the columns before it. Rounding leaves
-about 1e-13."""
-RIGHT_ANGLE_TOLERANCE = 2e-5
-"""Entries of a rotation this close to 0 or 1 are meant to be 0 or 1."""
-_RIGHT_ANGLE_ENTRIES = 5
-"""A turn by right angles and about one axis has four entries 0 and one 1; fewer are a coincidence."""
+about 1e-13; twists off by a tenth of a milliradian leave about 1e-4."""
 _SEED = 20221
 _REVOLUTE_ORDER = ("XX", "XY", "XZ", "YZ", "ZZ", "MX", "MY", "IA", "YY", "MZ", "M")
 _PRISMATIC_ORDER = ("M", "MX", "MY", "MZ", "IA", "XX", "XY", "XZ", "YY", "YZ", "ZZ")
@@ -39,10 +35,18 @@ class BaseModel:
     """Positions of the base columns in `model.parameters`, in the order of Khalil's tables."""
     grouping: Matrix
     """Matrix G with base = G standard: identity on the kept columns, grouping coefficients on the others."""
+    least_share: float = 1.0
+    """The least share of a kept column that lies outside the columns before it. What is far below one, though
+    above `RANK_TOLERANCE`, hardly shows in a log."""
 
     def base_of(self, standard: Parameters) -> BaseParameters:
         """Group standard parameters."""
         return np.asarray(self.grouping @ standard)
+
+    @property
+    def rank(self) -> dict[str, float]:
+        """Give the relative tolerance that decides the rank, and how near it the weakest column came."""
+        return {"relative_tolerance": RANK_TOLERANCE, "least_share_kept": self.least_share}
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -99,13 +103,13 @@ def base_model(model: DynamicModel) -> BaseModel:
     The states are drawn with a fixed seed and ignore the joint limits: what is sought holds for every motion.
     """
     order = khalil_order(model)
-    ideal = replace(model, robot=_idealise(model.robot))
-    matrix = dense(all_columns(ideal), _random_states(model.robot, len(order)))[:, list(order)]
-    kept, relation = _first_independent(matrix)
+    matrix = dense(all_columns(model), _random_states(model.robot, len(order)))[:, list(order)]
+    units = [model.parameters[column].unit for column in order]
+    kept, relation, least = _first_independent(matrix, units)
     grouping = np.zeros((len(kept), len(order)))
     grouping[:, list(order)] = relation
     by_table = sorted(range(len(kept)), key=lambda row: _table_place(model, order[kept[row]]))
-    return BaseModel(model, tuple(order[kept[row]] for row in by_table), grouping[by_table])
+    return BaseModel(model, tuple(order[kept[row]] for row in by_table), grouping[by_table], least)
 
 
 def khalil_order(model: DynamicModel) -> tuple[int, ...]:
@@ -134,50 +138,43 @@ def _link_of(robot: RobotModel, joint: int) -> int:
     return next(number for number, link in enumerate(robot.links, start=1) if link.joint == joint)
 
 
-def _idealise(robot: RobotModel) -> RobotModel:
-    """Take right angles that were written with a few digits (1.5708) for right angles.
-
-    Such a robot has base parameters whose columns differ from others by a few millionths and cannot be
-    identified separately. The grouping alone is decided on the ideal robot; torque is that of the given one.
-    """
-    return replace(robot, links=tuple(_square_link(link) for link in robot.links))
-
-
-def _square_link(link: Link) -> Link:
-    whole = np.round(link.rotation)
-    near = np.abs(link.rotation - whole) < RIGHT_ANGLE_TOLERANCE
-    if near.sum() < _RIGHT_ANGLE_ENTRIES:
-        return link
-    return replace(link, rotation=np.where(near, whole, link.rotation), row=None)
-
-
 def _random_states(robot: RobotModel, parameters: int) -> MotionState:
     rng = np.random.default_rng(_SEED)
     shape = (max(60, 4 * parameters // len(robot.joints)), len(robot.joints))
     return MotionState(*(rng.uniform(-np.pi, np.pi, shape) for _ in range(3)))
 
 
-def _first_independent(matrix: Matrix) -> tuple[list[int], Rows]:
+def _first_independent(matrix: Matrix, units: list[str]) -> tuple[list[int], Rows, float]:
     """Pick the columns that the ones before them do not span.
 
-    Give their indices and all columns as combinations of them.
+    Give their indices, all columns as combinations of them, and the least share of a picked one that is new.
     """
     scale = np.linalg.norm(matrix, axis=0)
-    used = scale > RANK_TOLERANCE * scale.max()
+    used = scale > RANK_TOLERANCE * _largest_of_unit(scale, units)
     scaled = matrix / np.where(used, scale, 1.0)
     basis = np.zeros((len(matrix), 0))
     kept: list[int] = []
+    least = 1.0
     for column in np.flatnonzero(used):
         rest = scaled[:, column]
         for _ in range(2):
             rest = rest - basis @ (basis.T @ rest)
-        size = np.linalg.norm(rest)
+        size = float(np.linalg.norm(rest))
         if size > RANK_TOLERANCE:
             basis = np.column_stack([basis, rest / size])
             kept.append(int(column))
+            least = min(least, size)
     coordinates = np.linalg.solve(basis.T @ scaled[:, kept], basis.T @ scaled)
     relation = coordinates * np.where(used, scale, 0.0) / scale[kept][:, None]
-    return kept, _round_relation(relation)
+    return kept, _round_relation(relation), least
+
+
+def _largest_of_unit(scale: Vector, units: list[str]) -> Vector:
+    """Give, per column, the largest norm among the columns of its unit: others cannot be compared with it."""
+    largest = {
+        unit: max(size for size, own in zip(scale, units, strict=True) if own == unit) for unit in units
+    }
+    return np.array([largest[unit] for unit in units])
 
 
 def _round_relation(relation: Matrix) -> Matrix:

@@ -26,6 +26,8 @@ from .model import (
     RobotModel,
 )
 from .modified_dh import ModifiedDHRow
+from .plausibility import angle_remarks
+from .right_angles import meant_angle, meant_rotation
 
 MODIFIED_DH, FRAMES = "modified-dh", "frames"
 MOST_JOINTS = 64
@@ -122,7 +124,18 @@ def robot_from_description(description: object) -> RobotModel:
         gravity=top.numbers("gravity", 3) if "gravity" in top.value else np.array(LEVEL_GRAVITY),
         couplings=_couplings(top, len(joints)),
         prior=_prior(top, len(links)),
+        remarks=tuple(angle_remarks(_written_angles(rows))),
     )
+
+
+def _written_angles(rows: Sequence[RobotFields]) -> dict[str, float]:
+    """Give the angles (rad) of a table as written, by what they are called."""
+    return {
+        f"{row.where}: {name}": row.number(name)
+        for row in rows
+        for name in ("alpha", "theta_offset", "gamma")
+        if name in row.value
+    }
 
 
 def _rows(top: RobotFields) -> list[RobotFields]:
@@ -180,11 +193,11 @@ def _link(row: Fields, number: int, numbers: Mapping[str, int]) -> Link:
     name = row.text("link") if "link" in row.value else own
     if "rotation" not in row.meanings:
         modified = ModifiedDHRow(
-            alpha=row.number("alpha"),
+            alpha=meant_angle(row.number("alpha")),
             d=row.number("d"),
             r=row.number("r"),
-            theta=row.number("theta_offset"),
-            gamma=row.number("gamma", 0.0),
+            theta=meant_angle(row.number("theta_offset")),
+            gamma=meant_angle(row.number("gamma", 0.0)),
             b=row.number("b", 0.0),
         )
         return Link(name, kind, antecedent, numbers[own], *modified.placement(), row=modified)
@@ -212,7 +225,7 @@ def _rotation(row: Fields) -> np.ndarray:
     # Six written digits are enough; more than that is not a rotation.
     if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-5 or np.linalg.det(rotation) < 0.0:
         row.refuse("rotation", "is not a rotation: its rows are not orthonormal and right-handed")
-    return rotation
+    return meant_rotation(rotation)
 
 
 def _couplings(top: Fields, joints: int) -> tuple[Coupling, ...]:

@@ -90,6 +90,8 @@ class RobotModel:
         Gravitational acceleration in the base frame, m/s2, pointing down.
     prior
         Ten inertial parameters per link, in each link's frame; None without a prior.
+    remarks
+        What its reader took otherwise than it is written, left out, or found odd, in sentences.
     """
 
     name: str
@@ -98,6 +100,7 @@ class RobotModel:
     gravity: Vector3
     couplings: tuple[Coupling, ...] = ()
     prior: LinkTable | None = field(default=None)
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse trees that are no trees and vectors of the wrong length."""

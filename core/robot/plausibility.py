@@ -3,11 +3,19 @@
 None of this is refused, because robots hang from ceilings and cranes are long. A warning gives the numbers.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from .inertia import pseudo_inertia
 from .model import Joint, Link, RobotModel
 from .modified_dh import ModifiedDHRow
+from .right_angles import SAID_FROM, meant_angle, nearest_right_angle
+
+_ALMOST = 2e-3
+"""An angle (rad) this near a right angle is asked about: 1.57 and 1.571 miss one by 0.8 and 0.2 mrad."""
+_NAMED = 8
+"""How many angles a sentence names before it counts the rest."""
 
 
 def plausibility_warnings(robot: RobotModel) -> tuple[str, ...]:
@@ -19,9 +27,9 @@ def plausibility_warnings(robot: RobotModel) -> tuple[str, ...]:
     >>> plausibility_warnings(builtin_robot("yumi"))
     ()
     """
-    found = _about_gravity(robot)
+    found = [*robot.remarks, *_about_gravity(robot)]
     for number, link in enumerate(robot.links, start=1):
-        found += _about_angles(number, link) + _about_lengths(number, link)
+        found += _about_lengths(number, link)
     for number, joint in enumerate(robot.joints, start=1):
         found += _about_limits(number, joint)
     return tuple(found + _about_letters(robot) + _about_bodies(robot))
@@ -40,20 +48,46 @@ def _about_gravity(robot: RobotModel) -> list[str]:
     return found
 
 
-def _about_angles(number: int, link: Link) -> list[str]:
-    if link.row is None:
-        return []
-    angles = {"alpha": link.row.alpha, "theta_offset": link.row.theta, "gamma": link.row.gamma}
-    turns = [
-        f"joint {number}: {name} is {angle:.4g} rad, more than a turn; were degrees meant?"
+def angle_remarks(angles: Mapping[str, float]) -> list[str]:
+    """List what is odd about written angles (rad), and which are taken for right angles.
+
+    Parameters
+    ----------
+    angles
+        As written, by what they are called.
+
+    Examples
+    --------
+    >>> angle_remarks({"joint 1: alpha": 90.0, "joint 2: alpha": 1.6})
+    ['joint 1: alpha is 90 rad, more than a turn; were degrees meant?']
+    >>> angle_remarks({"joint 2: alpha": 1.5708})
+    ['angles are taken for the right angles they are written for: joint 2: alpha 1.5708 rad']
+    """
+    found = [
+        f"{name} is {angle:.4g} rad, more than a turn; were degrees meant?"
         for name, angle in angles.items()
         if abs(angle) > 2.0 * np.pi
     ]
-    return turns + [
-        f"joint {number}: {name} is {angle:.7g} rad, almost but not quite a right angle; was one meant?"
+    near = {
+        name: angle
         for name, angle in angles.items()
-        if 2e-5 < abs(angle - np.pi / 2 * round(angle / (np.pi / 2))) < 2e-3
-    ]
+        if SAID_FROM < abs(angle - nearest_right_angle(angle)) < _ALMOST
+    }
+    missing = [f"{name} {angle:.7g} rad" for name, angle in near.items() if meant_angle(angle) == angle]
+    taken = [f"{name} {angle:.7g} rad" for name, angle in near.items() if meant_angle(angle) != angle]
+    if missing:
+        found.append(
+            "angles are almost but not quite right angles and taken as written (were right angles meant?): "
+            + _listed(missing)
+        )
+    if taken:
+        found.append("angles are taken for the right angles they are written for: " + _listed(taken))
+    return found
+
+
+def _listed(names: list[str]) -> str:
+    rest = len(names) - _NAMED
+    return "; ".join(names[:_NAMED]) + (f"; and {rest} more" if rest > 0 else "")
 
 
 def _about_lengths(number: int, link: Link) -> list[str]:

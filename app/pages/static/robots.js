@@ -109,7 +109,7 @@ export function chooseRobot(container, { wanted, chosen }) {
           "div",
           { class: "fields" },
           field("From link", texts.base_link, "default: the root"),
-          field("To link", texts.tip_link, "default: every moving link"),
+          field("To link", texts.tip_link, "default: every moving link; several: a, b"),
           field("Gravity, m/s²", texts.gravity, "x, y, z in the base frame"),
         ),
       ),

@@ -11,6 +11,7 @@ from veritorque.core.dynamics.model import DynamicModel, standard_model
 from veritorque.core.reduction.base import BaseModel, base_model
 from veritorque.core.regressor.columns import ColumnPlan, all_columns, dense
 from veritorque.core.robot.builtin import builtin_robot
+from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.frames import rotation_rpy
 from veritorque.core.robot.model import Joint, Link, RobotModel
 from veritorque.core.signals.state import MotionState
@@ -223,12 +224,33 @@ def _arm() -> DynamicModel:
     return standard_model(builtin_robot("yumi-left"), INERTIAL)
 
 
-def test_a_right_angle_written_with_five_digits_is_still_a_right_angle():
-    def arm(quarter: float) -> RobotModel:
-        turns = [rotation_rpy(angle, 0.0, 0.0) for angle in (0.0, -quarter, 0.0, quarter, -quarter, quarter)]
-        return _robot("RRRRRR", *turns)
+def _six_axes(quarter: float, *, zeros: float = 0.0, off: tuple[float, ...] = (0.0,) * 6) -> DynamicModel:
+    """Make a six-axis arm whose right angles, joint zeros and calibration (rad) are given."""
+    twists = (0.0, -quarter, 0.0, quarter, -quarter, quarter)
+    lengths = zip((0, 0, 0.42, 0.03, 0, 0), (0.3, 0.1, 0, 0.4, 0, 0.1), strict=True)
+    rows = [
+        {"type": "revolute", "alpha": twist + extra, "d": d, "r": r, "theta_offset": zeros}
+        for twist, extra, (d, r) in zip(twists, off, lengths, strict=True)
+    ]
+    return standard_model(robot_from_description({"name": "arm", "joints": rows}))
 
-    exact, rounded = (base_model(standard_model(arm(angle))) for angle in (np.pi / 2, 1.5708))
+
+def _count(model: DynamicModel) -> int:
+    return len(base_model(model).kept)
+
+
+def test_a_right_angle_written_with_five_digits_is_still_a_right_angle():
+    exact, rounded = (base_model(_six_axes(angle)) for angle in (np.pi / 2, 1.5708))
     assert rounded.names == exact.names
-    meant = base_model(standard_model(arm(1.6)))
-    assert len(meant.kept) > len(exact.kept)
+    assert np.array_equal(rounded.grouping, exact.grouping)
+    assert len(exact.kept) == 58
+    assert _count(_six_axes(1.6)) > 58
+
+
+def test_twists_off_by_milliradians_are_taken_as_written_and_joint_zeros_change_no_rank():
+    # By the rank of pinocchio's regressor: 1.57 leaves one axis just off the vertical.
+    assert _count(_six_axes(1.57)) == 59
+    assert _count(_six_axes(np.pi / 2, zeros=0.003)) == 58
+    calibrated = base_model(_six_axes(np.pi / 2, off=(0.0004, 0.0003, 0.0006, -0.0004, 0.0002, 0.0005)))
+    assert len(calibrated.kept) == 61
+    assert 1e-5 < calibrated.rank["least_share_kept"] < 1e-3

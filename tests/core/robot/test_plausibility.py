@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from tests.tools import shared
@@ -10,7 +11,8 @@ from veritorque.core.robot.plausibility import plausibility_warnings
 from veritorque.core.robot.urdf import robot_from_urdf
 
 # KUKA-like proportions in Khalil's convention.
-ROWS = [(0.0, 0.0, 0.34, 0.0), (-1.5708, 0.0, 0.0, 0.0), (1.5708, 0.05, 0.4, 3.1416)]
+QUARTER = np.pi / 2
+ROWS = [(0.0, 0.0, 0.34, 0.0), (-QUARTER, 0.0, 0.0, 0.0), (QUARTER, 0.05, 0.4, np.pi)]
 
 
 def _warnings(rows: list[tuple[float, ...]] = ROWS, **others: object) -> tuple[str, ...]:
@@ -87,11 +89,23 @@ def test_the_urdfs_of_real_robots_raise_no_warning(name):
     assert plausibility_warnings(robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())) == ()
 
 
-def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected():
-    def arm(alpha: float) -> dict[str, object]:
-        row = {"type": "revolute", "d": 0.0, "r": 0.2, "theta_offset": 0.0}
-        return {"name": "arm", "joints": [row | {"alpha": 0.0}, row | {"alpha": alpha}]}
+def _said_of(alpha: float) -> str:
+    row = {"type": "revolute", "d": 0.0, "r": 0.2, "theta_offset": 0.0}
+    arm = {"name": "arm", "joints": [row | {"alpha": 0.0}, row | {"alpha": alpha}]}
+    return " ".join(plausibility_warnings(robot_from_description(arm)))
 
-    assert any("right angle" in one for one in plausibility_warnings(robot_from_description(arm(1.571))))
-    assert not any("right angle" in one for one in plausibility_warnings(robot_from_description(arm(1.5708))))
-    assert not any("right angle" in one for one in plausibility_warnings(robot_from_description(arm(0.98))))
+
+@pytest.mark.parametrize("alpha", [1.57, 1.571, -3.14, QUARTER + 3e-4, QUARTER - 1.23456e-6])
+def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected_and_kept(alpha):
+    assert "were right angles meant" in _said_of(alpha)
+
+
+@pytest.mark.parametrize("alpha", [1.5708, -1.57079, 3.1416, 4.7124, 1.5707])
+def test_an_angle_that_is_taken_for_a_right_angle_is_said(alpha):
+    assert "taken for the right angles" in _said_of(alpha)
+    assert "were right angles meant" not in _said_of(alpha)
+
+
+@pytest.mark.parametrize("alpha", [0.98, QUARTER, 0.0, 1.5707963, -np.pi])
+def test_other_angles_and_right_ones_are_not_mentioned(alpha):
+    assert not _said_of(alpha)
