@@ -19,16 +19,18 @@ from veritorque.core.validation.holdout import HoldOut
 
 ROBOTS = ("planar-2", "planar-3", "ur10e", "yumi-left")
 SECONDS = (15.0, 30.0, 60.0, 120.0)
-USUAL = 30.0
+USUAL = SECONDS[1]
+QUICK_SECONDS = (6.0, 12.0)
 BLOCKS = 40
 CLEAN_SEED, HIDDEN_SEED = 11, 7
 
 
 def run(*, quick: bool) -> list[Figure]:
     """Diagnose logs of rising length and robots of rising size, in one run."""
-    robots, seconds = (ROBOTS[:2], SECONDS[:2]) if quick else (ROBOTS, SECONDS)
+    robots, seconds = (ROBOTS[:2], QUICK_SECONDS) if quick else (ROBOTS, SECONDS)
+    usual = seconds[1]
     largest = robots[-1]
-    costs = {length: _cost(_clean(largest, length)) for length in seconds}
+    costs = {length: _cost_of_clean(largest, length) for length in seconds}
     figures = [
         Figure(f"{largest}, {length:.0f} s, nothing hidden, processor s", f"{cost:.2f}", _target(length))
         for length, (cost, _) in costs.items()
@@ -45,7 +47,7 @@ def run(*, quick: bool) -> list[Figure]:
             f"cost per second of log, {last:.0f} s over {first:.0f} s", f"{each:.2f}", "<= 1.2", ratio=True
         )
     )
-    sizes = [(len(_clean(name, USUAL).believed.joints), _per_row(name)) for name in robots]
+    sizes = [(len(_clean(name, usual).believed.joints), _per_row(name, usual)) for name in robots]
     joints, spent = np.log(np.array(sizes)).T
     apart = joints - joints.mean()
     slope = float(apart @ spent / (apart @ apart))
@@ -62,8 +64,13 @@ def _clean(robot: str, seconds: float) -> Case:
     return draw_clean(CLEAN_SEED, robot=robot, duration=seconds)
 
 
-def _per_row(robot: str) -> float:
-    cost, rows = _cost(_clean(robot, USUAL))
+@cache
+def _cost_of_clean(robot: str, seconds: float) -> tuple[float, int]:
+    return _cost(_clean(robot, seconds))
+
+
+def _per_row(robot: str, seconds: float) -> float:
+    cost, rows = _cost_of_clean(robot, seconds)
     return cost / rows
 
 

@@ -43,6 +43,7 @@ class Order:
     effects: int = 1
     noise: str | None = None
     robot: str | None = None
+    duration: float | None = None
 
 
 def orders(
@@ -86,14 +87,15 @@ def battery(seed: int) -> list[Order]:
 def drawn(order: Order) -> Case:
     """Draw the case that was ordered."""
     if order.kind == "clean":
-        return kept(draw_clean, order.seed, noise=order.noise, **_robot(order))
+        return kept(draw_clean, order.seed, noise=order.noise, **_options(order))
     if order.kind == "foreign":
         return kept(draw_foreign, order.seed, order.strength)
-    return kept(draw, order.seed, order.cause, order.strength, effects=order.effects, **_robot(order))
+    return kept(draw, order.seed, order.cause, order.strength, effects=order.effects, **_options(order))
 
 
-def _robot(order: Order) -> dict[str, str]:
-    return {} if order.robot is None else {"robot": order.robot}
+def _options(order: Order) -> dict[str, str | float]:
+    wanted = {"robot": order.robot, "duration": order.duration}
+    return {name: value for name, value in wanted.items() if value is not None}
 
 
 def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping[str, Any]:

@@ -5,13 +5,14 @@ import pytest
 from tests.hidden.plan import Order, run
 from tests.hidden.regressions import QUICK, examine
 
+SECONDS = 15.0
 SINGLES = (
-    Order("single", 7001, "friction_stribeck", 3.0, robot="planar-3"),
-    Order("single", 7002, "friction_load_dependent", 3.0),
-    Order("single", 7003, "time_delay", 3.0, robot="planar-2"),
-    Order("single", 7004, "torque_gain", 3.0, robot="planar-3"),
-    Order("single", 7005, "torque_ripple", 3.0, robot="planar-2"),
-    Order("single", 7006, "joint_elasticity", 3.0),
+    Order("single", 7001, "friction_stribeck", 3.0, robot="planar-3", duration=SECONDS),
+    Order("single", 7002, "friction_load_dependent", 3.0, duration=SECONDS),
+    Order("single", 7003, "time_delay", 3.0, robot="planar-2", duration=SECONDS),
+    Order("single", 7004, "torque_gain", 3.0, robot="planar-3", duration=SECONDS),
+    Order("single", 7005, "torque_ripple", 3.0, robot="planar-2", duration=SECONDS),
+    Order("single", 7006, "joint_elasticity", 3.0, duration=SECONDS),
 )
 
 
@@ -50,7 +51,7 @@ def test_what_a_clipped_torque_leaves_is_no_push():
 
 @pytest.mark.slow
 def test_two_effects_are_both_named():
-    score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2"))
+    score = scored(Order("combination", 7201, strength=3.0, effects=2, robot="planar-2", duration=SECONDS))
     assert [answer.named for answer in score.answers] == [True, True]
 
 

@@ -21,6 +21,7 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, diagnose
 
 DEVIATIONS = 3.0
+SECONDS = 15.0
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,8 @@ CASES = (
 
 def diagnosed_twice(taken: Taken) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Give the diagnoses of the log and robot as they are, and as repaired."""
-    case = drawn(Order("single", taken.seed, taken.cause, taken.strength, robot=taken.robot))
+    order = Order("single", taken.seed, taken.cause, taken.strength, robot=taken.robot, duration=SECONDS)
+    case = drawn(order)
     options = {"bootstrap": {"draws": 0}}
     first: Any = diagnose(IdentifyRequest(case.believed, (case.log,), options))
     described = first["diagnosis"]["repaired_robot"]
