@@ -3,12 +3,14 @@
 All of it is counted in one pass over the log, so that an error states how much is wrong and where it starts.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..arrays import JointVector, SampleMask, Series
 from ..errors import LogError
 from .channels import EFFORTS
-from .defects.stretch import Stretch, count_text
+from .defects.stretch import Facts, Stretch, count_text
 from .layout import Layout
 
 FEWEST_ROWS = 100
@@ -19,6 +21,9 @@ LARGEST = 1e15
 SHORTEST_STEP = 1e-6
 """Of time, in s: no drive is sampled at a megahertz."""
 FIRST_ROWS = 5
+UNRELATED, UNRELATED_SPREAD = 2.0, 6.0
+"""Von Neumann's ratio of samples without order, and three standard deviations of it times the root of their
+number. That of a motion is far below 1, unless it is sampled three times per period or less."""
 
 
 def check_length(rows: int) -> None:
@@ -40,6 +45,30 @@ def check_length(rows: int) -> None:
         )
 
 
+def check_sequence(facts: Facts) -> None:
+    """Refuse positions that have nothing to do with those of the row before.
+
+    Raises
+    ------
+    LogError
+        If the joints that move do so in rows without order.
+    """
+    moving = [joint for joint in range(len(facts.roughness)) if facts.travels(joint)]
+    least = UNRELATED - UNRELATED_SPREAD / facts.samples**0.5
+    if not moving or float(np.mean(facts.roughness[moving])) < least:
+        return
+    raise LogError(
+        "the positions of successive rows have nothing to do with each other: the rows were shuffled "
+        "without their stamps",
+        evidence={
+            "steps_over_variance": [round(float(facts.roughness[joint]), 3) for joint in moving],
+            "without_order": UNRELATED,
+            "accepted_below": round(least, 3),
+        },
+        remedy="take the rows as they were recorded, each with its own stamp; their order does not matter",
+    )
+
+
 class Contract:
     """Follow the extremes of every channel and the order of the stamps.
 
@@ -49,8 +78,9 @@ class Contract:
         Smallest and largest value by channel and joint.
     """
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: Layout, row_in_file: Callable[[int], int]) -> None:
         self._layout = layout
+        self._row_in_file = row_in_file
         self._columns = {channel.name: channel.columns for channel in layout.channels}
         self._bad: dict[str, tuple[int, list[int]]] = {}
         self._backwards = self._duplicates = 0
@@ -120,7 +150,7 @@ class Contract:
             self._duplicates += int(np.count_nonzero(time[1:] == time[:-1]))
             self._backwards += int(np.count_nonzero(time[1:] < time[:-1]))
             at = int(disorder[0])
-            row = stretch.first + stretch.first_new + at + 2
+            row = self._row_in_file(stretch.first + stretch.first_new + at + 1) + 1
             self._first_disorder = self._first_disorder or (row, float(time[at]), float(time[at + 1]))
 
     @property
@@ -129,7 +159,8 @@ class Contract:
 
     def _count(self, column: str, bad: SampleMask, first: int) -> None:
         count, rows = self._bad.get(column, (0, []))
-        rows = [*rows, *(int(row) + first + 1 for row in np.flatnonzero(bad)[:FIRST_ROWS])][:FIRST_ROWS]
+        new = (self._row_in_file(int(row) + first) + 1 for row in np.flatnonzero(bad)[:FIRST_ROWS])
+        rows = [*rows, *new][:FIRST_ROWS]
         self._bad[column] = count + int(np.count_nonzero(bad)), rows
 
     def check(self) -> None:
@@ -185,12 +216,11 @@ class Contract:
                 "first_row": row,
                 "stamps_s": [before, after],
             },
-            remedy="sort the rows by time and keep one row per stamp"
-            + (
-                '; where rounding made the stamps alike, "time": null with the true "rate_hz" stands for them'
-                if self._duplicates and not self._backwards
-                else ""
-            ),
+            remedy="check that the column of time is the recorder's clock; the rows follow neither their "
+            "stamps nor, in runs, each other"
+            if self._backwards
+            else "keep one row per stamp; where rounding made the stamps alike, "
+            '"time": null with the true "rate_hz" stands for them',
         )
 
     def _check_alive(self) -> None:

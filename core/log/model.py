@@ -20,7 +20,8 @@ class Defect:
     Attributes
     ----------
     kind
-        ``gap, jitter, repeated_rows, stuck_channel, outliers, saturation, quantisation, standstill, short,
+        ``bad_end, time_restarts, shuffled_rows, gap, jitter, repeated_rows,
+        stuck_channel, outliers, saturation, quantisation, standstill, short,
         slow_rate, implausible_unit, missing_torque``.
     channel
         ``time, position, torque`` ...

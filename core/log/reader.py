@@ -24,7 +24,8 @@ from .formats.recording import open_bag, open_mcap
 from .formats.table import Table
 from .layout import Binding, Layout, bind
 from .mapping import parse_mapping
-from .model import ArraySource, JointLog, LogRows, LogSource
+from .model import ArraySource, JointLog, LogRows
+from .pieces.choose import Chosen, choose_rows
 from .profiles import fill_in
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
@@ -111,12 +112,12 @@ def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> Joint
         If the samples cannot be used.
     """
     try:
-        return _log_of(name, _source(table, layout), layout, sha256)
+        return _log_of(name, _rows_of(table, layout), layout, sha256)
     except LogError:
         measured = _without_references(layout)
         if measured == layout:
             raise
-        return _log_of(name, _source(table, measured), measured, sha256)
+        return _log_of(name, _rows_of(table, measured), measured, sha256)
 
 
 def _without_references(layout: Layout) -> Layout:
@@ -179,7 +180,8 @@ def log_from_arrays(
             Binding(key, tuple(f"{CHANNELS[key].prefix}_{j}" for j in joints), *plain) for key in arrays
         ),
     )
-    return _log_of(name, ArraySource(LogRows(clock, **arrays)), layout, "")
+    rows = LogRows(clock, **arrays)
+    return _log_of(name, choose_rows(ArraySource(rows), [rows.time]), layout, "")
 
 
 def _refuse_unknown(channels: Collection[str]) -> None:
@@ -204,16 +206,21 @@ def _check_shapes(clock: np.ndarray, arrays: dict[str, np.ndarray]) -> None:
         )
 
 
-def _source(table: Table, layout: Layout) -> LogSource:
+def _rows_of(table: Table, layout: Layout) -> Chosen:
+    """Open the samples and choose those of the motion; of a table on disk the stamps are read alone first."""
+    clock = layout.time
     if isinstance(table, ParquetTable):
-        return ParquetSource(table, layout)
+        stamps = (clock.convert(block)[:, 0] for block in table.batches(clock.columns)) if clock else None
+        return choose_rows(ParquetSource(table, layout), stamps)
     blocks = list(table.batches(layout.columns)) or [np.empty((len(layout.columns), 0))]
     whole = blocks[0] if len(blocks) == 1 else np.hstack(blocks)
-    return ArraySource(layout.convert(whole, 0))
+    rows = layout.convert(whole, 0)
+    return choose_rows(ArraySource(rows), [rows.time] if clock else None)
 
 
-def _log_of(name: str, source: LogSource, layout: Layout, sha256: str) -> JointLog:
-    seen = examine(source, layout)
+def _log_of(name: str, chosen: Chosen, layout: Layout, sha256: str) -> JointLog:
+    source = chosen.source
+    seen = examine(source, layout, chosen.row_in_file)
     return JointLog(
         name=name,
         source=source,
@@ -221,7 +228,7 @@ def _log_of(name: str, source: LogSource, layout: Layout, sha256: str) -> JointL
         rate_hz=seen.rate_hz,
         duration=seen.duration,
         segments=seen.segments,
-        defects=seen.defects,
+        defects=(*chosen.done, *seen.defects),
         channels=tuple(channel.name for channel in layout.channels),
         ignored_columns=layout.ignored,
         sha256=sha256,

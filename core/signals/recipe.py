@@ -30,6 +30,11 @@ TREMBLE_SHARE = 0.01
 """A joint slower than this share of the fastest one only trembles; its spectrum is its encoder's."""
 LOWEST_SHARE = 0.05
 """A cut-off below this share of the motion's band leaves no motion, and its kernel outgrows any log."""
+FEWEST_ROWS, SHORTEST_SECONDS = 16, 1.0
+"""A stretch of fewer rows or seconds is not differentiated: the filters' reach is all of it."""
+SLOWEST_SHARE = 0.5
+"""A stretch sampled at less than this share of the log's rate is not used: all share one filter, and it would
+halve the band of the others."""
 _SURVEY_SECONDS = 60.0
 _SURVEYS = 8
 
@@ -120,6 +125,7 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
     """
     rate = log.rate_hz
     bands, speeds, slowest = _survey(log, options.median_order)
+    slowest = min(slowest, *segment_rates(log))
     moving = bands[speeds > TREMBLE_SHARE * speeds.max()]
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)
@@ -150,6 +156,31 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
             f" one sample in {decimation} kept"
         ),
     )
+
+
+def segment_rates(log: JointLog) -> list[float]:
+    """Give the mean rates (Hz) of the stretches between gaps that can be differentiated.
+
+    Those of less than `SLOWEST_SHARE` of the log's rate are not among them.
+    """
+    rates = []
+    for start, stop in log.segments:
+        stamps = [float(log.source.rows(row, row + 1).time[0]) for row in (start, stop - 1)]
+        if is_usable(stop - start, stamps[-1] - stamps[0], log.rate_hz):
+            rates.append((stop - start - 1) / (stamps[-1] - stamps[0]))
+    return rates
+
+
+def is_usable(rows: int, seconds: float, rate_hz: float) -> bool:
+    """Tell whether a stretch is long enough and sampled fast enough to be differentiated with the others.
+
+    Examples
+    --------
+    >>> is_usable(100, 3.0, 30.0), is_usable(100, 10.0, 30.0), is_usable(10, 0.3, 30.0)
+    (True, False, False)
+    """
+    enough = rows >= FEWEST_ROWS and seconds >= SHORTEST_SECONDS
+    return enough and rows - 1 >= SLOWEST_SHARE * rate_hz * seconds
 
 
 def _still_speed(speeds: JointVector) -> JointVector:

@@ -12,11 +12,11 @@ from scipy.ndimage import maximum_filter1d
 from scipy.signal import oaconvolve
 
 from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
-from ..log.defects.clock import GAP_STEPS, SHORT_GAP_S
+from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
 from .derivative import centred_difference, median
 from .parallel import ParallelFilter, Tile
-from .recipe import Recipe
+from .recipe import Recipe, is_usable
 from .resample import dropped_mask, gap_mask, is_uniform, on_grid
 from .state import MotionState
 from .zero_phase import kernel, reach_of
@@ -133,7 +133,8 @@ class Segment:
 
     def _interpolate(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
         """Interpolate at the instants of a grid; copied rows count as a gap in the stamps."""
-        unknown = gap_mask(rows, grid, max(SHORT_GAP_S, GAP_STEPS / self.rate_hz))
+        bridge = longest_bridge(1.0 / self.rate_hz, self.recipe.motion_band_hz)
+        unknown = gap_mask(rows, grid, max(bridge, GAP_STEPS / self.rate_hz))
         return *on_grid(rows, _effort(rows), grid), unknown
 
     def _temperature(self, now: Instants) -> InstantSeries | None:
@@ -166,11 +167,11 @@ class Segment:
 
 
 def gap_free(log: JointLog, recipe: Recipe, start: int, stop: int) -> Segment | None:
-    """Check the stamps of some rows; None where they are too few to be differentiated."""
+    """Check the stamps of some rows; None where they are too few or too slow to be differentiated."""
     stamps = np.concatenate(
         [log.source.rows(row, min(row + 65536, stop)).time for row in range(start, stop, 65536)]
     )
-    if stop - start < 16 or stamps[-1] - stamps[0] < 1.0:
+    if not is_usable(stop - start, float(stamps[-1] - stamps[0]), log.rate_hz):
         return None
     rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
     even = is_uniform(stamps, float(rate))

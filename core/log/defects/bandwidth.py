@@ -6,7 +6,7 @@ over windows of the log, says up to which frequency the motion reaches.
 
 import numpy as np
 
-from ...arrays import Series
+from ...arrays import Samples, Series
 from ..model import Defect
 from .stretch import Facts, Stretch
 
@@ -30,7 +30,9 @@ class Bandwidth:
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        increments = np.diff(stretch.position[:, stretch.first_new :], axis=1)
+        steps = np.diff(stretch.time[stretch.first_new :])
+        even = np.median(steps) / steps  # an uneven clock would modulate what is a steady motion
+        increments = even * np.diff(stretch.position[:, stretch.first_new :], axis=1)
         if not self._window:
             self._window = 1 << int(np.log2(min(increments.shape[1], LONGEST_WINDOW)))
             self._power = np.zeros((len(increments), self._window // 2 + 1))
@@ -42,23 +44,29 @@ class Bandwidth:
             self._squares += np.einsum("ij,ij->i", part, part)
             self._increments += self._window
 
+    def edges(self, facts: Facts) -> dict[int, float]:
+        """Give the frequency (Hz) below which the velocity's power lies, of every joint that moves."""
+        if self._window < SHORTEST_WINDOW or not self._increments:
+            return {}
+        frequencies = np.fft.rfftfreq(self._window, facts.step)
+        quick = np.sqrt(self._squares / self._increments) > SMALLEST_INCREMENT * facts.span("position")
+        moving = np.flatnonzero(quick & (self._power.sum(axis=1) > 0.0))
+        return {joint: self._edge(joint, frequencies) for joint in map(int, moving) if facts.travels(joint)}
+
+    def _edge(self, joint: int, frequencies: Samples) -> float:
+        share = np.cumsum(self._power[joint]) / self._power[joint].sum()
+        return float(frequencies[int(np.searchsorted(share, POWER_SHARE))])
+
     def defects(self, facts: Facts) -> list[Defect]:
         """State the joints whose motion is sampled too slowly."""
-        if self._window < SHORTEST_WINDOW:
-            return []
-        frequencies = np.fft.rfftfreq(self._window)
-        quick = np.sqrt(self._squares / self._increments) > SMALLEST_INCREMENT * facts.span("position")
         found = []
-        for joint in map(int, np.flatnonzero(quick & (self._power.sum(axis=1) > 0.0))):
-            if not facts.travels(joint):
-                continue
-            share = np.cumsum(self._power[joint]) / self._power[joint].sum()
-            edge = float(frequencies[int(np.searchsorted(share, POWER_SHARE))])
-            if edge * FEWEST_SAMPLES_PER_PERIOD > 1.0:
+        for joint, edge in self.edges(facts).items():
+            if edge * facts.step * FEWEST_SAMPLES_PER_PERIOD > 1.0:
                 statement = (
                     f"{100.0 * POWER_SHARE:g} % of the power of joint {joint + 1}'s velocity lies below "
-                    f"{edge / facts.step:.3g} Hz, which a rate of {1.0 / facts.step:.4g} Hz samples only "
-                    f"{1.0 / edge:.2g} times per period; derivatives need some {FEWEST_SAMPLES_PER_PERIOD:g}."
+                    f"{edge:.3g} Hz, which a rate of {1.0 / facts.step:.4g} Hz samples only "
+                    f"{1.0 / (edge * facts.step):.2g} times per period; derivatives need some "
+                    f"{FEWEST_SAMPLES_PER_PERIOD:g}."
                 )
                 found.append(Defect("slow_rate", "position", joint + 1, facts.samples, (), statement))
         return found

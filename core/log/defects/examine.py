@@ -3,16 +3,17 @@
 The contract is checked first; the finders get only samples that it accepts, so that all values are finite.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...arrays import JointVector
-from ..contract import Contract, check_length
+from ..contract import Contract, check_length, check_sequence
 from ..layout import Layout
 from ..model import Defect, LogSource
 from .bandwidth import Bandwidth
-from .clock import Clock
+from .clock import Clock, longest_bridge
 from .plausibility import plausibility_defects
 from .repeats import Repeats, cut
 from .resolution import Resolution
@@ -33,7 +34,7 @@ class Examination:
     defects: tuple[Defect, ...]
 
 
-def examine(source: LogSource, layout: Layout) -> Examination:
+def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int] = int) -> Examination:
     """Read all samples once.
 
     Parameters
@@ -42,6 +43,8 @@ def examine(source: LogSource, layout: Layout) -> Examination:
         The samples.
     layout
         Names the columns in errors.
+    row_in_file
+        Gives the number that a row of the source has in the file.
 
     Raises
     ------
@@ -50,12 +53,17 @@ def examine(source: LogSource, layout: Layout) -> Examination:
     """
     samples, joints = source.samples, layout.joints
     check_length(samples)
-    contract, clock, spread, resolution = Contract(layout), Clock(samples), _Spread(), Resolution(samples)
-    repeats = Repeats(joints)
+    contract, clock, spread, resolution = (
+        Contract(layout, row_in_file),
+        Clock(samples),
+        _Spread(),
+        Resolution(samples),
+    )
+    repeats, bandwidth = Repeats(joints), Bandwidth(joints)
     stuck = Stuck(joints, repeats)
     finders: list[Finder] = [
         clock, repeats, stuck, Spikes(joints), Saturation(joints), resolution, Rest(samples),
-        Bandwidth(joints),
+        bandwidth,
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
@@ -73,9 +81,12 @@ def examine(source: LogSource, layout: Layout) -> Examination:
         low=contract.low,
         high=contract.high,
         deviation=spread.deviation(),
+        roughness=spread.roughness(),
         position_lsb=resolution.lsb("position"),
         units=layout.si_units(),
     )
+    check_sequence(facts)
+    clock.bridge = longest_bridge(facts.step, max(bandwidth.edges(facts).values(), default=0.0))
     found = [defect for finder in finders for defect in finder.defects(facts)]
     return Examination(
         rate_hz=1.0 / facts.step,
@@ -86,17 +97,20 @@ def examine(source: LogSource, layout: Layout) -> Examination:
 
 
 class _Spread:
-    """Sum up the standard deviation of position and torque, about the first sample to keep digits."""
+    """Sum up the deviation of position and torque, about the first sample to keep digits, and the steps."""
 
     def __init__(self) -> None:
         self._origin: dict[str, JointVector] = {}
         self._sums: dict[str, JointVector] = {}
         self._squares: dict[str, JointVector] = {}
+        self._increments: JointVector | float = 0.0
         self._rows = 0
 
     def update(self, stretch: Stretch) -> None:
         channels = stretch.new()
         self._rows += channels["position"].shape[1]
+        steps = np.diff(stretch.position[:, stretch.first_new :], axis=1)
+        self._increments = self._increments + np.einsum("ij,ij->i", steps, steps)
         for name in ("position", "torque"):
             if name in channels:
                 origin = self._origin.setdefault(name, channels[name][:, 0].copy())
@@ -110,3 +124,8 @@ class _Spread:
             name: np.sqrt(np.maximum(squares / self._rows - means[name] ** 2, 0.0))
             for name, squares in self._squares.items()
         }
+
+    def roughness(self) -> JointVector:
+        """Give von Neumann's ratio of the positions: 0 for a slow motion, 2 for samples without order."""
+        power = self._rows * self.deviation()["position"] ** 2
+        return np.asarray(self._increments / np.maximum(power, np.finfo(float).tiny))

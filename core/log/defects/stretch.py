@@ -75,6 +75,8 @@ class Facts:
     low: dict[str, JointVector]
     high: dict[str, JointVector]
     deviation: dict[str, JointVector]
+    roughness: JointVector
+    """Von Neumann's ratio of each joint's positions: mean square of the steps over the variance."""
     position_lsb: JointVector
     """Resolution of each joint's position, 0 where none shows."""
     units: Mapping[str, Sequence[str]]

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from tests.core.signals.motions import Multisine, log_of
+from tests.core.signals.motions import Multisine, log_of, turntables
 from veritorque.core.errors import OptionError
+from veritorque.core.signals.condition import condition
 from veritorque.core.signals.recipe import FilterOptions, Recipe, choose_recipe
 
 RATE_HZ = 500.0
@@ -137,3 +138,33 @@ def test_a_joint_that_only_trembles_does_not_widen_the_band():
     position = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0).position(time)
     position[:, 2] = 0.3 + 1e-5 * np.random.default_rng(5).normal(size=len(time))
     assert choose_recipe(log_of(time, position), FilterOptions()).motion_band_hz < 1.5
+
+
+def slow_bus(rates_hz, gap_s, seed=0):
+    """Log a swing over a serial bus: stretches of two seconds at rates of their own, with gaps between."""
+    rng = np.random.default_rng(seed)
+    steps = []
+    for rate in rates_hz:
+        steps += [*(rng.uniform(0.8, 1.2, int(2.0 * rate)) / rate), gap_s]
+    time = np.cumsum([0.0, *steps[:-1]])
+    position = 0.5 * np.sin(2 * np.pi * 0.25 * time) + 0.3 * np.sin(2 * np.pi * 0.6 * time)
+    return log_of(time, position[:, None])
+
+
+@pytest.mark.parametrize("rates_hz", [[32.0, 22.0] * 8, [25.0, 40.0, 28.0] * 6, [250.0, 140.0] * 5])
+@pytest.mark.parametrize("gap_s", [0.12, 0.5])
+def test_a_filter_can_be_built_in_every_stretch_however_their_rates_differ(rates_hz, gap_s):
+    motion = condition(slow_bus(rates_hz, gap_s), turntables(1))
+    slowest = min(segment.rate_hz for segment in motion.segments)
+    assert motion.recipe.position_cutoff_hz < 0.5 * slowest
+    assert sum(len(tile.time) for tile in motion.tiles()) > 0
+
+
+def test_a_stretch_at_a_fraction_of_the_rate_does_not_narrow_the_band_of_the_others():
+    motion = condition(slow_bus([250.0, 250.0, 12.0, 250.0], 0.5), turntables(1))
+    assert [round(segment.rate_hz, -1) for segment in motion.segments] == [250.0, 250.0, 250.0]
+
+
+@pytest.mark.parametrize(("gap_s", "segments"), [(0.12, 1), (0.5, 8)])
+def test_a_gap_of_a_few_steps_of_a_slow_bus_is_bridged_where_the_motion_is_slower_still(gap_s, segments):
+    assert len(slow_bus([30.0] * 8, gap_s).segments) == segments

@@ -1,0 +1,187 @@
+"""Choose the rows of a log that are its motion, on one clock, and list what was done to get them.
+
+Runs that follow each other in one file become stretches with a gap between them, rows out of order are put in
+order, and bad rows at the ends of every run are left out.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ...arrays import Samples
+from ..defects.runs import KEPT
+from ..model import ArraySource, Defect, LogRows, LogSource, rows_at
+from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail
+from .order import Order, order_of
+from .source import Piece, PiecedSource
+
+END_ROWS = 4096
+"""Rows of either end that are read first; more where half of them do not belong."""
+SHORTEST_RUN_S = 1.0
+PAUSE_S = 1.0
+PAUSE_STEPS = 10.0
+"""Between two runs lies so long, or so many median steps if that is longer: derivatives never cross it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Chosen:
+    """Carry the rows to study and what was done to get them."""
+
+    source: LogSource
+    done: tuple[Defect, ...] = ()
+
+    def row_in_file(self, row: int) -> int:
+        """Give the number that a row has in the file; in that of sorted rows, where they were sorted."""
+        return self.source.row_in_source(row) if isinstance(self.source, PiecedSource) else row
+
+
+def choose_rows(source: LogSource, stamps: Iterable[Samples] | None) -> Chosen:
+    """Put rows in order and leave out what does not belong.
+
+    Parameters
+    ----------
+    source
+        All rows of the file.
+    stamps
+        All stamps in s, piece by piece, to be gone through once; None where the rows follow a uniform clock.
+    """
+    order, done = Order(), []
+    if stamps is not None and _has_backward_steps(stamps):
+        source = ArraySource(source.rows(0, source.samples))
+        order = order_of(source.data.time, source.data.position)
+        if order.sorting is not None:
+            done.append(_sorting_defect(source.data, order))
+            source = ArraySource(rows_at(source.data, order.sorting))
+    edges = [*order.starts, source.samples]
+    runs = [Piece(start, stop) for start, stop in pairwise(edges)]
+    runs, of_clock = _without_broken_clock(source, runs)
+    trimmed = [_trim(source, run) for run in runs]
+    pieces = [piece for piece, _ in trimmed]
+    done += _end_defects([of_clock, *(ends for _, ends in trimmed)])
+    if len(runs) > 1:
+        pieces, restarts = _in_sequence(source, pieces)
+        done.append(restarts)
+    if pieces == [Piece(0, source.samples)]:
+        return Chosen(source, tuple(done))
+    return Chosen(PiecedSource(source, pieces), tuple(done))
+
+
+def _has_backward_steps(stamps: Iterable[Samples]) -> bool:
+    last = -np.inf
+    for block in stamps:
+        if np.any(np.diff(block, prepend=last) < 0.0):
+            return True
+        last = float(block[-1]) if len(block) else last
+    return False
+
+
+def _without_broken_clock(
+    source: LogSource, runs: list[Piece]
+) -> tuple[list[Piece], list[tuple[BadEnd, Samples]]]:
+    """Take runs at either end that are too short to be any for rows whose clock was not set yet, or lost."""
+    found = []
+    for end, neighbour in ((0, 1), (-1, -2)):
+        if len(runs) == 1:
+            break
+        stamps = source.rows(runs[end].start, runs[end].stop).time
+        if stamps[-1] - stamps[0] < SHORTEST_RUN_S:
+            beside = source.rows(runs[neighbour].start, runs[neighbour].start + 1).time[0]
+            why = f"their stamps, from {stamps[0]:.10g} s on, are not of the clock that shows {beside:.10g} s"
+            found.append((BadEnd(len(stamps), "time", why), stamps))
+            runs = runs[1:] if end == 0 else runs[:-1]
+    return runs, found
+
+
+def _trim(source: LogSource, run: Piece) -> tuple[Piece, list[tuple[BadEnd, Samples]]]:
+    """Cut bad rows off both ends; give what they are with their stamps."""
+    if run.stop - run.start < FEWEST_ROWS:
+        return run, []
+    found = []
+    head, stamps = _end(source, run, first=True)
+    if head is not None:
+        found.append((head, stamps))
+        run = Piece(run.start + head.rows, run.stop)
+    tail, stamps = _end(source, run, first=False)
+    if tail is not None:
+        found.append((tail, stamps))
+        run = Piece(run.start, run.stop - tail.rows)
+    return run, found
+
+
+def _end(source: LogSource, run: Piece, *, first: bool) -> tuple[BadEnd | None, Samples]:
+    """Judge one end, from as few rows as are enough."""
+    size, end, rows = END_ROWS, None, None
+    while rows is None or (
+        end is not None and 2 * end.rows >= size // 2 and size // 4 < run.stop - run.start
+    ):
+        if first:
+            rows = source.rows(run.start, min(run.start + size, run.stop))
+            end = bad_head(rows)
+        else:
+            rows = source.rows(max(run.stop - size, run.start), run.stop)
+            end = bad_tail(rows)
+        size *= 4
+    if end is None:
+        return None, rows.time[:0]
+    return end, rows.time[: end.rows] if first else rows.time[-end.rows :]
+
+
+def _in_sequence(source: LogSource, pieces: list[Piece]) -> tuple[list[Piece], Defect]:
+    """Lay runs one after the other on one clock, without those too short to be differentiated."""
+    ends = [source.rows(row, row + 1).time[0] for piece in pieces for row in (piece.start, piece.stop - 1)]
+    spans = list(zip(ends[::2], ends[1::2], strict=True))
+    kept = [number for number, (begin, end) in enumerate(spans) if end - begin >= SHORTEST_RUN_S]
+    kept = kept or [0]
+    step = (spans[kept[0]][1] - spans[kept[0]][0]) / max(pieces[kept[0]].stop - pieces[kept[0]].start - 1, 1)
+    pause = max(PAUSE_S, PAUSE_STEPS * step)
+    laid, clock = [], float(spans[kept[0]][0])
+    intervals = []
+    for number in kept:
+        begin, end = map(float, spans[number])
+        laid.append(Piece(pieces[number].start, pieces[number].stop, clock - begin))
+        intervals.append((clock, clock + end - begin))
+        clock += end - begin + pause
+    rows = sum(piece.stop - piece.start for piece in laid[1:])
+    return laid, _restart_defect(pieces, kept, rows, intervals, pause)
+
+
+def _restart_defect(
+    pieces: list[Piece], kept: list[int], rows: int, intervals: list[tuple[float, float]], pause: float
+) -> Defect:
+    short = len(pieces) - len(kept)
+    firsts = ", ".join(str(piece.start + 1) for piece in pieces[1:6]) + (", ..." if len(pieces) > 6 else "")
+    statement = (
+        f"Time starts anew in row {firsts}: the file holds {len(pieces)} runs. They are taken one after the "
+        f"other, {pause:.3g} s apart on the clock, and no derivative crosses from one to the next."
+    )
+    if short:
+        statement += f" {short} of them, shorter than {SHORTEST_RUN_S:g} s, are left out."
+    longest = sorted(intervals, key=lambda span: span[0] - span[1])[:KEPT]
+    return Defect("time_restarts", "time", None, rows, tuple(sorted(longest)), statement)
+
+
+def _sorting_defect(rows: LogRows, order: Order) -> Defect:
+    statement = (
+        f"{order.moved} of {len(rows.time)} rows do not stand where their stamp belongs, and sorting them by "
+        "time makes the motion smoother: they are put in the order of time."
+    )
+    return Defect("shuffled_rows", "time", None, order.moved, (), statement)
+
+
+def _end_defects(ends: list[list[tuple[BadEnd, Samples]]]) -> list[Defect]:
+    """State the bad rows of all runs, by channel."""
+    found: dict[str, list[tuple[BadEnd, Samples]]] = {}
+    for of_run in ends:
+        for end, stamps in of_run:
+            found.setdefault(end.channel, []).append((end, stamps))
+    defects = []
+    for channel, bad in found.items():
+        rows = sum(end.rows for end, _ in bad)
+        stamped = [stamps[np.isfinite(stamps)] for _, stamps in bad]
+        spans = [(float(finite.min()), float(finite.max())) for finite in stamped if len(finite)]
+        what = "1 row at an end is no part" if rows == 1 else f"{rows} rows at the ends are no part"
+        statement = f"{what} of the motion and left out: {bad[0][0].why}."
+        defects.append(Defect("bad_end", channel, None, rows, tuple(sorted(spans)[:KEPT]), statement))
+    return defects
