@@ -1,5 +1,6 @@
 """Kill and freeze at random moments, until enough of each was done."""
 
+import itertools
 import random
 import signal
 import threading
@@ -9,7 +10,8 @@ from tests.chaos.processes import send
 
 FROZEN_S = 15.0
 """Longer than a lease, and than it takes the others to notice."""
-SHARES = {"child": 5, "worker": 3, "service": 2}
+TURNS = ("child", "worker", "child", "service", "child", "worker", "child", "worker", "child", "service")
+"""What is killed, in turn; a few kills meet each kind."""
 PAUSE_S, EARLY = 0.5, 2
 
 
@@ -25,7 +27,8 @@ class Storm:
     def __init__(self, fleet, finished, *, jobs, kills, freezes, seed):
         self._fleet, self._finished, self._jobs = fleet, finished, jobs
         self._random = random.Random(seed)  # noqa: S311 - repeatable
-        self.kills, self.freezes = dict.fromkeys(SHARES, 0), 0
+        self.kills, self.freezes = dict.fromkeys(TURNS, 0), 0
+        self._turns = itertools.cycle(TURNS)
         self._wanted_kills, self._wanted_freezes = kills, freezes
         self._frozen = {}
         self.calm, self.over = threading.Event(), threading.Event()
@@ -55,7 +58,7 @@ class Storm:
         return done < wanted and done < EARLY + wanted * self._finished() / self._jobs
 
     def _kill(self):
-        kind = self._random.choices(list(SHARES), list(SHARES.values()))[0]
+        kind = next(self._turns)
         deadline = time.monotonic() + 5.0
         while not (victims := self._victims(kind)) and time.monotonic() < deadline:
             time.sleep(0.01)
