@@ -17,7 +17,7 @@ from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest
 
 NAME, SEED = "planar-3", 1
-SECONDS = 16.0
+SECONDS = {NAME: 16.0, "yumi-left": 8.0}
 LOAD = {"mass": 0.3, "com_x": 0.05, "com_y": 0.03}
 RUBBED = {"delta_viscous": 0.13, "delta_coulomb": 0.4}
 TILT = {"tilt_x": -0.03, "tilt_y": 0.02}
@@ -37,7 +37,7 @@ def log_with(change: str, name: str = NAME):
     if change == "tilt":
         arm = with_gravity(arm, rotation_y(TILT["tilt_y"]) @ rotation_x(TILT["tilt_x"]))
     seeds = ("nothing before", "nothing", "payload", "gain", "all gains", "friction", "tilt")
-    return logged(arm, 100 + seeds.index(change), *effects, duration=SECONDS)
+    return logged(arm, 100 + seeds.index(change), *effects, duration=SECONDS[name])
 
 
 @cache

@@ -8,11 +8,11 @@ from tests.hidden.regressions import QUICK, examine
 SECONDS = 15.0
 SINGLES = (
     Order("single", 7001, "friction_stribeck", 3.0, robot="planar-3", duration=SECONDS),
-    Order("single", 7002, "friction_load_dependent", 3.0, duration=SECONDS),
+    Order("single", 7002, "friction_load_dependent", 3.0, robot="planar-3", duration=SECONDS),
     Order("single", 7003, "time_delay", 3.0, robot="planar-2", duration=SECONDS),
     Order("single", 7004, "torque_gain", 3.0, robot="planar-3", duration=SECONDS),
     Order("single", 7005, "torque_ripple", 3.0, robot="planar-2", duration=SECONDS),
-    Order("single", 7006, "joint_elasticity", 3.0, duration=SECONDS),
+    Order("single", 7006, "joint_elasticity", 3.0, robot="planar-3", duration=SECONDS),
 )
 
 
