@@ -30,6 +30,17 @@ EACH_CAUSE = {1.0: 20, 3.0: 3, 0.3: 3}
 """How often the whole examination hides every cause, by strength."""
 COMBINATIONS, CLEAN, STRANGE = 40, 300, 60
 """How many combinations, clean logs and effects that are in no list it has."""
+SHORT = 15.0
+"""Seconds of a log of a quick run: half of the usual."""
+SHORT_KINDS = (
+    (50, "combination", "planar-2", 4),
+    (60, "clean", "planar-2", 3),
+    (70, "foreign", "planar-2", 3),
+    (80, "combination", "planar-3", 2),
+    (85, "clean", "planar-3", 1),
+    (90, "foreign", "planar-3", 1),
+)
+"""What a quick run has beside every cause: its first number, the arm, and how many there are."""
 
 
 @dataclass(frozen=True)
@@ -84,12 +95,23 @@ def battery(seed: int) -> list[Order]:
     return listed + [Order("foreign", next(own)) for _ in range(STRANGE)]
 
 
+def quick(seed: int) -> list[Order]:
+    """Lay out short logs of small arms: every cause once, combinations, clean logs, foreign effects."""
+    own = 900 * seed
+    listed = [Order("single", own + place, cause, robot="planar-2") for place, cause in enumerate(EFFECTS)]
+    for first, kind, robot, cases in SHORT_KINDS:
+        listed += [
+            Order(kind, own + first + place, effects=2 + place % 2, robot=robot) for place in range(cases)
+        ]
+    return [replace(order, duration=SHORT) for order in listed]
+
+
 def drawn(order: Order) -> Case:
     """Draw the case that was ordered."""
     if order.kind == "clean":
         return kept(draw_clean, order.seed, noise=order.noise, **_options(order))
     if order.kind == "foreign":
-        return kept(draw_foreign, order.seed, order.strength)
+        return kept(draw_foreign, order.seed, order.strength, **_options(order))
     return kept(draw, order.seed, order.cause, order.strength, effects=order.effects, **_options(order))
 
 
