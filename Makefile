@@ -80,8 +80,8 @@ hidden: $(READY) ## hide effects in a simulated robot and score the diagnosis, t
 battery: $(READY) ## the whole examination of the diagnosis: every cause 20 times, 300 clean logs (SEED=n; hours)
 	$(RUN) -m tests.hidden --seed $(or $(SEED),1) --battery
 
-ablate: $(READY) ## halve and double every threshold of the diagnosis and count changed answers (SEED=n CASES=m ONLY=GROUP.FIELD; hours)
-	$(RUN) -m tests.hidden ablate --seed $(or $(SEED),1) --cases $(or $(CASES),20) $(if $(ONLY),--only $(ONLY))
+ablate: $(READY) ## halve and double every threshold of the diagnosis and list those that change no answer (SEED=n CASES=m ONLY=GROUP.FIELD COUNT=1)
+	$(RUN) -m tests.hidden ablate --seed $(or $(SEED),1) $(if $(CASES),--cases $(CASES)) $(if $(ONLY),--only $(ONLY)) $(if $(COUNT),--count)
 
 hostile: $(READY) ## send every hostile file to the service and print how each was treated
 	$(RUN) -m tests.hostile
