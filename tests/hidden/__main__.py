@@ -1,8 +1,8 @@
 """Draw hidden effects afresh, ask for their diagnosis on two processes, and print how it went.
 
 Run ``make hidden SEED=3 CASES=60``, with STRENGTH, CAUSE or KIND (single, combination, clean, foreign) to
-look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours. ``make ablate``
-halves and doubles every threshold of the diagnosis instead, and lists those that change no answer.
+look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours.
+``make ablate`` halves and doubles every threshold of the diagnosis, and lists those that change no answer.
 ``python -m tests.hidden regressions`` diagnoses the logs that were answered wrongly once.
 """
 
