@@ -20,6 +20,8 @@ from ..signals.state import MotionState
 RANK_TOLERANCE = 1e-9
 """A column is dependent when less than this share of it lies outside the columns before it. Rounding leaves
 about 1e-13; twists off by a tenth of a milliradian leave about 1e-4."""
+_NOTHING = 1e-12
+"""A column is zero when it is smaller than this share of the largest of its unit: it is rounding."""
 _SEED = 20221
 _REVOLUTE_ORDER = ("XX", "XY", "XZ", "YZ", "ZZ", "MX", "MY", "IA", "YY", "MZ", "M")
 _PRISMATIC_ORDER = ("M", "MX", "MY", "MZ", "IA", "XX", "XY", "XZ", "YY", "YZ", "ZZ")
@@ -150,7 +152,7 @@ def _first_independent(matrix: Matrix, units: list[str]) -> tuple[list[int], Row
     Give their indices, all columns as combinations of them, and the least share of a picked one that is new.
     """
     scale = np.linalg.norm(matrix, axis=0)
-    used = scale > RANK_TOLERANCE * _largest_of_unit(scale, units)
+    used = scale > _NOTHING * _largest_of_unit(scale, units)
     scaled = matrix / np.where(used, scale, 1.0)
     basis = np.zeros((len(matrix), 0))
     kept: list[int] = []
