@@ -145,6 +145,7 @@ def _solver(found: Identification) -> dict[str, object]:
         "status": "optimal" if solution is None else solution.status,
         "iterations": 0 if solution is None else solution.iterations,
         "solver": "qr" if solution is None else solution.solver,
+        "bounds_margin": None if solution is None else solution.margin,
         "objective": found.estimate.objective,
         "objective_ols": found.estimate.objective_unconstrained,
     }

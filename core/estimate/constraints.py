@@ -20,6 +20,10 @@ from ..robot.model import INERTIAL_SYMBOLS
 LARGEST_MARGIN = 0.1
 """A margin is a share of an ordinary link's pseudo-inertia; more than a tenth would shape the answer."""
 
+DEFAULT_MARGIN, LIGHT_MARGIN = 1e-4, 1e-7
+"""The margin of an ordinary link, and the one of a robot of which a link is much lighter: least eigenvalue of
+every scaled pseudo-inertia."""
+
 
 @dataclass(frozen=True)
 class CentreBox:
@@ -59,7 +63,7 @@ class Bounds:
     """Smallest and largest mass of all links together, kg."""
     centres: tuple[CentreBox | CentreEllipsoid, ...] = ()
     """Where mass centres may lie."""
-    margin: float = 1e-4
+    margin: float = DEFAULT_MARGIN
     """Least eigenvalue of every scaled pseudo-inertia; keeps the mass matrix off singularity."""
 
     def __post_init__(self) -> None:

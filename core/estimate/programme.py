@@ -49,6 +49,10 @@ class Programme:
         size = np.sqrt(self.system.rows)
         return self.system.triangle @ self.base.grouping * self.prior.scale / size, self.system.target / size
 
+    def cost(self, solution: "Solution") -> float:
+        """Give the weighted sum of squared residuals of a solution."""
+        return self.system.cost(self.base.base_of(solution.standard))
+
 
 @dataclass(frozen=True, eq=False)
 class Solution:
@@ -61,22 +65,19 @@ class Solution:
     """How the solver ended, and after how many iterations."""
     solver: str
     """Which solver said it."""
+    margin: float
+    """The least eigenvalue that every scaled pseudo-inertia was given."""
 
 
+_REMEDY = "ask for the other solver (option solver), give a prior, or raise the pull towards the prior"
 _MEANINGS = {
     "infeasible": (
         "no robot satisfies the bounds on masses and mass centres",
         "widen the bounds or lower the margin, and check that masses are in kg and lengths in m",
     ),
     "unbounded": ("the optimum lies at infinity", "use a pull towards a prior greater than zero"),
-    "inaccurate": (
-        "the solver stopped before it reached its accuracy",
-        "record a more exciting motion, give a prior, or raise the pull towards the prior",
-    ),
-    "stopped": (
-        "the solver gave up",
-        "record a more exciting motion, give a prior, or raise the pull towards the prior",
-    ),
+    "inaccurate": ("the solver stopped before it reached its accuracy", _REMEDY),
+    "stopped": ("the solver gave up", _REMEDY),
 }
 
 

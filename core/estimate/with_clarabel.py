@@ -1,11 +1,14 @@
 """Give the programme to Clarabel directly, in residual form: the hot path.
 
 Variables are x = (phi / scale, r) with r = R G phi - z as equalities, so that the objective is diagonal and
-the factor is never squared. Cones are written as s = b - A x in the cone, triangles of matrices column by
-column with off-diagonals times sqrt(2). Source: Goulart & Chen, Clarabel, 2024.
+the factor is never squared. Where rounding stops the solver, each parameter is measured by how far it moves
+the objective instead: beside a light tip the columns of that factor differ by eight decades. Cones are
+written as s = b - A x in the cone, triangles of matrices column by column with off-diagonals times sqrt(2).
+Source: Goulart & Chen, Clarabel, 2024.
 """
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import clarabel
 import numpy as np
@@ -27,7 +30,14 @@ _FINE, _COARSE = 1e-9, 1e-7
 relative to an objective near one half, so either is far below what noise does to it."""
 _BOLD, _CAREFUL = 0.99, 0.9
 """Largest share of the way to a cone's edge that a step goes; shorter ones are rounded less."""
-_SHORT_OF_ACCURACY = ("AlmostSolved", "InsufficientProgress", "NumericalError")
+_ATTEMPTS = (
+    (False, _FINE, _BOLD),
+    (False, _COARSE, _CAREFUL),
+    (True, _FINE, _BOLD),
+    (True, _COARSE, _CAREFUL),
+)
+"""Statements tried until one is solved: whether columns are normalised, accuracy, largest step."""
+_SHORT_OF_ACCURACY = ("AlmostSolved", "InsufficientProgress", "NumericalError", "MaxIterations")
 _KINDS = {
     "PrimalInfeasible": "infeasible",
     "AlmostPrimalInfeasible": "infeasible",
@@ -72,19 +82,40 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     _add_masses(cones, programme)
     _add_centres(cones, programme)
     pull = np.full(parameters, programme.scaled_pull)
-    quadratic = sparse.diags(np.concatenate([pull, np.ones(equations)]), format="csc")
+    quadratic = np.concatenate([pull, np.ones(equations)])
     linear = np.concatenate([-pull * programme.prior.centre / programme.prior.scale, np.zeros(equations)])
-    problem = (quadratic, linear, sparse.csc_matrix(np.vstack(cones.rows)), np.concatenate(cones.right))
-    answer = clarabel.DefaultSolver(*problem, cones.kinds, _settings(_FINE, _BOLD)).solve()
-    if str(answer.status) in _SHORT_OF_ACCURACY:
-        answer = clarabel.DefaultSolver(*problem, cones.kinds, _settings(_COARSE, _CAREFUL)).solve()
+    norms = np.append(np.sqrt((misfit**2).sum(axis=0) + pull), np.ones(equations))
+    answer, unit = _first_solved(cones, quadratic, linear, norms)
     status = str(answer.status)
     if status != "Solved":
         raise refusal(
             _KINDS.get(status, "stopped"), status=status, solver="clarabel", iterations=int(answer.iterations)
         )
-    standard = np.array(answer.x[:parameters]) * programme.prior.scale
-    return Solution(standard, "optimal", int(answer.iterations), "clarabel")
+    standard = (np.array(answer.x) * unit)[:parameters] * programme.prior.scale
+    return Solution(standard, "optimal", int(answer.iterations), "clarabel", programme.bounds.margin)
+
+
+def _first_solved(cones: _Cones, quadratic: Vector, linear: Vector, norms: Vector) -> tuple[Any, Vector]:
+    """Try one statement after the other; give the last answer and the units of its variables."""
+    rows, right = np.vstack(cones.rows), np.concatenate(cones.right)
+
+    def attempt(normalised: bool, tolerance: float, step: float) -> tuple[Any, Vector]:  # noqa: FBT001  (a row of a table)
+        unit = 1.0 / norms if normalised else np.ones(len(norms))
+        solver = clarabel.DefaultSolver(
+            sparse.diags(quadratic * unit**2, format="csc"),
+            linear * unit,
+            sparse.csc_matrix(rows * unit),
+            right,
+            cones.kinds,
+            _settings(tolerance, step),
+        )
+        return solver.solve(), unit
+
+    for statement in _ATTEMPTS[:-1]:
+        answer, unit = attempt(*statement)
+        if str(answer.status) not in _SHORT_OF_ACCURACY:
+            return answer, unit
+    return attempt(*_ATTEMPTS[-1])
 
 
 def _settings(tolerance: float, step: float) -> object:

@@ -48,7 +48,7 @@ def solve_with_cvxpy(programme: Programme) -> Solution:
     if problem.status != cvxpy.OPTIMAL or phi.value is None:
         kind = _KINDS.get(problem.status, "stopped")
         raise refusal(kind, status=problem.status, solver="cvxpy", iterations=iterations)
-    return Solution(np.asarray(phi.value) * scale, "optimal", iterations, "cvxpy")
+    return Solution(np.asarray(phi.value) * scale, "optimal", iterations, "cvxpy", programme.bounds.margin)
 
 
 def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constraint]:

@@ -92,7 +92,7 @@ def test_an_infeasible_problem_and_an_inaccurate_one_have_different_remedies():
         for kind in ("infeasible", "inaccurate")
     }
     assert "bounds" in remedies["infeasible"]
-    assert "motion" in remedies["inaccurate"]
+    assert "option solver" in remedies["inaccurate"]
 
 
 def test_where_rounding_stops_the_solver_less_is_asked_for_in_shorter_steps_before_giving_up(monkeypatch):
