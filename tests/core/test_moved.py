@@ -13,13 +13,13 @@ from tests.plant.cases import draw
 from veritorque.core.study import IdentifyRequest, diagnose
 
 CASES = {
-    "friction_presliding": (910, 3.0, "planar-2"),
-    "joint_elasticity": (910, 3.0, "planar-2"),
-    "backlash": (912, 1.0, "planar-3"),
-    "time_delay": (910, 3.0, "planar-2"),
-    "torque_filter_lag": (910, 3.0, "planar-2"),
+    "friction_presliding": (910, 3.0, "planar-2", 15.0),
+    "joint_elasticity": (910, 3.0, "planar-2", 15.0),
+    "backlash": (912, 1.0, "planar-3", 30.0),
+    "time_delay": (910, 3.0, "planar-2", 15.0),
+    "torque_filter_lag": (910, 3.0, "planar-2", 15.0),
 }
-"""Seed, strength and arm; play of strength 3 is more than gears have."""
+"""Seed, strength, arm and seconds; play of strength 3 is more than gears have, and needs a longer log."""
 BETTER = {
     "friction_presliding": 70.0,
     "joint_elasticity": 40.0,
@@ -33,8 +33,8 @@ CHANNEL = {"time_delay", "torque_filter_lag"}
 
 @cache
 def found(cause: str):
-    seed, strength, robot = CASES[cause]
-    case = kept(draw, seed, cause, strength, robot=robot, noise="white")
+    seed, strength, robot, seconds = CASES[cause]
+    case = kept(draw, seed, cause, strength, robot=robot, noise="white", duration=seconds)
     return diagnose(IdentifyRequest(case.believed, (case.log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
 
 

@@ -41,10 +41,10 @@ def test_stamps_that_scatter_are_noise_in_proportion_to_speed():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("off", [1, 20])
+@pytest.mark.parametrize("off", [1, 12])
 def test_few_stamps_that_are_off_hide_no_late_torque(off):
-    """Of 5000: they spoil the rows beside them, and say nothing of the rest."""
-    state, late = swinging(3, 20.0), 1e-3
+    """Of 3000: they spoil the rows beside them, and say nothing of the rest."""
+    state, late = swinging(3, 12.0), 1e-3
     model = standard_model(skew_arm())
     torque = model.torque(true_parameters(model), state)
     time = np.arange(len(torque)) / ARM_RATE_HZ
@@ -59,11 +59,9 @@ def test_few_stamps_that_are_off_hide_no_late_torque(off):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("scatter", "seconds", "noise"), [(SCATTER, 20.0, 0.02), (3e-4, 12.0, 0.05)])
-def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter(
-    scatter, seconds, noise
-):
-    state, rng = swinging(3, seconds), np.random.default_rng(11)
+@pytest.mark.parametrize(("scatter", "noise"), [(SCATTER, 0.02), (3e-4, 0.05)])
+def test_stamps_that_scatter_though_the_samples_do_not_make_no_spring_delay_or_filter(scatter, noise):
+    state, rng = swinging(3, 12.0), np.random.default_rng(11)
     model = standard_model(skew_arm())
     torque = model.torque(true_parameters(model), state)
     torque += noise * rng.normal(size=torque.shape)
