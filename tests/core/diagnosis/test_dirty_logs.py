@@ -55,7 +55,7 @@ def hung(_rng, position, _torque):
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
 @pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung])
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
-    rows = measured_arm(hidden).dataset.motions[0].log.source.data
+    rows = measured_arm(hidden, seconds=14.0).dataset.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()
     kind = spoil(np.random.default_rng(4), position, torque)
     scene = look_at_arm(position, torque)
