@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Parameters, Vector
+from ..arrays import JointVector, Parameters, Vector
 from ..dynamics.model import DynamicModel
 from ..errors import OptionError
 from ..robot.inertia import from_mass_properties
+from ..robot.joint_units import largest_of_kind, prismatic_joints
 from ..robot.model import INERTIAL_SYMBOLS
 
 LARGEST_MARGIN = 0.1
@@ -153,7 +154,10 @@ def default_prior(model: DynamicModel, torque_rms: Vector, sizes: Mapping[str, f
     units = {"kg m2": mass * length**2, "kg m": mass * length, "kg": mass}
     known = sizes or {}
     scale = np.array(
-        [known.get(parameter.name) or units.get(parameter.unit, effort) for parameter in model.parameters]
+        [
+            known.get(parameter.name) or units.get(parameter.unit, effort[parameter.joint - 1])
+            for parameter in model.parameters
+        ]
     )
     centre = np.zeros(len(model.parameters))
     bodies = model.robot.prior
@@ -180,11 +184,14 @@ def lower_bounds(model: DynamicModel) -> Vector:
     )
 
 
-def _proportions(model: DynamicModel, torque_rms: Vector) -> tuple[float, float, float]:
+def _proportions(model: DynamicModel, torque_rms: Vector) -> tuple[float, float, JointVector]:
+    """Give an ordinary link's length (m) and mass (kg), and per joint its kind's largest effort (N m or N)."""
     robot = model.robot
     lengths: list[float] = [float(np.linalg.norm(link.translation)) for link in robot.links]
     length = max(*lengths, 0.05)
-    effort = max(float(torque_rms.max()), 1e-6)
+    prismatic = prismatic_joints(robot)
+    effort = np.maximum(largest_of_kind(torque_rms, prismatic), 1e-6)
     gravity = max(float(np.linalg.norm(robot.gravity)), 1.0)
     reach = max(sum(lengths), length)
-    return length, max(2.0 * effort / (gravity * reach) / len(robot.links), 1e-3), effort
+    arm = np.where(prismatic, 1.0, reach)
+    return length, max(float((2.0 * effort / (gravity * arm)).max()) / len(robot.links), 1e-3), effort

@@ -6,6 +6,9 @@ effort in N, so that an inertia becomes a mass and a stiffness N/m.
 
 import re
 
+import numpy as np
+
+from ..arrays import JointVector, Mask
 from .model import RobotModel
 
 _PRISMATIC = (
@@ -37,3 +40,22 @@ def is_prismatic(robot: RobotModel, joint: int) -> bool:
 def joint_unit(robot: RobotModel, joint: int, unit: str) -> str:
     """Give the unit of a joint's own quantity, from its unit at a revolute joint."""
     return prismatic_unit(unit) if is_prismatic(robot, joint) else unit
+
+
+def prismatic_joints(robot: RobotModel) -> Mask:
+    """Mark the prismatic joints."""
+    return np.array([is_prismatic(robot, joint) for joint in range(1, len(robot.joints) + 1)])
+
+
+def largest_of_kind(values: JointVector, prismatic: Mask) -> JointVector:
+    """Give, per joint, the largest value among the joints of its kind: metres are not compared with angles.
+
+    Examples
+    --------
+    >>> largest_of_kind(np.array([2.0, 0.012, 1.0]), np.array([False, True, False]))
+    array([2.   , 0.012, 2.   ])
+    """
+    out = np.zeros_like(values)
+    for kind in (prismatic, ~prismatic):
+        out[kind] = values[kind].max(initial=0.0)
+    return out

@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import JointVector
 from ..errors import LogError
 from ..log.model import JointLog
+from ..robot.joint_units import prismatic_joints
 from ..robot.model import RobotModel
 from .parallel import Tile
 from .recipe import FilterOptions, Recipe, choose_recipe
@@ -71,7 +72,7 @@ def condition(
             evidence={"log_joints": log.joints, "robot_joints": len(robot.joints), "log": log.name},
             remedy="map one position and one torque (or current) column to every joint of the robot",
         )
-    recipe = choose_recipe(log, options or FilterOptions())
+    recipe = choose_recipe(log, options or FilterOptions(), prismatic_joints(robot))
     segments = tuple(
         segment for segment in (gap_free(log, recipe, *span) for span in log.segments) if segment is not None
     )

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import signal
 
-from ..arrays import JointSeries, JointVector
+from ..arrays import JointSeries, JointVector, Mask
 from ..errors import OptionError
 from ..log.model import JointLog, LogRows
+from ..robot.joint_units import largest_of_kind
 from .derivative import median
 from .resample import uniform
 from .zero_phase import HIGHEST_ORDER
@@ -27,7 +28,12 @@ passes."""
 STILL_SHARE = 0.01
 """A joint stands when it is slower than this share of its RMS speed."""
 TREMBLE_SHARE = 0.01
-"""A joint slower than this share of the fastest one only trembles; its spectrum is its encoder's."""
+"""A joint slower than this share of the fastest one of its kind (turning or sliding) only trembles. Its
+spectrum is its encoder's."""
+NOISY_SHARE = 0.4
+"""Noise alone has half of its velocity's power above this share of the survey's low-pass."""
+HELD_OVER_RMS = 10.0
+"""Where all joints of a kind are held, they stand at so many times their RMS speed: all the time."""
 LOWEST_SHARE = 0.05
 """A cut-off below this share of the motion's band leaves no motion, and its kernel outgrows any log."""
 FEWEST_ROWS, SHORTEST_SECONDS = 16, 1.0
@@ -115,8 +121,13 @@ class Recipe:
     """Why these cut-offs, in one sentence."""
 
 
-def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
+def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None = None) -> Recipe:
     """Read the motion's band off the log and settle the cut-offs, the decimation and the standstill speeds.
+
+    Parameters
+    ----------
+    prismatic
+        Which joints slide; none by default.
 
     Raises
     ------
@@ -124,9 +135,10 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         If a given cut-off does not fit the log's rate or motion.
     """
     rate = log.rate_hz
-    bands, speeds, slowest = _survey(log, options.median_order)
-    slowest = min(slowest, *segment_rates(log))
-    moving = bands[speeds > TREMBLE_SHARE * speeds.max()]
+    survey = _survey(log, options.median_order)
+    bands, speeds, slowest = survey.bands, survey.speeds, min(survey.slowest, *segment_rates(log))
+    still_speed = _still_speed(survey, np.zeros(len(speeds), dtype=bool) if prismatic is None else prismatic)
+    moving = bands[speeds > still_speed]
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)
     highest = min(0.4 * rate, 0.9 * nyquist)
@@ -150,7 +162,7 @@ def choose_recipe(log: JointLog, options: FilterOptions) -> Recipe:
         decimation=decimation,
         motion_band_hz=band,
         rms_speed=speeds,
-        still_speed=_still_speed(speeds),
+        still_speed=still_speed,
         reason=(
             f"parallel filter at {cutoff:.3g} Hz ({reason}), positions at {position:.3g} Hz,"
             f" one sample in {decimation} kept"
@@ -183,22 +195,40 @@ def is_usable(rows: int, seconds: float, rate_hz: float) -> bool:
     return enough and rows - 1 >= SLOWEST_SHARE * rate_hz * seconds
 
 
-def _still_speed(speeds: JointVector) -> JointVector:
-    """Give the speed below which each joint stands, such that a joint held by its drive stands throughout."""
-    trembling = speeds <= TREMBLE_SHARE * speeds.max()
-    return np.where(trembling, TREMBLE_SHARE * speeds.max(), STILL_SHARE * speeds)
+def _still_speed(survey: "_Survey", prismatic: Mask) -> JointVector:
+    """Give the speed below which each joint stands, such that a joint held by its drive stands throughout.
+
+    Where joints of both kinds are logged, a kind of which every joint shows noise only is held.
+    """
+    speeds = survey.speeds
+    fastest = largest_of_kind(speeds, prismatic)
+    still = np.where(speeds <= TREMBLE_SHARE * fastest, TREMBLE_SHARE * fastest, STILL_SHARE * speeds)
+    for kind in (prismatic, ~prismatic):
+        if kind.any() and not kind.all() and survey.noisy[kind].all():
+            still[kind] = HELD_OVER_RMS * speeds[kind]
+    return still
 
 
 def _or_default(asked: float | None, chosen: float) -> float:
     return chosen if asked is None else asked
 
 
-def _survey(log: JointLog, median_order: int) -> tuple[JointVector, JointVector, float]:
-    """Give band (Hz) and RMS speed of every joint, from up to eight windows of the longest segment.
+@dataclass(frozen=True, eq=False)
+class _Survey:
+    """Hold what a first look at a log shows."""
 
-    Last comes the mean rate (Hz) of the slowest window: rows that were never recorded make it less than the
-    log's.
-    """
+    bands: JointVector
+    """Band of every joint's velocity, Hz."""
+    speeds: JointVector
+    """RMS speed of every joint (rad/s or m/s)."""
+    noisy: Mask
+    """Joints whose velocity is noise only."""
+    slowest: float
+    """Mean rate (Hz) of the slowest window: rows that were never recorded make it less than the log's."""
+
+
+def _survey(log: JointLog, median_order: int) -> _Survey:
+    """Read band and speed of every joint from up to eight windows of the longest segment."""
     start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
     length = min(stop - start, int(_SURVEY_SECONDS * log.rate_hz))
     count = min(_SURVEYS, max(1, (stop - start) // length))
@@ -210,13 +240,21 @@ def _survey(log: JointLog, median_order: int) -> tuple[JointVector, JointVector,
     power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
     held = np.cumsum(power, axis=0) / np.maximum(power.sum(axis=0), np.finfo(float).tiny)
-    return np.array([frequency[np.argmax(share >= MOTION_SHARE)] for share in held.T]), speeds, slowest
+    bands, middles = (
+        np.array([frequency[np.argmax(share >= wanted)] for share in held.T])
+        for wanted in (MOTION_SHARE, 0.5)
+    )
+    return _Survey(bands, speeds, middles > NOISY_SHARE * _low_pass_hz(log.rate_hz), slowest)
+
+
+def _low_pass_hz(rate_hz: float) -> float:
+    return min(0.2 * rate_hz, 40.0)
 
 
 def _velocity(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
     """Differentiate without the absurd samples, which would otherwise pass for quick motion."""
     _, position, _ = uniform(rows, rate_hz)
-    low = signal.butter(2, min(0.2 * rate_hz, 40.0), fs=rate_hz, output="sos")
+    low = signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos")
     smooth = signal.sosfiltfilt(low, median(position, median_order), axis=0)
     return np.asarray(np.gradient(smooth, 1.0 / rate_hz, axis=0))
 

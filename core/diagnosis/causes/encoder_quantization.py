@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import JointSeries, JointVector
+from ...arrays import JointSeries, JointVector, Mask
 from ...dynamics.prediction import Prediction
 from ...log.defects.resolution import FEWEST_INCREMENTS, Resolution
 from ...log.defects.stretch import stretches
 from ...log.model import JointLog
-from ...robot.joint_units import joint_unit
+from ...robot.joint_units import joint_unit, prismatic_joints
 from ..dataset.dataset import Dataset
 from ..thresholds.dataset import SAMPLE_CHECKS
 from .protocol import Quantity
@@ -29,21 +29,24 @@ class EncoderQuantization(SampleCheck):
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Round each joint's smooth motion to its own steps and measure the effect on the torque."""
         steps = np.max([_steps(motion.log) for motion in dataset.motions], axis=0)
-        found = []
+        found, kinds = [], prismatic_joints(dataset.robot)
         for joint in np.flatnonzero(steps > 0.0).tolist():
             gained = disturbance(dataset, operating_point, _rounded(joint, float(steps[joint])))
             unit = joint_unit(dataset.robot, joint + 1, "rad")
             share = share_of_residual(dataset, operating_point, gained)
             of_torque = _of_torque(dataset, gained)
-            if _matters(float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, joint)):
+            if _matters(
+                float(share.max()), float(of_torque.max()), stands_out=_stands_out(steps, joint, kinds)
+            ):
                 found.append(_finding(joint, (float(steps[joint]), unit), share, of_torque))
         return tuple(found)
 
 
-def _stands_out(steps: JointVector, joint: int) -> bool:
-    """Tell whether a joint's steps are much coarser than those of the robot's other encoders."""
-    others = np.delete(steps, joint)
-    others = others[others > 0.0]
+def _stands_out(steps: JointVector, joint: int, prismatic: Mask) -> bool:
+    """Tell whether a joint's steps are much coarser than those of the robot's other encoders of its kind."""
+    alike = (prismatic == prismatic[joint]) & (steps > 0.0)
+    alike[joint] = False
+    others = steps[alike]
     return bool(len(others) and steps[joint] > SAMPLE_CHECKS.coarser * np.median(others))
 
 

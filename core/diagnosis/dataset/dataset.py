@@ -30,6 +30,7 @@ from ...dynamics.terms.payload_change import Payload
 from ...errors import ExcitationError
 from ...log.model import JointLog
 from ...regressor.columns import ColumnPlan
+from ...robot.joint_units import prismatic_joints
 from ...robot.model import RobotModel
 from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
@@ -152,7 +153,9 @@ def build_dataset(
     ExcitationError
         If no row is left.
     """
-    motions = tuple(condition(log, model.robot, _options(log, width), blocks=blocks) for log in logs)
+    motions = tuple(
+        condition(log, model.robot, _options(log, width, model.robot), blocks=blocks) for log in logs
+    )
     parts = _segments(motions, model.robot, [log.duration for log in logs])
     series = _concatenate_series(parts)
     keys = {log * blocks + block for log, block in held_out}
@@ -210,13 +213,13 @@ def _place_stretches(parts: Sequence[DatasetSegment]) -> tuple[Stretch, ...]:
     )
 
 
-def _options(log: JointLog, width: float) -> FilterOptions:
+def _options(log: JointLog, width: float, robot: RobotModel) -> FilterOptions:
     """Choose the bandwidth of a diagnosis from the motion's own, and rows that fall on thinned states.
 
     A running median flattens every turning point of a position, which leaves as much torque as a small
     effect: it is used only where there are spikes.
     """
-    band = choose_recipe(log, FilterOptions()).motion_band_hz
+    band = choose_recipe(log, FilterOptions(), prismatic_joints(robot)).motion_band_hz
     cutoff = min(width * band, log.rate_hz / BAND.rate)
     thin = thinning(log.rate_hz, cutoff)
     spiky = any((defect.kind, defect.channel) == ("outliers", "position") for defect in log.defects)

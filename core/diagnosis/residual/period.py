@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from ...arrays import JointMask, JointSeries, Rows, Vector
+from ...arrays import JointMask, JointSeries, JointVector, Rows, Vector
+from ...robot.joint_units import largest_of_kind, prismatic_joints
 from ..dataset.dataset import Dataset
 from ..dataset.stretch import Stretch
 from ..thresholds.residual import FLOOR
@@ -36,7 +37,7 @@ def repeats(dataset: Dataset) -> Repeats | None:
     if len(position) < _TAPS_OF_A_LOG * _TAPS:
         return None
     step = float(np.mean(np.diff(dataset.time[stretch.rows])))
-    moving = np.std(position, axis=0) > FLOOR.moving * np.std(position, axis=0).max()
+    moving = np.std(position, axis=0) > _least_swing(dataset, position)
     mismatch = _mismatch(position[:, moving])
     for valley in _minima(mismatch):
         lag = _refine_lag(
@@ -49,12 +50,23 @@ def repeats(dataset: Dataset) -> Repeats | None:
     return None
 
 
+def _least_swing(dataset: Dataset, series: JointSeries) -> JointVector:
+    """Give, per joint, the swing below which it does not move: a share of the largest of its kind.
+
+    It is infinite where all joints of a kind are held.
+    """
+    recipe = dataset.motions[0].recipe
+    kinds = prismatic_joints(dataset.robot)
+    fastest = largest_of_kind(recipe.rms_speed - recipe.still_speed, kinds)
+    return np.where(fastest > 0.0, FLOOR.moving * largest_of_kind(np.std(series, axis=0), kinds), np.inf)
+
+
 def repeat_mask(dataset: Dataset, stretch: Stretch, found: Repeats) -> np.ndarray:
     """Mark the instants of a stretch, from its first on, that the motion repeats a period later."""
     same = None
     for series in (dataset.state.position[stretch.rows], dataset.state.velocity[stretch.rows]):
         later = shift_rows(series, found.rows)
-        swing = np.maximum(np.std(series, axis=0), FLOOR.moving * np.std(series, axis=0).max())
+        swing = np.maximum(np.std(series, axis=0), _least_swing(dataset, series))
         near = np.all(np.abs(later - series[: len(later)]) <= FLOOR.same * swing, axis=1)
         same = near if same is None else same & near
     return np.zeros(0, dtype=bool) if same is None else same

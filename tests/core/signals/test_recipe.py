@@ -168,3 +168,40 @@ def test_a_stretch_at_a_fraction_of_the_rate_does_not_narrow_the_band_of_the_oth
 @pytest.mark.parametrize(("gap_s", "segments"), [(0.12, 1), (0.5, 8)])
 def test_a_gap_of_a_few_steps_of_a_slow_bus_is_bridged_where_the_motion_is_slower_still(gap_s, segments):
     assert len(slow_bus([30.0] * 8, gap_s).segments) == segments
+
+
+def _turn_and_slide(slide_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Turn by some rad/s beside a slide of the given stroke (m), both with their encoder's noise."""
+    time = np.arange(6000) / RATE_HZ
+    position = Multisine.random(np.random.default_rng(5), 2, highest_hz=1.0).position(time)
+    noise = np.random.default_rng(6).normal(size=position.shape) * (1e-6, 1e-7)
+    return time, position * (3.0, slide_m) + noise
+
+
+SLIDES = np.array([False, True])
+
+
+def test_a_slide_of_millimetres_a_second_moves_beside_a_turn_of_radians_a_second():
+    time, position = _turn_and_slide(0.005)
+    recipe = choose_recipe(log_of(time, position), FilterOptions(), SLIDES)
+    assert recipe.rms_speed[1] < 0.01 * recipe.rms_speed[0]
+    np.testing.assert_allclose(recipe.still_speed, 0.01 * recipe.rms_speed)
+    # The sharper side of the claim: a second turn that is as slow is held, and trembles.
+    turns = choose_recipe(log_of(time, position), FilterOptions())
+    assert turns.still_speed[1] > turns.rms_speed[1]
+
+
+def test_metres_written_as_millimetres_change_nothing():
+    time, position = _turn_and_slide(0.005)
+    metres = choose_recipe(log_of(time, position), FilterOptions(), SLIDES)
+    millimetres = choose_recipe(log_of(time, position * (1.0, 1000.0)), FilterOptions(), SLIDES)
+    assert millimetres.cutoff_hz == metres.cutoff_hz
+    np.testing.assert_allclose(millimetres.still_speed, metres.still_speed * (1.0, 1000.0), rtol=1e-6)
+
+
+def test_a_slide_that_its_drive_holds_stands_throughout_and_does_not_set_the_band():
+    time, position = _turn_and_slide(0.0)
+    recipe = choose_recipe(log_of(time, position), FilterOptions(), SLIDES)
+    assert recipe.still_speed[1] > 5.0 * recipe.rms_speed[1] > 0.0
+    turn = choose_recipe(log_of(time, position[:, :1]), FilterOptions())
+    assert recipe.motion_band_hz == turn.motion_band_hz
