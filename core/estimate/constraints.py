@@ -185,7 +185,7 @@ def lower_bounds(model: DynamicModel) -> Vector:
 
 
 def _proportions(model: DynamicModel, torque_rms: Vector) -> tuple[float, float, JointVector]:
-    """Give an ordinary link's length (m) and mass (kg), and per joint its kind's largest effort (N m or N)."""
+    """Give an ordinary link's length (m) and mass (kg), and per joint the largest effort of its kind."""
     robot = model.robot
     lengths: list[float] = [float(np.linalg.norm(link.translation)) for link in robot.links]
     length = max(*lengths, 0.05)
