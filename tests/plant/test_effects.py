@@ -22,8 +22,8 @@ EVERY = EFFECTS | FOREIGN
 
 
 @cache
-def world(robot: str = "planar-3") -> World:
-    return draw_world(np.random.default_rng(11), 11, robot=robot, noise="white", duration=8.0)
+def world(robot: str = "planar-3", seconds: float = 6.0) -> World:
+    return draw_world(np.random.default_rng(11), 11, robot=robot, noise="white", duration=seconds)
 
 
 def drawn(cause: str, robot: str = "planar-3") -> Effect:
@@ -73,7 +73,7 @@ def test_an_elastic_joint_shows_less_the_stiffer_it_is():
 @pytest.mark.parametrize("cause", ["friction_stribeck", "torque_ripple", "torque_gain", "cable_force"])
 def test_an_effect_shows_most_where_it_sits_or_below(cause):
     effect = replace(drawn(cause), joints=(3,))
-    strength = world().residue(effect).strength
+    strength = world(seconds=8.0).residue(effect).strength
     assert np.argmax(strength) + 1 <= 3
     assert strength.max() > 0.05
 
