@@ -3,6 +3,7 @@
 Everything here may take a while and is called from worker threads, never on the event loop.
 """
 
+from dataclasses import replace
 from pathlib import PurePath
 
 from ...core.log.formats.content import recognise
@@ -169,12 +170,12 @@ class Catalogue:
         return self._store.logs.get(identity)
 
     def _add(self, robot: RobotModel, description: Document) -> RobotRecord:
-        return self._store.robots.add(
-            name=robot.name,
-            joints=len(robot.joints),
-            description=description,
-            suspicions=plausibility_warnings(robot),
+        """Keep a robot; what is odd is said of what was sent now, not of what gave the same robot before."""
+        suspicions = plausibility_warnings(robot)
+        kept = self._store.robots.add(
+            name=robot.name, joints=len(robot.joints), description=description, suspicions=suspicions
         )
+        return replace(kept, suspicions=suspicions)
 
 
 def log_name(given: str) -> str:

@@ -115,6 +115,11 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
     echo(f"{counts['standard']} standard parameters, {counts['base']} base parameters")
     for row in document["base_parameters"]:
         echo(f"{row['name']:<8}{row['unit']:<12}{row['grouping']}")
+    rank = document["rank"]
+    echo(
+        f"a column counts as dependent below {rank['relative_tolerance']:.0e} of itself; "
+        f"the weakest one that was kept has {rank['least_share_kept']:.2g}"
+    )
     if document["without_effect"]:
         echo(f"without effect on the torque: {', '.join(document['without_effect'])}")
 

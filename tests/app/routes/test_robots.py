@@ -87,3 +87,39 @@ def test_what_an_unfinished_job_needs_cannot_be_deleted(tmp_path: Path, log_byte
         client.delete(f"/v1/jobs/{job['id']}")
         assert client.delete(f"/v1/robots/{robot}").status_code == 204
         assert client.delete(f"/v1/logs/{log}").status_code == 204
+
+
+XML = {"Content-Type": "application/xml"}
+HANDS = (
+    '<robot name="hands"><link name="world"/><link name="torso"/><link name="left"/><link name="right"/>'
+    '<link name="head"/><joint name="root" type="floating">'
+    '<parent link="world"/><child link="torso"/></joint>'
+    + "".join(
+        f'<joint name="{side}_joint" type="continuous"><origin rpy="1.5708 0 0"/><parent link="torso"/>'
+        f'<child link="{side}"/></joint>'
+        for side in ("left", "right", "head")
+    )
+    + "</robot>"
+)
+
+
+def test_a_floating_base_is_cut_and_several_tips_are_kept(client):
+    refused = client.post("/v1/robots", content=HANDS, headers=XML)
+    assert "base_link=torso" in assert_problem(refused, 422, "robot")["remedy"]
+    part = client.post("/v1/robots?base_link=torso&tip_link=left,head", content=HANDS, headers=XML).json()
+    assert [joint["name"] for joint in part["description"]["joints"]] == ["left_joint", "head_joint"]
+
+
+def test_what_is_odd_is_said_of_what_was_sent_and_not_of_what_gave_the_same_robot_before(client):
+    whole = "/v1/robots?base_link=torso"
+    short = client.post(whole, content=HANDS, headers=XML).json()
+    exact = client.post(whole, content=HANDS.replace("1.5708", "1.5707963267948966"), headers=XML).json()
+    assert short["id"] == exact["id"]
+    assert any("right angles" in one for one in short["suspicions"])
+    assert exact["suspicions"] == []
+    assert client.get(f"/v1/robots/{short['id']}").json()["suspicions"] == short["suspicions"]
+
+
+def test_base_parameters_state_how_their_number_was_decided(client, robot_id):
+    rank = client.get(f"/v1/robots/{robot_id}/base-parameters").json()["rank"]
+    assert rank["relative_tolerance"] < rank["least_share_kept"] <= 1.0

@@ -12,11 +12,13 @@ from tests.tools import Motion, pinocchio_torque, random_bodies, random_robot, s
 from veritorque.core.errors import RobotError
 from veritorque.core.robot.builtin import builtin_description
 from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.frames import rotation_rpy
 from veritorque.core.robot.inertia import mass_properties
 from veritorque.core.robot.model import Joint, Link, RobotModel
 from veritorque.core.robot.urdf import robot_from_urdf
 from veritorque.core.robot.writing import to_description
 
+QUARTER = np.pi / 2
 ROW = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.1, "theta_offset": 0.0}
 
 
@@ -251,3 +253,26 @@ def test_a_bad_description_is_refused_with_cause_evidence_and_remedy(document, c
     assert caught.value.evidence
     assert caught.value.remedy
     assert document == before
+
+
+def _turned(matrix: np.ndarray) -> np.ndarray:
+    joint = {"type": "revolute", "rotation": matrix.tolist(), "translation": [0.0, 0.0, 0.0]}
+    robot = robot_from_description({"name": "turned", "convention": "frames", "joints": [joint]})
+    return robot.links[0].rotation
+
+
+@pytest.mark.parametrize("digits", [6, 7, 10])
+def test_a_rotation_written_with_few_digits_is_a_rotation(digits):
+    exact = rotation_rpy(0.3, -1.1, 2.0)
+    read = _turned(np.round(exact, digits))
+    np.testing.assert_allclose(read @ read.T, np.eye(3), atol=1e-15)
+    np.testing.assert_allclose(read, exact, atol=2.0 * 10.0**-digits)
+
+
+def test_a_rotation_with_all_its_digits_is_read_to_the_bit():
+    exact = rotation_rpy(0.3, -1.1, np.pi / 2 + 3e-4)
+    assert np.array_equal(_turned(exact), exact)
+
+
+def test_a_matrix_computed_from_five_digits_of_a_right_angle_is_that_right_angle():
+    assert np.array_equal(_turned(rotation_rpy(1.5708, 0.0, -1.5708)), rotation_rpy(QUARTER, 0.0, -QUARTER))
