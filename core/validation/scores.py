@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import BaseParameters, Indices
 from ..regressor.observe import Block, Observation
+from ..robot.joint_units import prismatic_joints
 
 
 @dataclass(frozen=True)
@@ -35,13 +36,24 @@ def scores(observation: Observation, chosen: tuple[int, ...], base: BaseParamete
 
 
 def total_percent(observation: Observation, chosen: tuple[int, ...], base: BaseParameters) -> float:
-    """Give 100 times the norm of the residual over the norm of the torque, all joints together."""
+    """Give 100 times the norm of the residual over the norm of the torque, all joints together.
+
+    Notes
+    -----
+    Newtons are not added to newton metres: where joints turn and slide, the squared shares of both kinds are
+    averaged.
+    """
     factors = observation.joint_factors(chosen)
     columns_of: tuple[Indices, ...] = observation.columns_of
-    left = sum(
-        factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True)
+    left = np.array(
+        [factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True)]
     )
-    return _percent(np.sqrt(left), np.sqrt(sum(factor.torque_square for factor in factors)))
+    torque = np.array([factor.torque_square for factor in factors])
+    prismatic = prismatic_joints(observation.plan.model.robot)
+    kinds = [kind for kind in (prismatic, ~prismatic) if torque[kind].sum() > 0.0]
+    if not kinds:
+        return _percent(np.sqrt(left.sum()), 0.0)
+    return _percent(np.sqrt(np.mean([left[kind].sum() / torque[kind].sum() for kind in kinds])), 1.0)
 
 
 def _score(joint: int, blocks: list[Block], sums: tuple[float, float, int]) -> JointScore:

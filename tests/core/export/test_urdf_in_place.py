@@ -156,3 +156,37 @@ def test_a_urdf_in_wide_characters_is_refused_with_what_to_do():
     found = identified(robot_from_urdf(text))
     with pytest.raises(RobotError, match="UTF-8"):
         urdf_with_inertials(text, found)
+
+
+@pytest.mark.parametrize(
+    ("own", "other"),
+    [
+        (b"<?xml version='1.0'", b"\n \n<?xml version='1.0'"),
+        (b"<?xml version='1.0'", b"\xef\xbb\xbf\n<?xml version='1.0'"),
+        (b' xmlns:other="urn:other"', b""),
+        (b"name='dressed'", b"name=''"),
+        (
+            b'<link name="base"/>',
+            (
+                b'<link name="base"/><link name="world"/><joint name="root" type="floating">'
+                b'<parent link="world"/><child link="base"/></joint>'
+            ),
+        ),
+        (b'<limit lower="-1" upper="1"/>', b'<limit lower="1" upper="-1"/>'),
+    ],
+)
+def test_what_is_odd_and_read_all_the_same_stays_in_the_file(own, other):
+    text = DRESSED.replace(own, other)
+    assert text != DRESSED
+    found = identified(robot_from_urdf(text, base_link="base"))
+    written = urdf_with_inertials(text, found, base_link="base")
+    assert untouched(written) == untouched(text)
+    assert_same_bodies(robot_from_urdf(written, base_link="base").prior, found.links)
+
+
+def test_the_chains_of_several_tips_are_those_that_are_changed():
+    text = TREE.encode()
+    tips = ("left", "right")
+    found = identified(robot_from_urdf(text, tip_link=tips))
+    written = urdf_with_inertials(text, found, tip_link=tips)
+    assert_same_bodies(robot_from_urdf(written, tip_link=tips).prior, found.links)

@@ -14,6 +14,7 @@ from veritorque.core.errors import OptionError
 from veritorque.core.log.model import JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.regressor.observe import residuals
+from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, identify_in_full
 from veritorque.core.validation.holdout import HoldOut
 from veritorque.core.validation.scores import JointScore, scores, total_percent
@@ -125,6 +126,22 @@ def test_the_total_is_the_norm_of_all_residuals_over_the_norm_of_all_torques():
     torque = sum(one.samples * one.rms_torque**2 for one in parts)
     total = total_percent(found.observation, everything, found.estimate.base)
     assert total == pytest.approx(100.0 * np.sqrt(left / torque), rel=1e-9)
+
+
+def test_the_total_of_a_turn_and_a_slide_adds_no_newtons_to_newton_metres():
+    row = {"type": "revolute", "alpha": np.pi / 2, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    slide = {**row, "type": "prismatic"}
+    model = standard_model(robot_from_description({"name": "turn and slide", "joints": [row, slide]}))
+    noise = np.random.default_rng(3).normal(size=(2000, 2)) * (0.1, 2.0)
+    log = log_of(model, true_parameters(model), swing(2), noise)
+    found = identify_in_full(IdentifyRequest(model.robot, (log,), {"bootstrap": {"draws": 0}}))
+    everything = tuple(range(len(found.observation.blocks)))
+    shares = [
+        one.rms_residual / one.rms_torque
+        for one in scores(found.observation, everything, found.estimate.base)
+    ]
+    total = total_percent(found.observation, everything, found.estimate.base)
+    assert total == pytest.approx(100.0 * np.sqrt(np.mean(np.square(shares))), rel=1e-9)
 
 
 def test_no_blocks_score_nothing_instead_of_dividing_by_nothing():
