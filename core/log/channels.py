@@ -30,7 +30,7 @@ class Unit:
     prismatic: bool = False
     """Whether only prismatic joints have it."""
     needs_scale: bool = False
-    """Whether the mapping says what one count is: rad, or N m."""
+    """Whether the mapping says what one count or one per cent is: in rad, N m or A."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,7 @@ TORQUES = Quantity(
         Unit("counts", (100.0, inf), "whole numbers of this size are counts of a drive", needs_scale=True),
         Unit("mN m", (3000.0, 3e6), "a revolute joint needs some thousand millinewton metres", 1e-3),
         Unit("N", (0.5, 10000.0), "a prismatic joint needs some newtons", prismatic=True),
+        Unit("%", (1.0, 400.0), "a drive gives some per cent of its rated torque", needs_scale=True),
     ),
 )
 CURRENTS = Quantity(
@@ -90,6 +91,8 @@ CURRENTS = Quantity(
     (
         Unit("A", (0.02, 80.0), "a motor draws some amperes"),
         Unit("mA", (80.0, 80000.0), "a motor draws some thousand milliamperes", 1e-3),
+        Unit("%", (1.0, 400.0), "a drive gives some per cent of its rated current", needs_scale=True),
+        Unit("counts", (100.0, inf), "whole numbers of this size are counts of a drive", needs_scale=True),
     ),
 )
 TEMPERATURES = Quantity(

@@ -7,7 +7,6 @@ columns looked for, those that are there, and plausible readings.
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 import numpy as np
 
@@ -17,11 +16,10 @@ from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME, UNITS, Channel
 from .formats.table import Table
 from .mapping import ChannelRequest, LogMapping
 from .model import LogRows
-from .plausible_units import readings_by_column
+from .named_units import unit_called
+from .refusals import absent_names, contradiction_error, missing_error, unit_error
 
-SHOWN_COLUMNS = 24
 OTHER_NAME = "a column of another name is mapped, with its unit"
-_DEFAULT_NAME = re.compile(rf"({'|'.join(channel.prefix for channel in CHANNELS.values())})(_\d+)?")
 
 
 @dataclass(frozen=True)
@@ -127,6 +125,8 @@ def _bind_time(table: Table, mapping: LogMapping) -> Binding | None:
         request = mapping.channels[TIME]
     else:
         request = _si_request((TIME,)) if TIME in table.names else None
+        if request is not None and mapping.rate_hz is None:
+            return _bind_default(TIME, request.columns, table)
     if request is not None and mapping.rate_hz is not None:
         raise LogError(
             "the log has a time column and the mapping declares rate_hz as well",
@@ -136,7 +136,7 @@ def _bind_time(table: Table, mapping: LogMapping) -> Binding | None:
     if request is not None:
         return _bind_request(TIME, request, table)
     if mapping.rate_hz is None:
-        raise _missing_error(
+        raise missing_error(
             TIME,
             [TIME],
             table,
@@ -150,7 +150,17 @@ def _bind_channel(channel: Channel, table: Table, mapping: LogMapping) -> Bindin
         request = mapping.channels[channel.name]
         return None if request is None else _bind_request(channel.name, request, table)
     columns = _default_columns(channel, table)
-    return _bind_request(channel.name, _si_request(columns), table) if columns else None
+    return _bind_default(channel.name, columns, table) if columns else None
+
+
+def _bind_default(channel: str, columns: tuple[str, ...], table: Table) -> Binding:
+    """Bind default names, which are SI; refuse them where the file itself says otherwise."""
+    request = _si_request(columns)
+    for column in columns:
+        unit = unit_called(channel, table.units.get(column, ""))
+        if unit is not None and (UNITS[channel][unit].factor, UNITS[channel][unit].offset) != (1.0, 0.0):
+            raise contradiction_error(channel, columns, unit)
+    return _bind_request(channel, request, table)
 
 
 def _is_other(bound: Binding, position: Binding, mapping: LogMapping) -> bool:
@@ -176,12 +186,8 @@ def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     if len(numbered) < highest:
         if channel.need == "reference":
             return ()
-        raise _missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
+        raise missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
     return tuple(wanted)
-
-
-def _missing(wanted: Sequence[str], present: Sequence[str]) -> list[str]:
-    return [name for name in wanted if name not in present]
 
 
 def _default_names(channel: Channel, joints: int) -> list[str]:
@@ -205,12 +211,12 @@ def _si_request(columns: tuple[str, ...]) -> ChannelRequest:
 
 def _bind_request(channel: str, request: ChannelRequest, table: Table) -> Binding:
     """Turn a request into gains; default names are SI, others must have declared their unit."""
-    if _missing(request.columns, table.names):
-        raise _missing_error(channel, list(request.columns), table, "map columns that the file has")
+    if absent_names(request.columns, table.names):
+        raise missing_error(channel, list(request.columns), table, "map columns that the file has")
     default = re.compile(CHANNELS[channel].prefix + ("(_[1-9][0-9]*)?" if channel != TIME else ""))
     named = zip(request.columns, request.units, strict=True)
     if any(not unit and not default.fullmatch(name) for name, unit in named):
-        raise _unit_error(channel, request, table)
+        raise unit_error(channel, request, table)
     return _binding(channel, request)
 
 
@@ -226,9 +232,9 @@ def _binding(channel: str, request: ChannelRequest) -> Binding:
 def _require(table: Table, channels: Sequence[Binding]) -> None:
     names = [channel.name for channel in channels]
     if "position" not in names:
-        raise _missing_error("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
+        raise missing_error("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
     if not set(EFFORTS) & set(names):
-        raise _missing_error(
+        raise missing_error(
             EFFORTS[0],
             [name for effort in EFFORTS for name in (f"{CHANNELS[effort].prefix}_1", "...")],
             table,
@@ -245,7 +251,7 @@ def _one_column_per_joint(channels: Sequence[Binding]) -> None:
     wanted = _default_names(CHANNELS[odd.name], usual)
     evidence: dict[str, object] = {"columns": counts}
     if set(odd.columns) < set(wanted):
-        evidence["absent"] = _missing(wanted, odd.columns)
+        evidence["absent"] = absent_names(wanted, odd.columns)
     remedy = f"log {odd.name} of every joint; {OTHER_NAME}"
     if _is_dispensable(odd.name, counts):
         remedy += f'; "{odd.name}": null in the mapping leaves it out'
@@ -268,31 +274,3 @@ def _used_columns(channels: Sequence[Binding]) -> list[str]:
             remedy="map every column to one channel",
         )
     return columns
-
-
-def _missing_error(channel: str, wanted: list[str], table: Table, remedy: str) -> LogError:
-    absent = _missing(wanted, table.names)
-    candidates = [name for name in table.names if not _DEFAULT_NAME.fullmatch(name)]
-    nearest = {name: near for name in absent[:8] if (near := get_close_matches(name, candidates, 3))}
-    shown, there = wanted[:SHOWN_COLUMNS], list(table.names[:SHOWN_COLUMNS])
-    evidence: dict[str, object] = {"looked_for": shown, "columns": there, "nearest": nearest}
-    if readings := readings_by_column(channel, candidates[:SHOWN_COLUMNS], table):
-        evidence["plausible_readings"] = readings
-    cause = f"the log has no column for {channel}: {', '.join(absent[:8])}"
-    return LogError(cause, evidence=evidence, remedy=remedy)
-
-
-def _unit_error(channel: str, request: ChannelRequest, table: Table) -> LogError:
-    columns = [name for name, unit in zip(request.columns, request.units, strict=True) if not unit]
-    readings = readings_by_column(channel, columns[:SHOWN_COLUMNS], table)
-    first = next(iter(readings.values()), [])
-    likely = f", most plausibly {first[0].split(':')[0]}" if first else ""
-    return LogError(
-        f"the unit of {channel} is not declared, and {columns[0]!r} is not a default name, which would be SI",
-        evidence={
-            "columns": columns[:SHOWN_COLUMNS],
-            "plausible_readings": readings,
-            "known": list(UNITS[channel]),
-        },
-        remedy=f'declare "unit" for {channel}{likely}',
-    )

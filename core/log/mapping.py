@@ -13,7 +13,7 @@ there.
 """
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import LogError
@@ -45,7 +45,7 @@ _CHANNEL_FIELDS = {
         if channel == TIME
         else {
             "columns": f"a list of 1 to {MAX_MAPPED_COLUMNS} names",
-            "scale": "a number other than 0, or a list with one per column (of counts: one count in SI)",
+            "scale": "a number other than 0, or a list with one per column (of counts, %: 1 in SI)",
             "offset": "a number, or a list with one per column",
         }
     )
@@ -96,6 +96,41 @@ def parse_mapping(document: object) -> LogMapping:
     asked = {name: _channel(top, name) if top.has(name) else None for name in CHANNELS if name in top.value}
     _each_column_once(asked)
     return LogMapping(asked, top.optional_number(RATE, positive=True))
+
+
+def by_name(document: object, names: Sequence[str]) -> object:
+    """Turn numbers of columns, counted from 1, into their names; all else is given back as it is.
+
+    Examples
+    --------
+    >>> by_name({"position": {"columns": [2, 3], "unit": "rad"}}, ["t", "a", "b"])["position"]["columns"]
+    ['a', 'b']
+    """
+    if not isinstance(document, Mapping):
+        return document
+    return {
+        key: {
+            field: _named(value, names) if field in ("column", "columns") else value
+            for field, value in request.items()
+        }
+        if isinstance(request, Mapping)
+        else request
+        for key, request in document.items()
+    }
+
+
+def _named(value: object, names: Sequence[str]) -> object:
+    if isinstance(value, list | tuple):
+        return [_named(item, names) for item in value]
+    if not isinstance(value, int) or isinstance(value, bool):
+        return value
+    if not 1 <= value <= len(names):
+        raise LogError(
+            f"the mapping names column {value}, which the file does not have",
+            evidence={"column": value, "columns": len(names)},
+            remedy="number columns from 1, or name them",
+        )
+    return names[value - 1]
 
 
 def _channel(top: Fields, channel: str) -> ChannelRequest:

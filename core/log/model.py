@@ -20,11 +20,11 @@ class Defect:
     Attributes
     ----------
     kind
-        ``bad_end, time_restarts, shuffled_rows, gap, jitter, repeated_rows,
+        ``rearranged, bad_end, time_restarts, shuffled_rows, gap, jitter, repeated_rows,
         stuck_channel, outliers, saturation, quantisation, standstill, short,
         slow_rate, implausible_unit, missing_torque``.
     channel
-        ``time, position, torque`` ...
+        ``time, position, torque`` ...; ``file`` where it concerns the form of the file.
     joint
         Joint number from 1, or None where it concerns all joints.
     count

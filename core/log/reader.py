@@ -23,8 +23,8 @@ from .formats.parquet import ParquetSource, ParquetTable, open_parquet
 from .formats.recording import open_bag, open_mcap
 from .formats.table import Table
 from .layout import Binding, Layout, bind
-from .mapping import parse_mapping
-from .model import ArraySource, JointLog, LogRows
+from .mapping import by_name, parse_mapping
+from .model import ArraySource, Defect, JointLog, LogRows
 from .pieces.choose import Chosen, choose_rows
 from .profiles import fill_in
 
@@ -98,7 +98,7 @@ def bind_columns(table: Table, mapping: Mapping[str, object] | None) -> Layout:
     LogError
         If a column is missing or of unknown unit, or the mapping is not understood.
     """
-    return bind(table, parse_mapping(fill_in(mapping, table.names)))
+    return bind(table, parse_mapping(by_name(fill_in(mapping, table.names), table.names)))
 
 
 def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> JointLog:
@@ -112,12 +112,13 @@ def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> Joint
         If the samples cannot be used.
     """
     try:
-        return _log_of(name, _rows_of(table, layout), layout, sha256)
+        log = _log_of(name, _rows_of(table, layout), layout, sha256)
     except LogError:
         measured = _without_references(layout)
         if measured == layout:
             raise
-        return _log_of(name, _rows_of(table, measured), measured, sha256)
+        log = _log_of(name, _rows_of(table, measured), measured, sha256)
+    return replace(log, defects=(*_rearranged(table, log.samples), *log.defects))
 
 
 def _without_references(layout: Layout) -> Layout:
@@ -216,6 +217,14 @@ def _rows_of(table: Table, layout: Layout) -> Chosen:
     whole = blocks[0] if len(blocks) == 1 else np.hstack(blocks)
     rows = layout.convert(whole, 0)
     return choose_rows(ArraySource(rows), [rows.time] if clock else None)
+
+
+def _rearranged(table: Table, samples: int) -> tuple[Defect, ...]:
+    """State what was done to get columns out of the file."""
+    if not table.notes:
+        return ()
+    statement = f"The file is no plain table, and was read so: {'; '.join(table.notes)}."
+    return (Defect("rearranged", "file", None, samples, (), statement),)
 
 
 def _log_of(name: str, chosen: Chosen, layout: Layout, sha256: str) -> JointLog:

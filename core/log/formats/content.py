@@ -58,7 +58,11 @@ _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "unpack it first"),
     (b"\x28\xb5\x2f\xfd", "a Zstandard archive", "unpack it first"),
     (b"ARROW1", "an Arrow (Feather) file", "save the table as Parquet"),
-    (b"SQLite format 3\x00", "an SQLite database", "export its joint states as CSV or Parquet"),
+    (
+        b"SQLite format 3\x00",
+        "an SQLite database",
+        "convert a ROS 2 bag to MCAP (ros2 bag convert), or export its joint states as CSV or Parquet",
+    ),
     (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "save the sheet as CSV"),
     (b"\x93NUMPY", "a single NPY array", "save the named arrays together as NPZ"),
     (b"%PDF", "a PDF document", "upload the measured data"),

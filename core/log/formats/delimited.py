@@ -1,16 +1,13 @@
-"""Read comma, semicolon or tab separated text with a header line.
+"""Read text whose cells are separated by commas, semicolons, tabs or blanks.
 
-The delimiter is taken from the header; comment lines start with `#`; with semicolons and tabs a decimal comma
-is understood. A header which is itself the last comment line, as numpy.savetxt writes it, is accepted.
+Comment lines start with `#`; with semicolons, tabs and blanks a decimal comma is understood. A header which
+is itself the last comment line, as numpy.savetxt writes it, is accepted, and a table without one.
 """
 
-import codecs
-import csv
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
-from itertools import islice
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -20,15 +17,23 @@ import pyarrow.csv as arrow_csv
 from ...arrays import Series
 from ...errors import LogError
 from .arrow import numbers
-from .table import MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
+from .stamps import Clock
+from .table import BY_NUMBER, MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
+from .text_bytes import check_text, cut_line, opening_lines
+from .text_header import (
+    BLANKS,
+    DELIMITERS,
+    STAMP,
+    TextHeader,
+    find_header,
+    is_comment,
+    is_number,
+    split_cells,
+)
+from .tidy_lines import TidyLines
 
 FORM = "CSV"
-HEAD_BYTES = 1 << 20
-MOST_HEAD_BYTES = 64 << 20
-"""Where the header has to have come, whatever stands before it."""
 BLOCK_BYTES = 1 << 22
-DELIMITERS = ",;\t"
-MAX_COMMENTS = 100_000
 _BAD_ROW = re.compile(
     r"Row #(?P<line>\d+): Expected (?P<columns>\d+) columns, got (?P<cells>\d+): (?P<text>.*)", re.DOTALL
 )
@@ -45,26 +50,64 @@ class DelimitedTable:
     decimal: str
     skip: int
     """Physical lines before the first row of data."""
+    stamps: tuple[str, ...] = ()
+    """Columns of dates or times of day, which are read as seconds from their first one on."""
+    texts: tuple[str, ...] = ()
+    """Columns of other text."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    cut: bytes = b""
+    """The last line, where the recorder was stopped in the middle of it."""
+    repeated: bytes = b""
+    """The header, where it occurs again between the rows."""
 
     def batches(self, names: Sequence[str]) -> Iterator[Series]:
         """Read the named columns in blocks of a few megabytes."""
         wanted = list(names)
+        clock = {name: Clock() for name in wanted if name in self.stamps}
+        kinds = {name: pa.string() if name in clock else pa.float64() for name in wanted}
+        rows = 0
+        for batch in self._batches(kinds):
+            rows += batch.num_rows
+            check_rows(rows)
+            check_values(rows * len(wanted))
+            columns = zip(wanted, batch.columns, strict=True)
+            yield np.array(
+                [
+                    clock[name].seconds(column) if name in clock else numbers(column)
+                    for name, column in columns
+                ],
+                dtype=np.float64,
+            )
+
+    def words(self, name: str) -> list[str]:
+        """Read a column of text."""
+        found: list[str] = []
+        for batch in self._batches({name: pa.string()}):
+            found += batch.column(0).to_pylist()
+            check_values(len(found))
+        return found
+
+    def _batches(self, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.RecordBatch]:
         convert = arrow_csv.ConvertOptions(
-            include_columns=wanted,
-            column_types=dict.fromkeys(wanted, pa.float64()),
-            decimal_point=self.decimal,
+            include_columns=list(kinds), column_types=dict(kinds), decimal_point=self.decimal
         )
         read = arrow_csv.ReadOptions(
             column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
         )
-        parse = arrow_csv.ParseOptions(delimiter=self.delimiter, invalid_row_handler=_skip_comments)
-        rows = 0
+        delimiter = "\t" if self.delimiter == BLANKS else self.delimiter
+        parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=self._judge_row)
         with reading(FORM, self.path), self._naming_columns():
-            for batch in arrow_csv.open_csv(self.path, read, parse, convert):
-                rows += batch.num_rows
-                check_rows(rows)
-                check_values(rows * len(wanted))
-                yield np.array([numbers(column) for column in batch.columns], dtype=np.float64)
+            if self.delimiter == BLANKS or self.repeated:
+                blanks = self.delimiter == BLANKS
+                with TidyLines(self.path, blanks=blanks, without=self.repeated, skip=self.skip) as lines:
+                    yield from arrow_csv.open_csv(lines, read, parse, convert)
+            else:
+                yield from arrow_csv.open_csv(self.path, read, parse, convert)
+
+    def _judge_row(self, row: arrow_csv.InvalidRow) -> str:
+        cut = bool(self.cut) and row.actual_columns < row.expected_columns and row.text.encode() == self.cut
+        return "skip" if cut or row.text.lstrip().startswith("#") else "error"
 
     @contextmanager
     def _naming_columns(self) -> Iterator[None]:
@@ -86,143 +129,105 @@ def open_delimited(path: Path) -> DelimitedTable:
     Raises
     ------
     LogError
-        If there is no header line, or the text is not UTF-8, or the columns break the limits.
+        If there is no table, or the text is not UTF-8, or the columns break the limits.
     """
-    lines = _opening_lines(path)
-    header_index, header, first_row = _header(lines)
-    delimiter = max(DELIMITERS, key=header.count)
-    names = _names(path, header, delimiter)
-    skip = next(
-        (i for i in range(header_index + 1, len(lines)) if not _is_comment(lines[i])), header_index + 1
-    )
-    if len(names) == 1 and _is_spaced(header, first_row):
+    lines = opening_lines(path)
+    found = find_header(lines) or _first_line(lines)
+    check_columns([f"column_{index}" for index in range(found.width)])
+    names = _names(found)
+    check_columns(names)
+    if len(names) == 1 and _is_spaced(lines):
         raise LogError(
-            "the columns are separated by spaces",
-            evidence={"header": header[:120]},
-            remedy="separate them by commas, semicolons or tabs",
+            "the columns are separated by blanks, and their number differs from that of the names",
+            evidence={"header": found.cells[0][:120]},
+            remedy="write names without blanks, or separate the columns by commas, semicolons or tabs",
         )
-    decimal = "," if delimiter != "," and "," in first_row and "." not in first_row else "."
-    _check_text(path)
-    return DelimitedTable(path, names, delimiter, decimal, skip)
-
-
-def _opening_lines(path: Path) -> list[str]:
-    """Read the first megabyte, and on where it holds nothing but comments and perhaps one line more."""
-    with path.open("rb") as stream:
-        head = stream.read(HEAD_BYTES)
-        lines = _lines(head)
-        while len(_content(lines)) < 2 and len(lines) <= MAX_COMMENTS and len(head) < MOST_HEAD_BYTES:
-            more = stream.read(len(head))
-            if not more:
-                break
-            head += more
-            lines = _lines(head)
-    return lines
-
-
-def _lines(head: bytes) -> list[str]:
-    return re.split("\r\n|\r|\n", _decode(head))
-
-
-def _content(lines: Sequence[str]) -> list[int]:
-    """Give the indices of the first two lines that are no comment."""
-    indices = (index for index, line in enumerate(lines) if not _is_comment(line))
-    return list(islice(indices, 2))
-
-
-def _check_text(path: Path) -> None:
-    """Refuse NUL bytes, other encodings, lines of a megabyte and endless comments before rows are parsed."""
-    begin = comments = 0
-    decoder = codecs.getincrementaldecoder("utf-8")()
-    with path.open("rb") as stream:
-        while piece := stream.read(HEAD_BYTES):
-            try:
-                decoder.decode(piece)
-            except UnicodeDecodeError as error:
-                raise _not_utf8(begin, error) from error
-            if b"\x00" in piece:
-                raise LogError(
-                    "the text holds NUL bytes",
-                    evidence={"first_at_byte": begin + piece.index(b"\x00")},
-                    remedy="save the table again as plain UTF-8 text",
-                )
-            begin += len(piece)
-            if len(piece) == HEAD_BYTES and b"\n" not in piece and b"\r" not in piece:
-                raise LogError(
-                    "a line is longer than 1 MB, which no row of a log is",
-                    evidence={"before_byte": begin},
-                    remedy="write one row per line",
-                )
-            comments += piece.count(b"\n#")
-            if comments > MAX_COMMENTS:
-                raise LogError(
-                    "the text holds more comments than a log has",
-                    evidence={"comment_lines": comments, "at_most": MAX_COMMENTS},
-                    remedy="save the rows without them",
-                )
-
-
-def _decode(head: bytes) -> str:
-    if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
-        raise LogError(
-            "the first line is longer than 1 MB, which no header of a log is",
-            evidence={"delimiters": max(head.count(mark.encode()) for mark in DELIMITERS)},
-            remedy="put the column names on the first line and keep the columns of the log only",
-        )
-    try:
-        return head[: head.rfind(b"\n") + 1 or None].decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise _not_utf8(0, error) from error
-
-
-def _not_utf8(begin: int, error: UnicodeDecodeError) -> LogError:
-    return LogError(
-        "the text is not UTF-8",
-        evidence={"byte": begin + error.start, "value": error.object[error.start]},
-        remedy="save the file as UTF-8",
+    row = found.first_row
+    decimal = "," if found.delimiter != "," and "," in row and "." not in row else "."
+    repeated = check_text(path, lines[found.header_at] if found.cells else "")
+    repeated -= found.header_at > 0
+    cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
+    stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
+    texts = (name for name, cell in cells.items() if cell and name not in stamps and not is_number(cell))
+    cut = cut_line(path, found)
+    return DelimitedTable(
+        path=path,
+        names=names,
+        delimiter=found.delimiter,
+        decimal=decimal,
+        skip=found.skip,
+        stamps=stamps,
+        texts=tuple(texts),
+        units={
+            name: found.units[cell]
+            for name, cell in zip(names, found.cells, strict=False)
+            if cell in found.units
+        },
+        notes=tuple(_notes(found, stamps, cut=bool(cut), repeated=repeated)),
+        cut=cut,
+        repeated=lines[found.header_at].strip().encode() if repeated else b"",
     )
 
 
-def _is_comment(line: str) -> bool:
-    return not line.strip() or line.lstrip().startswith("#")
-
-
-def _header(lines: Sequence[str]) -> tuple[int, str, str]:
-    """Find the header: the first line that is no comment, or the comment right before the numbers."""
-    content = _content(lines)
+def _first_line(lines: Sequence[str]) -> TextHeader:
+    """Take the first line that is no comment for the header, whatever follows."""
+    content = [index for index, line in enumerate(lines) if not is_comment(line)][:2]
     if not content:
         raise LogError(
             "the log holds no rows",
             evidence={"lines": len(lines)},
             remedy="upload at least one second of motion",
         )
-    first = lines[content[0]]
-    if not _is_numbers(first):
-        return content[0], first, lines[content[1]] if len(content) > 1 else ""
-    commented = next(filter(str.strip, reversed(lines[: content[0]])), "").lstrip("# ")
-    delimiter = max(DELIMITERS, key=first.count)
-    if commented and commented.count(delimiter) == first.count(delimiter) and not _is_numbers(commented):
-        return content[0] - 1, commented, first
-    raise LogError(
-        "the file starts with numbers instead of a header line that names its columns",
-        evidence={"first_line": first[:120]},
-        remedy="put the column names on the first line, such as time,q_1,tau_1",
+    header = lines[content[0]]
+    if is_number(header.strip()):
+        raise LogError(
+            "the file starts with numbers instead of a header line that names its columns",
+            evidence={"first_line": header[:120]},
+            remedy="put the column names on the first line, such as time,q_1,tau_1",
+        )
+    delimiter = max(DELIMITERS, key=header.count)
+    with_text = (i for i in range(content[0] + 1, len(lines)) if not is_comment(lines[i]))
+    if header.count(delimiter) >= MAX_COLUMNS:
+        check_columns([f"column_{index}" for index in range(header.count(delimiter) + 1)])
+    cells = tuple(split_cells(header, delimiter))
+    return TextHeader(
+        cells=cells,
+        width=len(cells),
+        delimiter=delimiter,
+        first_row=lines[content[1]] if len(content) > 1 else "",
+        skip=next(with_text, content[0] + 1),
+        header_at=content[0],
     )
 
 
-def _is_numbers(line: str) -> bool:
-    delimiter = max(DELIMITERS, key=line.count)
-    try:
-        [float(cell.replace(",", ".")) for cell in line.split(delimiter)]
-    except ValueError:
-        return False
-    return True
+def _names(found: TextHeader) -> tuple[str, ...]:
+    """Name the columns; those without a name by their number, from 1."""
+    cells = found.cells or ("",) * found.width
+    return tuple(cell or f"{BY_NUMBER}{index + 1}" for index, cell in enumerate(cells))
 
 
-def _is_spaced(header: str, first_row: str) -> bool:
-    """Recognise a table whose cells blanks separate: as many words in the header as numbers below it."""
-    cells = first_row.split()
-    return len(header.split()) == len(cells) > 1 and all(map(_is_numbers, cells))
+def _notes(found: TextHeader, stamps: Sequence[str], *, cut: bool, repeated: int) -> Iterator[str]:
+    """Say what was done to read the text."""
+    if found.titles:
+        yield f"{found.titles} title line{'s' if found.titles > 1 else ''} above the table passed over"
+    if not found.cells:
+        yield f"no header: the columns are called {BY_NUMBER}1 to {BY_NUMBER}{found.width}"
+    if found.units:
+        yield "the line below the header read as units"
+    if found.delimiter == BLANKS:
+        yield "cells separated by blanks"
+    if stamps:
+        yield f"dates or times of day in {', '.join(map(repr, stamps))} read as seconds from the first on"
+    if repeated:
+        yield f"the header, repeated {repeated} times between the rows, passed over"
+    if cut:
+        yield "the last row, cut short, left out"
+
+
+def _is_spaced(lines: Sequence[str]) -> bool:
+    """Recognise rows of numbers that blanks separate."""
+    rows = [line.split() for line in lines if not is_comment(line)][1:3]
+    return bool(rows) and all(len(cells) > 1 and all(map(is_number, cells)) for cells in rows)
 
 
 def _advice(found: str) -> str:
@@ -247,17 +252,3 @@ def _row_length_error(row: re.Match[str], delimiter: str) -> LogError:
         evidence={"line": int(row["line"]), "text": row["text"][:120]},
         remedy=remedy,
     )
-
-
-def _names(path: Path, header: str, delimiter: str) -> tuple[str, ...]:
-    if header.count(delimiter) >= MAX_COLUMNS:
-        check_columns([f"column_{index}" for index in range(header.count(delimiter) + 1)])
-    with reading(FORM, path):
-        cells = next(csv.reader([header], delimiter=delimiter))
-    names = tuple(cell.strip() or f"column_{index + 1}" for index, cell in enumerate(cells))
-    check_columns(names)
-    return names
-
-
-def _skip_comments(row: arrow_csv.InvalidRow) -> str:
-    return "skip" if row.text.lstrip().startswith("#") else "error"

@@ -5,15 +5,15 @@ forward and only starts again when rows before its window are asked for.
 """
 
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ...arrays import Series
+from ...arrays import Matrix, Samples, Series
 from ...errors import LogError
 from ..layout import Layout
 from ..model import LogRows
@@ -22,6 +22,9 @@ from .table import BATCH_ROWS, check_columns, check_density, check_rows, not_num
 
 FORM = "Parquet"
 BUFFER_BYTES = 1 << 18
+MICROSECONDS = 1e6
+WHOLE = -1
+"""Place of a column that holds no lists."""
 MAX_FOOTER_TEXT = 1 << 24
 MAX_FOOTER_ITEMS = 1 << 20
 
@@ -37,6 +40,12 @@ class ParquetTable:
     samples: int
     group_starts: tuple[int, ...]
     """First row of each row group."""
+    lists: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    """Column of the file and place in its lists, by the name that each place is given."""
+    texts: tuple[str, ...] = ()
+    """Columns of text."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def batches(self, names: Sequence[str], *, first_group: int = 0) -> Iterator[Series]:
         """Decode the named columns from the given row group on."""
@@ -45,9 +54,18 @@ class ParquetTable:
                 raise not_numeric(name, "a Parquet type other than integer or floating point")
         groups = range(first_group, len(self.group_starts))
         with reading(FORM, self.path), _open(self.path) as file:
-            stream = file.iter_batches(BATCH_ROWS, row_groups=groups, columns=list(names), use_threads=False)
+            places = [self.lists.get(name, (name, WHOLE)) for name in names]
+            stream = file.iter_batches(
+                BATCH_ROWS, row_groups=groups, columns=list(dict(places)), use_threads=False
+            )
             for batch in stream:
-                yield _decode(batch, names)
+                yield _decode(batch, places)
+
+    def words(self, name: str) -> list[str]:
+        """Read a column of text."""
+        with reading(FORM, self.path), _open(self.path) as file:
+            stream = file.iter_batches(BATCH_ROWS, columns=[name], use_threads=False)
+            return [str(word) for batch in stream for word in batch.column(0).to_pylist()]
 
 
 def open_parquet(path: Path) -> ParquetTable:
@@ -65,21 +83,50 @@ def open_parquet(path: Path) -> ParquetTable:
         fields = list(file.schema_arrow)
         check_columns([field.name for field in fields])
         lengths = [metadata.row_group(group).num_rows for group in range(metadata.num_row_groups)]
+        columns = [part for column in fields for part in _parts(file, column)]
     if sum(lengths) != metadata.num_rows:
         raise LogError(
             "the Parquet file contradicts itself about its number of rows",
             evidence={"footer": metadata.num_rows, "row_groups": sum(lengths)},
             remedy="write the file again",
         )
+    check_columns([name for name, _, _ in columns])
+    lists = {name: (column.name, place) for name, column, place in columns if place != WHOLE}
+    split = dict.fromkeys(column for column, _ in lists.values())
     return ParquetTable(
         path=path,
-        names=tuple(field.name for field in fields),
-        numeric=tuple(
-            pa.types.is_integer(field.type) or pa.types.is_floating(field.type) for field in fields
-        ),
+        names=tuple(name for name, _, _ in columns),
+        numeric=tuple(place != WHOLE or _is_number(column.type) for _, column, place in columns),
         samples=metadata.num_rows,
         group_starts=tuple(int(start) for start in np.cumsum([0, *lengths])[:-1]),
+        lists=lists,
+        texts=tuple(column.name for column in fields if pa.types.is_string(column.type)),
+        notes=(f"lists in {', '.join(map(repr, split))} split into columns, from _1 on",) if split else (),
     )
+
+
+def _parts(file: pq.ParquetFile, column: pa.Field) -> list[tuple[str, pa.Field, int]]:
+    """Give the column itself, or one for each place of its lists of numbers."""
+    width = _list_width(file, column)
+    if not width:
+        return [(column.name, column, WHOLE)]
+    return [(f"{column.name}_{place + 1}", column, place) for place in range(width)]
+
+
+def _list_width(file: pq.ParquetFile, column: pa.Field) -> int:
+    """Count the numbers of a column's lists, by the first row; 0 where it has none."""
+    kind = column.type
+    if pa.types.is_fixed_size_list(kind):
+        return int(kind.list_size) if _is_number(kind.value_type) else 0
+    if not (pa.types.is_list(kind) or pa.types.is_large_list(kind)) or not _is_number(kind.value_type):
+        return 0
+    first = next(file.iter_batches(1, columns=[column.name], use_threads=False), None)
+    values = first.column(0)[0].as_py() if first is not None and first.num_rows else None
+    return len(values or ())
+
+
+def _is_number(kind: pa.DataType) -> bool:
+    return bool(pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_timestamp(kind))
 
 
 def _open(path: Path) -> pq.ParquetFile:
@@ -94,11 +141,41 @@ def _open(path: Path) -> pq.ParquetFile:
     )
 
 
-def _decode(batch: pa.RecordBatch, names: Sequence[str]) -> Series:
-    block = np.empty((len(names), batch.num_rows))
-    for row, name in zip(block, names, strict=True):
-        row[:] = numbers(batch.column(name))
+def _decode(batch: pa.RecordBatch, places: Sequence[tuple[str, int]]) -> Series:
+    block = np.empty((len(places), batch.num_rows))
+    lists: dict[str, Matrix] = {}
+    for row, (name, place) in zip(block, places, strict=True):
+        if place == WHOLE:
+            row[:] = _scalars(batch.column(name))
+            continue
+        if name not in lists:
+            lists[name] = _matrix(name, batch.column(name))
+        row[:] = lists[name][:, place]
     return block
+
+
+def _scalars(column: pa.Array) -> Samples:
+    """Give numbers as they are, and stamps in seconds."""
+    if not pa.types.is_timestamp(column.type):
+        return numbers(column)
+    return (
+        numbers(column.cast(pa.timestamp("us", column.type.tz), safe=False).cast(pa.int64())) / MICROSECONDS
+    )
+
+
+def _matrix(name: str, column: pa.Array) -> Matrix:
+    """Give lists of one length as rows."""
+    flat = numbers(column.flatten())
+    width = len(flat) // max(len(column), 1)
+    fixed = pa.types.is_fixed_size_list(column.type)
+    lengths = [] if fixed else column.value_lengths().unique().to_pylist()
+    if len(flat) != width * len(column) or lengths not in ([width], []):
+        raise LogError(
+            f"the lists of the column {name!r} differ in length, or some are missing",
+            evidence={"column": name, "rows": len(column), "numbers": len(flat)},
+            remedy="give every row a number for every joint",
+        )
+    return flat.reshape(len(column), width)
 
 
 class ParquetSource:

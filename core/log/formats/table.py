@@ -8,7 +8,7 @@ nearly anything; one gate per format says which format it was and what was seen.
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import prod
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -27,6 +27,8 @@ MAX_UNPACKING = 64
 FREE_BYTES = 1 << 24
 """Real logs unpack to five times their bytes, coarse ones to twenty; short ones are not limited."""
 BATCH_ROWS = 32_768
+BY_NUMBER = "column_"
+"""Begins the name of a column that has none; its number from 1 follows."""
 
 
 @runtime_checkable
@@ -36,6 +38,21 @@ class Table(Protocol):
     @property
     def names(self) -> tuple[str, ...]:
         """List the columns in the file's order."""
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """Name the columns of text that can be read."""
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Give what the file itself says of its columns' units, outside their names."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Say what was done to get columns out of a file that is no plain table."""
+
+    def words(self, name: str) -> list[str]:
+        """Read a column of text."""
 
     def batches(self, names: Sequence[str]) -> Iterator[Series]:
         """Read the named columns from the first row on; one array of columns by rows per batch."""
@@ -47,11 +64,22 @@ class MemoryTable:
 
     columns: Mapping[str, np.ndarray | None]
     """One-dimensional arrays by name; None where a column is not made of numbers."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
         """List the columns in the file's order."""
         return tuple(self.columns)
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """Name the columns of text that can be read: none."""
+        return ()
+
+    def words(self, name: str) -> list[str]:
+        """Refuse: text is not kept."""
+        raise not_numeric(name, "text")
 
     def batches(self, names: Sequence[str]) -> Iterator[Series]:
         """Give all rows in one batch."""

@@ -164,10 +164,10 @@ def test_two_columns_of_one_name_are_refused(tmp_path):
     assert caught.value.evidence["duplicates"] == ["q_1"]
 
 
-def test_numbers_without_a_header_are_refused(tmp_path):
+def test_numbers_without_a_header_are_refused_until_their_columns_are_mapped_by_number(tmp_path):
     path = write_csv(tmp_path / "log.csv", swing())
     path.write_text(path.read_text(encoding="utf-8").split("\n", 1)[1], encoding="utf-8")
-    with pytest.raises(LogError, match="instead of a header line"):
+    with pytest.raises(LogError, match="the file has no header"):
         read_log(path)
 
 

@@ -1,0 +1,68 @@
+"""Turn dates and times of day into seconds: ISO 8601, with or without a date, a fraction and a zone."""
+
+import numpy as np
+import pyarrow as pa
+
+from ...arrays import Samples
+from ...errors import LogError
+
+DAY_S = 86_400.0
+MICROSECONDS = 1e6
+
+
+class Clock:
+    """Count seconds from the first stamp of a column on; a time of day goes on after midnight.
+
+    Examples
+    --------
+    >>> Clock().seconds(pa.array(["23:59:59.5", "00:00:00.25"]))
+    array([0.  , 0.75])
+    """
+
+    def __init__(self) -> None:
+        self._first: int | None = None
+        self._last = 0.0
+        self._days = 0
+
+    def seconds(self, column: pa.Array) -> Samples:
+        """Read the next stamps; what is empty is NaN.
+
+        Raises
+        ------
+        LogError
+            If a cell is no stamp.
+        """
+        stamps = _microseconds(column)
+        known = np.flatnonzero(stamps != _NONE)
+        if len(known) == 0:
+            return np.full(len(stamps), np.nan)
+        if self._first is None:
+            self._first = int(stamps[known[0]])
+        seconds = np.where(stamps == _NONE, np.nan, (stamps - self._first) / MICROSECONDS)
+        if 0 <= self._first < DAY_S * MICROSECONDS:
+            seconds[known] += self._days * DAY_S
+            midnights = np.diff(seconds[known], prepend=self._last) < -0.5 * DAY_S
+            seconds[known] += DAY_S * np.cumsum(midnights)
+            self._days += int(np.count_nonzero(midnights))
+        self._last = float(seconds[known[-1]])
+        return seconds
+
+
+_NONE = np.iinfo(np.int64).min
+
+
+def _microseconds(column: pa.Array) -> np.ndarray:
+    words = column.to_pylist()
+    texts = [None if not word else word.strip().replace(",", ".").replace(" ", "T") for word in words]
+    dated = [text if text is None or "T" in text else f"1970-01-01T{text}" for text in texts]
+    zoned = next((text for text in dated if text), "")
+    zone = "UTC" if zoned.endswith("Z") or any(mark in zoned[11:] for mark in "+-") else None
+    try:
+        stamps = pa.array(dated, pa.string()).cast(pa.timestamp("us", zone)).cast(pa.int64())
+    except pa.ArrowInvalid as error:
+        raise LogError(
+            "a column of dates or times of day holds something else",
+            evidence={"detail": str(error)[:200]},
+            remedy="write every stamp as the first one is, to microseconds at most, or map another column",
+        ) from error
+    return np.asarray(np.from_dlpack(stamps.fill_null(_NONE)))

@@ -1,0 +1,163 @@
+"""Find where a text table begins, how its cells are separated, and what its columns are called.
+
+Recorders write titles above the header, a row of units below it, blanks or tabs in any number between the
+cells, or no header at all. The rows of numbers say which line is which: a header has as many cells as the
+rows that follow it, and no number among them.
+"""
+
+import csv
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+
+from ..named_units import UNIT_WORDS
+
+DELIMITERS = ",;\t"
+BLANKS = " "
+"""Stands for any number of blanks and tabs."""
+SEARCHED_LINES = 200
+"""The header has to come within so many lines that are no comments."""
+STAMP = re.compile(
+    r"(?P<date>\d{4}-\d{2}-\d{2}[T ])?\d{2}:\d{2}:\d{2}([.,]\d{1,9})?(?P<zone>Z|[+-]\d{2}:?\d{2})?"
+)
+"""A date with a time of day, or a time of day alone (ISO 8601)."""
+
+
+@dataclass(frozen=True)
+class TextHeader:
+    """Describe how a text table is to be read."""
+
+    cells: tuple[str, ...]
+    """Names of the columns as they stand; empty where there is no header."""
+    width: int
+    """Number of cells per row."""
+    delimiter: str
+    first_row: str
+    skip: int
+    """Physical lines before the first row of data."""
+    header_at: int = 0
+    """Physical line of the header, where there is one."""
+    titles: int = 0
+    """Lines above the header that are neither comments nor rows."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    """What a row below the header says of each column's unit."""
+
+
+def find_header(lines: Sequence[str]) -> TextHeader | None:
+    """Find the header, or that there is none; None where no row of numbers follows anything like it.
+
+    Examples
+    --------
+    >>> found = find_header(["Recorder 2", "", "time q_1", "s   rad", "0.0 1.0", "0.1 1.1"])
+    >>> found.cells, found.titles, found.units, found.skip
+    (('time', 'q_1'), 1, {'time': 's', 'q_1': 'rad'}, 4)
+    """
+    content = list(
+        islice((index for index, line in enumerate(lines) if not is_comment(line)), SEARCHED_LINES)
+    )
+    for place, index in enumerate(content):
+        if (found := _commented(lines, index)) or (found := _header_at(lines, content, place)):
+            return found
+        if found := _without_header(lines, content, place):
+            return found
+    return None
+
+
+def is_comment(line: str) -> bool:
+    """Tell whether a line is blank or a comment."""
+    return not line.strip() or line.lstrip().startswith("#")
+
+
+def split_cells(line: str, delimiter: str) -> list[str]:
+    """Cut a line into cells, without quotes."""
+    if delimiter == BLANKS:
+        return [cell.strip('"') for cell in line.split()]
+    if '"' not in line:
+        return [cell.strip() for cell in line.split(delimiter)]
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
+
+
+def is_number(cell: str) -> bool:
+    """Tell whether a cell is a number, with a decimal point or comma."""
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
+def _header_at(lines: Sequence[str], content: Sequence[int], place: int) -> TextHeader | None:
+    """Take the line for a header if rows of as many cells follow, perhaps below one of units."""
+    line = lines[content[place]]
+    for delimiter in _delimiters(line):
+        names = split_cells(line, delimiter)
+        if len(names) < 2 or any(map(is_number, names)) or not any(names):
+            continue
+        rows = [split_cells(lines[index], delimiter) for index in content[place + 1 : place + 3]]
+        if len(rows) > 0 and _is_row(rows[0], len(names)):
+            return _found(lines, content, place, delimiter, rows_at=1)
+        if len(rows) > 1 and _are_units(rows[0], len(names)) and _is_row(rows[1], len(names)):
+            return _found(lines, content, place, delimiter, rows_at=2)
+    return None
+
+
+def _found(
+    lines: Sequence[str], content: Sequence[int], place: int, delimiter: str, *, rows_at: int
+) -> TextHeader:
+    names = split_cells(lines[content[place]], delimiter)
+    units = split_cells(lines[content[place + 1]], delimiter) if rows_at == 2 else []
+    first = content[place + rows_at]
+    return TextHeader(
+        cells=tuple(names),
+        width=len(names),
+        delimiter=delimiter,
+        first_row=lines[first],
+        skip=first,
+        header_at=content[place],
+        titles=place,
+        units={name: unit.strip("[]()") for name, unit in zip(names, units, strict=False) if unit},
+    )
+
+
+def _commented(lines: Sequence[str], index: int) -> TextHeader | None:
+    """Take the comment right above numbers for the header, as numpy.savetxt writes it."""
+    above = next(filter(str.strip, reversed(lines[:index])), "").lstrip("# ")
+    for delimiter in _delimiters(lines[index]):
+        row, names = split_cells(lines[index], delimiter), split_cells(above, delimiter)
+        if len(row) == len(names) > 1 and all(map(is_number, row)) and not any(map(is_number, names)):
+            at = index - 1 - next(k for k, line in enumerate(reversed(lines[:index])) if line.strip())
+            return TextHeader(tuple(names), len(names), delimiter, lines[index], index, header_at=at)
+    return None
+
+
+def _without_header(lines: Sequence[str], content: Sequence[int], place: int) -> TextHeader | None:
+    """Take the line for the first row of a table without header if the next has as many numbers."""
+    above = [lines[index] for index in content[:place]]
+    for delimiter in _delimiters(lines[content[place]]):
+        if any(len(split_cells(line, delimiter)) > 1 for line in above):
+            continue  # what stands above may be a header that does not fit
+        cells = split_cells(lines[content[place]], delimiter)
+        following = [split_cells(lines[index], delimiter) for index in content[place + 1 : place + 2]]
+        numbers = [cell for cell in cells if cell]
+        alike = all(len(row) == len(cells) for row in following)
+        if len(numbers) > 1 and all(map(is_number, numbers)) and alike:
+            index = content[place]
+            return TextHeader((), len(cells), delimiter, lines[index], index, titles=place)
+    return None
+
+
+def _delimiters(line: str) -> Iterator[str]:
+    """Give the separators that a line may have, the most frequent first, blanks last."""
+    yield from sorted((mark for mark in DELIMITERS if mark in line), key=line.count, reverse=True)
+    if len(line.split()) > 1:
+        yield BLANKS
+
+
+def _is_row(cells: Sequence[str], width: int) -> bool:
+    return len(cells) == width and any(map(is_number, cells))
+
+
+def _are_units(cells: Sequence[str], width: int) -> bool:
+    named = [cell.strip("[]()").lower() for cell in cells if cell]
+    return len(cells) == width and bool(named) and all(unit in UNIT_WORDS for unit in named)

@@ -1,0 +1,64 @@
+"""Give the bytes of a text table with one tab between its cells, and without headers that come again."""
+
+import io
+import re
+from pathlib import Path
+
+BLOCK_BYTES = 1 << 20
+_BLANKS = re.compile(rb"[ \t]+")
+_EDGES = re.compile(rb"^\t|\t(?=\r?$)", re.MULTILINE)
+
+
+class TidyLines(io.RawIOBase):
+    """Read a file line by line, as the parser of tables wants its lines.
+
+    Parameters
+    ----------
+    blanks
+        Whether any number of blanks and tabs separates two cells.
+    without
+        A line that is left out where it comes again; empty for none.
+    skip
+        Physical lines before the first row of data, which are given as they are.
+    """
+
+    def __init__(self, path: Path, *, blanks: bool, without: bytes, skip: int) -> None:
+        super().__init__()
+        self._file = path.open("rb")
+        self._blanks = blanks
+        self._without = without
+        self._skip = skip
+        self._rest = b""
+        self._ready = b""
+
+    def readable(self) -> bool:
+        """Tell that bytes can be read."""
+        return True
+
+    def read(self, size: int = -1) -> bytes:
+        """Give up to so many bytes; all that is left where none is said."""
+        while size < 0 or len(self._ready) < size:
+            block = self._file.read(BLOCK_BYTES)
+            if not block:
+                self._ready += self._tidy(self._rest)
+                self._rest = b""
+                break
+            lines, mark, self._rest = (self._rest + block).rpartition(b"\n")
+            self._ready += self._tidy(lines + mark)
+        size = len(self._ready) if size < 0 else size
+        given, self._ready = self._ready[:size], self._ready[size:]
+        return given
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+        super().close()
+
+    def _tidy(self, lines: bytes) -> bytes:
+        if self._without:
+            lines = b"".join(line for line in lines.splitlines(keepends=True) if self._is_kept(line))
+        return _EDGES.sub(b"", _BLANKS.sub(b"\t", lines)) if self._blanks else lines
+
+    def _is_kept(self, line: bytes) -> bool:
+        self._skip -= 1
+        return self._skip >= 0 or line.strip() != self._without

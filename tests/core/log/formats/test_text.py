@@ -1,0 +1,130 @@
+"""Text as recorders write it is read: titles, units, blanks, no header, dates, repeated and cut lines."""
+
+from datetime import UTC, datetime, timedelta
+
+import numpy as np
+import pytest
+
+from tests.core.log.writers import swing
+from veritorque.core.errors import LogError
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
+
+COLUMNS = swing(joints=2)
+NAMES = list(COLUMNS)
+ROWS = [[f"{value:.9f}" for value in row] for row in zip(*COLUMNS.values(), strict=True)]
+BY_NUMBER = {
+    "time": {"column": 1, "unit": "s"},
+    "position": {"columns": [2, 3], "unit": "rad"},
+    "torque": {"columns": [4, 5], "unit": "N m"},
+}
+
+
+def lines(delimiter=",", *, header=True, rows=ROWS):
+    return ([delimiter.join(NAMES)] if header else []) + [delimiter.join(row) for row in rows]
+
+
+def padded(delimiter):
+    """Align the cells in columns, as print and savetxt do."""
+    return [delimiter.join(f"{cell:>14}" for cell in row) for row in [NAMES, *ROWS]]
+
+
+FILES = {
+    "title lines": ["Recorder v2.1", "Date: 2024-03-01", "Operator: N. N.", "", *lines()],
+    "a title with commas": ["arm, run 7, fast", *lines()],
+    "titles above tabs": ["RECORDER\t", "axis log of 3 drives", *lines("\t")],
+    "a row of units": [lines()[0], "s,rad,rad,Nm,Nm", *lines()[1:]],
+    "a row of units in brackets": [lines(";")[0], "[s];[rad];[rad];[N m];[N m]", *lines(";")[1:]],
+    "blanks": lines(" "),
+    "aligned blanks": padded("  "),
+    "blanks and tabs": padded(" \t"),
+    "a trailing blank": [line + " " for line in lines(" ")],
+    "a commented header above blanks": ["# " + lines(" ")[0], *lines(" ")[1:]],
+    "the header again": [*lines()[:1000], lines()[0], *lines()[1000:], lines()[0]],
+    "the header again between blanks": ["run", *lines(" ")[:1000], lines(" ")[0], *lines(" ")[1000:]],
+    "a cut last line": [*lines(), "12.000,0.1"],
+    "a cut last line of blanks": [*lines(" "), "12.000 0.1"],
+    "decimal commas between blanks": [line.replace(".", ",") for line in lines(" ")],
+    "a trailing tab": [line + "\t" for line in lines("\t")],
+}
+
+
+@pytest.mark.parametrize("kind", FILES)
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_text_as_recorders_write_it_is_read_and_what_was_done_is_said(kind, end, tmp_path):
+    path = tmp_path / "log.txt"
+    path.write_bytes(end.join(FILES[kind]).encode())
+    log = read_log(path)
+    np.testing.assert_allclose(whole_rows(log).torque[:, 1], COLUMNS["tau_2"], atol=1e-9)
+    assert [defect.kind for defect in log.defects] in ([], ["rearranged"])
+    assert bool(log.defects) == (kind not in ("a trailing tab", "blanks and tabs"))
+
+
+@pytest.mark.parametrize("delimiter", ["\t", " ", ";", ","])
+@pytest.mark.parametrize("trailing", [False, True])
+def test_a_table_without_header_is_read_by_the_numbers_of_its_columns(delimiter, trailing, tmp_path):
+    path = tmp_path / "log.txt"
+    after = delimiter if trailing else ""
+    path.write_text("".join(line + after + "\n" for line in lines(delimiter, header=False)))
+    with pytest.raises(LogError, match="has no header") as refusal:
+        read_log(path)
+    assert '"column": 1' in refusal.value.remedy
+    log = read_log(path, mapping=BY_NUMBER)
+    np.testing.assert_allclose(whole_rows(log).position[:, 1], COLUMNS["q_2"], atol=1e-9)
+    with pytest.raises(LogError, match="names column 99"):
+        read_log(path, mapping={**BY_NUMBER, "time": {"column": 99, "unit": "s"}})
+
+
+def test_columns_with_names_can_be_given_by_number_too(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["t,a,b,c,d", *lines(header=False)]))
+    assert read_log(path, mapping=BY_NUMBER).joints == 2
+
+
+@pytest.mark.parametrize(
+    ("start", "form"),
+    [
+        (datetime(2024, 3, 1, 10, 0, tzinfo=UTC), "%Y-%m-%dT%H:%M:%S.%f"),
+        (datetime(2024, 12, 31, 23, 59, 55, tzinfo=UTC), "%Y-%m-%d %H:%M:%S.%f"),
+        (datetime(2024, 3, 1, 10, 0, tzinfo=UTC), "%Y-%m-%dT%H:%M:%S.%fZ"),
+        (datetime(2024, 3, 1, 10, 0, tzinfo=UTC), "%Y-%m-%dT%H:%M:%S.%f+01:00"),
+        (datetime(2024, 3, 1, 10, 0, tzinfo=UTC), "%H:%M:%S.%f"),
+        (datetime(2024, 3, 1, 23, 59, 55, tzinfo=UTC), "%H:%M:%S.%f"),
+    ],
+)
+def test_dates_and_times_of_day_are_seconds_over_midnight_too(start, form, tmp_path):
+    stamps = [(start + timedelta(seconds=float(t))).strftime(form) for t in COLUMNS["time"]]
+    rows = [[stamp, *row[1:]] for stamp, row in zip(stamps, ROWS, strict=True)]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(lines(rows=rows)))
+    log = read_log(path)
+    np.testing.assert_allclose(whole_rows(log).time, COLUMNS["time"], atol=2e-6)
+    assert [defect.kind for defect in log.defects] == ["rearranged"]
+
+
+def test_an_iso_stamp_without_a_fraction_is_a_stamp_too(tmp_path):
+    start = datetime(2024, 3, 1, 10, 0, tzinfo=UTC)
+    rows = [
+        [(start + timedelta(seconds=float(t))).replace(tzinfo=None).isoformat(), *r[1:]]
+        for t, r in zip(COLUMNS["time"], ROWS, strict=True)
+    ]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(lines(rows=rows)))
+    np.testing.assert_allclose(whole_rows(read_log(path)).time, COLUMNS["time"], atol=2e-6)
+
+
+@pytest.mark.parametrize(
+    ("row", "channel", "unit"),
+    [
+        ("s,deg,deg,Nm,Nm", "position", "deg"),
+        ("ms,rad,rad,Nm,Nm", "time", "ms"),
+        ("s,rad,rad,mNm,mNm", "torque", "mN m"),
+    ],
+)
+def test_a_row_of_units_that_contradicts_the_default_names_is_not_passed_over(row, channel, unit, tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join([lines()[0], row, *lines()[1:]]))
+    with pytest.raises(LogError, match="the file says that") as refusal:
+        read_log(path)
+    assert refusal.value.evidence["unit_in_the_file"] == unit
+    assert f'map {channel} with "unit": "{unit}"' in refusal.value.remedy
