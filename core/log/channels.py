@@ -168,7 +168,7 @@ CHANNELS: Final[dict[str, Channel]] = {
         ),
         Channel(
             "torque", "tau", TORQUES, "torque (prismatic: force) of the motor at the joint", "effort",
-            ("tau", "torque", "torques", "trq", "effort", "moment", "mom", "tq", "force"),
+            ("tau", "torque", "torques", "trq", "trqs", "effort", "eff", "moment", "mom", "tq", "force"),
         ),
         Channel(
             "current", "current", CURRENTS, "current of the motor", "effort",

@@ -15,7 +15,7 @@ from .channels import TIME
 from .layout import Binding
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
-from .suggestion import suggest_mapping, suggest_units
+from .suggestion import suggest_mappings, suggest_units
 
 PIECE_ROWS = 1 << 16
 
@@ -47,6 +47,8 @@ class LogCheck:
     """Why it cannot be used."""
     suggestion: Mapping[str, object] | None = None
     """A mapping to confirm, where names or units are not known, or a unit makes implausible sizes."""
+    other_arms: tuple[Mapping[str, object], ...] = ()
+    """Mappings for the other arms of the same file, which are logs of their own."""
 
 
 def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> LogCheck:
@@ -61,8 +63,11 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
     try:
         layout = bind_columns(table, mapping)
     except LogError as error:
-        suggestion = None if mapping else suggest_mapping(table)
-        return LogCheck(form.name, table.names, refusal=error, suggestion=suggestion)
+        arms = [] if mapping else suggest_mappings(table)
+        suggestion = next(iter(arms), None)
+        return LogCheck(
+            form.name, table.names, refusal=error, suggestion=suggestion, other_arms=tuple(arms[1:])
+        )
     recognised = tuple(filter(None, (layout.time, *layout.channels)))
     try:
         log = read_table(table, layout, name=path.stem, sha256="")

@@ -22,7 +22,7 @@ class Defect:
     kind
         ``rearranged, bad_end, time_restarts, shuffled_rows, gap, jitter, repeated_rows,
         stuck_channel, outliers, saturation, quantisation, standstill, short,
-        slow_rate, implausible_unit, missing_torque``.
+        slow_rate, one_direction, velocity_mismatch, implausible_unit, missing_torque``.
     channel
         ``time, position, torque`` ...; ``file`` where it concerns the form of the file.
     joint

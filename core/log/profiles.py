@@ -83,6 +83,47 @@ PROFILES: dict[str, Profile] = {
             "current": (Pattern("observation.current_{}"),),
         },
     ),
+    "rostopic": Profile(
+        time=(Pattern("field.header.stamp", "ns"), Pattern("%time", "ns")),
+        channels={
+            "position": (Pattern("field.position{}", "rad"),),
+            "velocity": (Pattern("field.velocity{}", "rad/s"),),
+            "torque": (Pattern("field.effort{}", "N m"),),
+        },
+    ),
+    "kuka-fri": Profile(
+        time=(Pattern("time", "s"),),
+        channels={
+            "position": (Pattern("mp{}", "rad"),),
+            "torque": (Pattern("mt{}", "N m"),),
+            "position_ref": (Pattern("ip{}", "rad"),),
+        },
+    ),
+    "kinova-kortex": Profile(
+        time=(Pattern("timestamp"), Pattern("time")),
+        channels={
+            "position": (Pattern("actuators[{}].position", "deg"), Pattern("actuator_{}_position", "deg")),
+            "velocity": (
+                Pattern("actuators[{}].velocity", "deg/s"),
+                Pattern("actuator_{}_velocity", "deg/s"),
+            ),
+            "torque": (Pattern("actuators[{}].torque", "N m"), Pattern("actuator_{}_torque", "N m")),
+            "current": (
+                Pattern("actuators[{}].current_motor", "A"),
+                Pattern("actuator_{}_current_motor", "A"),
+            ),
+        },
+    ),
+    "abb-egm": Profile(
+        time=(Pattern("feedback.time", "us"), Pattern("time")),
+        channels={
+            "position": (Pattern("feedback.joints[{}]", "deg"), Pattern("feedBack.joints.joints[{}]", "deg")),
+            "position_ref": (
+                Pattern("planned.joints[{}]", "deg"),
+                Pattern("planned.joints.joints[{}]", "deg"),
+            ),
+        },
+    ),
     "abb-test-signal-viewer": Profile(
         time=(Pattern("Time"), Pattern("time")),
         channels={

@@ -16,6 +16,7 @@ from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME
 from .defects.examine import examine
 from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
 from .formats.delimited import open_delimited
+from .formats.long import widen
 from .formats.matlab5 import open_matlab5
 from .formats.matlab7 import open_matlab7
 from .formats.npz import open_npz
@@ -87,7 +88,7 @@ def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:
         If the file is of no format that holds a log, or damaged.
     """
     form = recognise(path, media_type)
-    return form, OPENERS[form](path)
+    return form, widen(OPENERS[form](path))
 
 
 def bind_columns(table: Table, mapping: Mapping[str, object] | None) -> Layout:

@@ -1,18 +1,20 @@
 """Suggest a mapping for a file whose columns have other names; the user confirms it.
 
-A profile that fits comes first. Otherwise columns that differ in a number only are taken for the joints of
-one channel. Words in the names give the channel, sizes the unit. A suggestion is shown, never applied.
+A profile that fits comes first. Otherwise columns that differ in a number only, or in a joint's name, are
+taken for the joints of one channel. Words in the names give the channel and, where they say one, the unit;
+else sizes do. A suggestion is shown, never applied.
 """
 
-import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from ..errors import LogError
-from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, REFERENCE_WORDS, TIME
+from .channels import CHANNELS, EFFORTS, REFERENCE_WORDS, TIME, UNITS
+from .column_families import arm_of, channel_of, name_words, named_families, numbered_families
 from .formats.table import Table
 from .layout import Binding, Layout
 from .mapping import RATE
 from .model import Defect
+from .named_units import unit_called, unit_in_name
 from .plausible_units import readings_by_column
 from .profiles import PROFILE, PROFILES, fill_in
 
@@ -23,8 +25,8 @@ IMPLAUSIBLE = "implausible_unit"
 def suggest_mapping(table: Table) -> dict[str, object] | None:
     """Give a mapping that fits the names of the columns; None where the names are not enough.
 
-    Units are the most plausible by size, or `UNKNOWN` where no unit fits the size; so is the rate of a log
-    without a clock.
+    Units are those that names or the file say, else the most plausible by size, or `UNKNOWN` where no unit
+    fits the size; so is the rate of a log without a clock, and what one count or one per cent is.
 
     Examples
     --------
@@ -34,21 +36,66 @@ def suggest_mapping(table: Table) -> dict[str, object] | None:
     >>> suggest_mapping(MemoryTable(columns))["position"]
     {'columns': ['pos1'], 'unit': 'deg'}
     """
+    return next(iter(suggest_mappings(table)), None)
+
+
+def suggest_mappings(table: Table) -> list[dict[str, object]]:
+    """Give the mapping that fits the names of the columns, or one for each arm that the file holds."""
     profile = _profile(table.names)
     if profile is not None:
-        return {PROFILE: profile} | _own_clock(profile, table)
-    mapping = {
-        channel: {"columns": columns, "unit": _unit(channel, table, columns[0])}
-        for channel, columns in _joint_columns(table.names).items()
+        return [{PROFILE: profile} | _own_clock(profile, table) | _open_units(profile, table)]
+    numbered = numbered_families(table.names)
+    arms = [_channels(own) for own in _by_arm(numbered)]
+    whole = [channels for channels in arms if _is_whole(channels)]
+    if len(whole) < 2:
+        whole = [
+            found for found in map(_channels, (numbered, named_families(table.names))) if _is_whole(found)
+        ]
+        whole = whole[:1]
+    clock = _clock(table)
+    return [clock | _requests(channels, table) for channels in whole]
+
+
+def _by_arm(families: Mapping[str, list[str]]) -> list[dict[str, list[str]]]:
+    """Part families by the words of their names that tell no quantity."""
+    arms: dict[frozenset[str], dict[str, list[str]]] = {}
+    for stem, columns in families.items():
+        arms.setdefault(arm_of(stem), {})[stem] = columns
+    return list(arms.values())
+
+
+def _requests(channels: Mapping[str, list[str]], table: Table) -> dict[str, object]:
+    return {
+        name: {"columns": channels[name]} | _declared(name, table, channels[name][0])
+        for name in CHANNELS
+        if name in channels
     }
-    if not _is_whole(mapping):
-        return None
-    return _clock(table) | {name: mapping[name] for name in CHANNELS if name in mapping}
+
+
+def _declared(channel: str, table: Table, column: str) -> dict[str, object]:
+    """Give a column's unit, and leave open what one of it is where the mapping has to say so."""
+    declared: dict[str, object] = {"unit": _unit(channel, table, column)}
+    unit = UNITS[channel].get(str(declared["unit"]))
+    return declared | ({"scale": UNKNOWN} if unit is not None and unit.needs_scale else {})
+
+
+def _open_units(profile: str, table: Table) -> dict[str, object]:
+    """Give the units that the recorder does not fix."""
+    filled = fill_in({PROFILE: profile}, table.names)
+    requests = filled.items() if isinstance(filled, dict) else ()
+    return {
+        name: _declared(name, table, request["columns"][0])
+        for name, request in requests
+        if isinstance(request, dict) and "columns" in request and "unit" not in request
+    }
 
 
 def _clock(table: Table) -> dict[str, object]:
-    time = next((name for name in table.names if _name_words(name) & set(CHANNELS[TIME].words)), None)
-    return {RATE: UNKNOWN} if time is None else {TIME: {"column": time, "unit": _unit(TIME, table, time)}}
+    words = set(CHANNELS[TIME].words)
+    stamps = [name for name in table.names if name_words(name) & words and channel_of(name, ()) is None]
+    if not stamps:
+        return {RATE: UNKNOWN}
+    return {TIME: {"column": stamps[0], "unit": _unit(TIME, table, stamps[0])}}
 
 
 def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
@@ -66,20 +113,19 @@ def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> di
 
 def _in_plausible_unit(channel: Binding, joint: int | None, table: Table) -> dict[str, object]:
     """Give the request for a channel in the unit that fits a joint's column; empty where no other fits."""
-    unit = _unit(channel.name, table, channel.columns[(joint or 1) - 1])
-    if unit in (UNKNOWN, *channel.units):
+    declared = _declared(channel.name, table, channel.columns[(joint or 1) - 1])
+    if declared["unit"] in (UNKNOWN, *channel.units):
         return {}
     if channel.name == TIME:
-        return {"column": channel.columns[0], "unit": unit}
-    return {"columns": channel.columns, "unit": unit}
+        return {"column": channel.columns[0]} | declared
+    return {"columns": channel.columns} | declared
 
 
-def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:
+def _channels(families: Mapping[str, list[str]]) -> dict[str, list[str]]:
     """Choose columns for every channel; measured ones first, then references that are one per joint."""
-    families = _column_families(names)
     found: dict[str, list[str]] = {}
-    for stem in sorted(families, key=lambda name: bool(_name_words(name) & REFERENCE_WORDS)):
-        channel, columns = _channel(stem, found), families[stem]
+    for stem in sorted(families, key=lambda name: bool(name_words(name) & REFERENCE_WORDS)):
+        channel, columns = channel_of(stem, found), families[stem]
         if channel is None or channel in found:
             continue
         if CHANNELS[channel].need != "reference" or len(columns) == len(found.get("position", ())):
@@ -87,10 +133,10 @@ def _joint_columns(names: Sequence[str]) -> dict[str, list[str]]:
     return found
 
 
-def _is_whole(mapping: Mapping[str, Mapping[str, Sequence[str]]]) -> bool:
+def _is_whole(channels: Mapping[str, list[str]]) -> bool:
     """Tell whether position and an effort are there, with one column per joint each."""
-    joints = {len(channel["columns"]) for channel in mapping.values()}
-    return "position" in mapping and bool(mapping.keys() & set(EFFORTS)) and len(joints) == 1
+    joints = {len(columns) for columns in channels.values()}
+    return "position" in channels and bool(channels.keys() & set(EFFORTS)) and len(joints) == 1
 
 
 def _profile(names: Sequence[str]) -> str | None:
@@ -100,51 +146,24 @@ def _profile(names: Sequence[str]) -> str | None:
             filled = fill_in({PROFILE: name}, names)
         except LogError:  # the order of the joints is not known, and would have to be given as well
             continue
-        if isinstance(filled, dict) and {"position"} < filled.keys() & CHANNELS.keys():
+        if isinstance(filled, dict) and "position" in filled and not filled.keys().isdisjoint(EFFORTS):
             return name
     return None
 
 
 def _own_clock(profile: str, table: Table) -> dict[str, object]:
-    """Give the clock where its steps are not of the size that the profile's unit makes of them."""
+    """Give the clock where the profile leaves its unit open, or its steps are of another size."""
     filled = fill_in({PROFILE: profile}, table.names)
     clock = filled.get(TIME) if isinstance(filled, dict) else None
-    if not isinstance(clock, dict) or "unit" not in clock:
+    if not isinstance(clock, dict):
         return {}
     unit = _unit(TIME, table, clock["column"])
-    return {} if unit in (UNKNOWN, clock["unit"]) else {TIME: clock | {"unit": unit}}
-
-
-def _column_families(names: Sequence[str]) -> dict[str, list[str]]:
-    """Gather columns that differ in their last number only, in the order of that number."""
-    families: dict[str, list[tuple[int, str]]] = {}
-    for name in names:
-        numbers = list(re.finditer(r"\d+", name))
-        if numbers:
-            last = numbers[-1]
-            stem = f"{name[: last.start()]} {name[last.end() :]}"
-            families.setdefault(stem, []).append((int(last.group()), name))
-    return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
-
-
-def _channel(stem: str, known: Collection[str]) -> str | None:
-    """Find the channel of a name; a reference stands for what was measured where nothing else does."""
-    words = _name_words(stem)
-    by_trust = sorted(JOINT_CHANNELS, key=lambda channel: channel.name == "position")  # "joint" says least
-    own = list(filter(lambda channel: not words.isdisjoint(channel.words), by_trust))
-    measured = next((channel for channel in own if channel.need != "reference"), None)
-    if measured is None:
-        return own[0].name if own else None
-    if not words & REFERENCE_WORDS or (measured.need != "optional" and measured.name not in known):
-        return measured.name
-    return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured.name), None)
-
-
-def _name_words(name: str) -> set[str]:
-    """Cut a name at its signs, numbers and capitals."""
-    return {word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
+    return {} if unit in (UNKNOWN, clock.get("unit")) else {TIME: clock | {"unit": unit}}
 
 
 def _unit(channel: str, table: Table, column: str) -> str:
+    said = unit_called(channel, table.units.get(column, "")) or unit_in_name(channel, column)
+    if said is not None:
+        return said
     plausible = readings_by_column(channel, [column], table)
     return plausible[column][0].split(":")[0] if plausible else UNKNOWN

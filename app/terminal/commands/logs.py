@@ -75,6 +75,9 @@ def _print_suggestion(path: Path, seen: "LogCheck") -> None:
         unknown = ', and replace "?"' if '"?"' in written else ""
         note(f"  {why}{unknown}:")
         note(f"  --mapping '{written}'")
+    for other in seen.other_arms:
+        note("  for another arm in the same file, as a log of its own:")
+        note(f"  --mapping '{encoder.dumps(other)}'")
 
 
 def _check(path: Path, mapping: dict[str, Any] | None) -> "LogCheck":

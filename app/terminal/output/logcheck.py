@@ -50,6 +50,7 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
         ],
         "defects": [] if log is None else [asdict(defect) for defect in log.defects],
         "suggestion": seen.suggestion,
+        "other_arms": seen.other_arms,
     }
     if log is not None:
         told |= {

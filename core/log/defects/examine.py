@@ -8,12 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import JointVector
+from ...arrays import JointMarks, JointVector
+from ..channels import EFFORTS
 from ..contract import Contract, check_length, check_sequence
 from ..layout import Layout
 from ..model import Defect, LogSource
 from .bandwidth import Bandwidth
 from .clock import Clock, longest_bridge
+from .direction import Direction
 from .plausibility import plausibility_defects
 from .repeats import Repeats, cut
 from .resolution import Resolution
@@ -22,6 +24,7 @@ from .saturation import Saturation
 from .spikes import Spikes
 from .stretch import Facts, Finder, Stretch, stretches
 from .stuck import Stuck
+from .velocity import Velocity
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     stuck = Stuck(joints, repeats)
     finders: list[Finder] = [
         clock, repeats, stuck, Spikes(joints), Saturation(joints), resolution, Rest(samples),
-        bandwidth,
+        bandwidth, Direction(joints), Velocity(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
@@ -82,6 +85,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         high=contract.high,
         deviation=spread.deviation(),
         roughness=spread.roughness(),
+        whole=spread.whole,
         position_lsb=resolution.lsb("position"),
         units=layout.si_units(),
     )
@@ -105,12 +109,18 @@ class _Spread:
         self._squares: dict[str, JointVector] = {}
         self._increments: JointVector | float = 0.0
         self._rows = 0
+        self.whole: dict[str, JointMarks] = {}
+        """Joints whose torque or current comes in whole numbers only."""
 
     def update(self, stretch: Stretch) -> None:
         channels = stretch.new()
         self._rows += channels["position"].shape[1]
         steps = np.diff(stretch.position[:, stretch.first_new :], axis=1)
         self._increments = self._increments + np.einsum("ij,ij->i", steps, steps)
+        for name in EFFORTS:
+            if name in channels:
+                own = np.all(channels[name] == np.rint(channels[name]), axis=1)
+                self.whole[name] = self.whole.get(name, own) & own
         for name in ("position", "torque"):
             if name in channels:
                 origin = self._origin.setdefault(name, channels[name][:, 0].copy())

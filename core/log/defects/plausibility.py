@@ -5,19 +5,21 @@ Nothing is converted here: numbers of the size of degrees are reported as such, 
 
 import numpy as np
 
+from ..channels import EFFORTS, UNITS
 from ..model import Defect
 from .stretch import Facts
 
 LARGEST_SPAN = 13.0
 """A revolute joint that moves from minus one turn to plus one spans 12.6 rad."""
-LARGEST_TORQUE = 2e4
+FEWEST_COUNTS = 100.0
+"""Whole numbers up to less than this may be a coarse sensor's."""
 RATES_HZ = (2.0, 1e5)
 SHORTEST_SECONDS = 10.0
 
 
 def plausibility_defects(facts: Facts) -> list[Defect]:
     """State what the extremes, the rate and the length of the log show."""
-    return [*_positions(facts), *_torques(facts), *_missing_torques(facts), *_times(facts), *_short(facts)]
+    return [*_positions(facts), *_efforts(facts), *_missing_torques(facts), *_times(facts), *_short(facts)]
 
 
 def _positions(facts: Facts) -> list[Defect]:
@@ -26,23 +28,41 @@ def _positions(facts: Facts) -> list[Defect]:
         if span > LARGEST_SPAN:
             statement = (
                 f"Joint {joint + 1} spans {span:.4g} rad, which is {span / (2 * np.pi):.3g} revolutions; "
-                f"read as degrees it would be {np.deg2rad(span):.3g} rad. Nothing was converted."
+                f"read as degrees it would be {np.deg2rad(span):.3g} rad. Where it is the motor's angle, map "
+                "it with the scale 1 / gear ratio, and the motor's torque with the gear ratio. Nothing was "
+                "converted."
             )
             found.append(Defect("implausible_unit", "position", joint + 1, facts.samples, (), statement))
     return found
 
 
-def _torques(facts: Facts) -> list[Defect]:
+def _efforts(facts: Facts) -> list[Defect]:
+    """State torques and currents beyond what is usual by the table of channels, and whole numbers."""
     found = []
-    if "torque" in facts.low:
-        largest = np.maximum(np.abs(facts.low["torque"]), np.abs(facts.high["torque"]))
-        for joint in np.flatnonzero(largest > LARGEST_TORQUE):
-            statement = (
-                f"Joint {joint + 1}'s torque reaches {largest[joint]:.4g} N m, more than arms have; read as "
-                f"mN m it would be {largest[joint] / 1e3:.4g} N m. Nothing was converted."
-            )
-            found.append(Defect("implausible_unit", "torque", int(joint) + 1, facts.samples, (), statement))
+    for channel in EFFORTS:
+        if channel not in facts.low:
+            continue
+        largest = np.maximum(np.abs(facts.low[channel]), np.abs(facts.high[channel]))
+        for joint, size in enumerate(map(float, largest)):
+            whole = bool(facts.whole[channel][joint])
+            if what := _unusual(channel, size, facts.units[channel][joint], whole=whole):
+                statement = f"Joint {joint + 1}'s {channel} {what}. Nothing was converted."
+                found.append(Defect("implausible_unit", channel, joint + 1, facts.samples, (), statement))
     return found
+
+
+def _unusual(channel: str, size: float, unit: str, *, whole: bool) -> str:
+    """Say what is unusual about an effort; empty where nothing is."""
+    if whole and size >= FEWEST_COUNTS:
+        return (
+            f"comes in whole numbers, up to {size:.6g}, as counts of a drive or thousandths of a rated value "
+            f"do: declare the unit with the scale of one, if it is not {unit}"
+        )
+    most = UNITS[channel][unit].usual[1]
+    if size <= most:
+        return ""
+    read = f"read as m{unit} it would be {size / 1e3:.4g} {unit}"
+    return f"reaches {size:.4g} {unit}, and seldom exceeds {most:g}; {read}"
 
 
 def _missing_torques(facts: Facts) -> list[Defect]:

@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Bool
 
-from ...arrays import JointVector, Samples, Series
+from ...arrays import JointMarks, JointVector, Samples, Series
 from ..channels import EFFORTS
 from ..model import Defect, LogSource
 
@@ -77,6 +77,8 @@ class Facts:
     deviation: dict[str, JointVector]
     roughness: JointVector
     """Von Neumann's ratio of each joint's positions: mean square of the steps over the variance."""
+    whole: dict[str, JointMarks]
+    """By effort channel, the joints on which it comes in whole numbers only."""
     position_lsb: JointVector
     """Resolution of each joint's position, 0 where none shows."""
     units: Mapping[str, Sequence[str]]

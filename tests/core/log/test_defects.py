@@ -367,3 +367,86 @@ def test_the_median_of_five_is_the_median_of_five(values):
     series = np.array([values])
     windows = np.lib.stride_tricks.sliding_window_view(series[0], 5)
     np.testing.assert_array_equal(median_of_five(series)[0], np.median(windows, axis=1))
+
+
+@pytest.mark.parametrize("down", [0, 1])
+@pytest.mark.parametrize("rate_hz", [50.0, 1000.0])
+def test_a_joint_that_moves_one_way_only_is_said_with_its_way_and_what_cannot_be_known(down, rate_hz):
+    time, position, torque = healthy(rate_hz=rate_hz)
+    position[:, 0] = (1.0 - 2.0 * down) * (0.09 * time + 0.05 * np.sin(1.5 * time)) + 1e-5 * np.sin(
+        900.0 * time
+    )
+    (defect,) = only(log_of(time, position, torque), "one_direction")
+    assert (defect.channel, defect.joint) == ("position", 1)
+    assert "FC1" in defect.statement
+    assert "OFF1" in defect.statement
+    ways = [float(part.split(" rad")[0]) for part in defect.statement.split(": ")[1].split(" and ")[:2]]
+    assert ways[1 - down] < 0.001
+    assert ways[down] == pytest.approx(np.ptp(position[:, 0]), rel=0.02)
+
+
+def test_a_joint_that_returns_once_moves_both_ways():
+    time, position, torque = healthy()
+    position[:, 0] = np.sin(np.pi * time / time[-1])
+    assert log_of(time, position, torque).defects == ()
+
+
+def with_velocity(factors, clock=1.0, noise=0.0):
+    time, position, torque = healthy(24.0)
+    velocity = np.gradient(position, time, axis=0) * np.array(factors)
+    velocity += noise * np.random.default_rng(1).standard_normal(velocity.shape)
+    return log_from_arrays("planted", time * clock, position, torque, velocity=velocity)
+
+
+@pytest.mark.parametrize("clock", [0.5, 2.0, 1.25])
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+def test_stamps_that_contradict_the_measured_velocity_are_said_with_the_factor(clock, noise):
+    (defect,) = only(with_velocity([1.0, 1.0], clock, noise), "velocity_mismatch")
+    assert (defect.channel, defect.joint) == ("time", None)
+    assert float(defect.statement.split(" is ")[1].split(" times")[0]) == pytest.approx(clock, rel=0.02)
+
+
+@pytest.mark.parametrize("factor", [-1.0, 180.0 / np.pi, 100.0])
+def test_a_velocity_that_is_off_on_one_joint_is_that_joints(factor):
+    (defect,) = only(with_velocity([1.0, factor]), "velocity_mismatch")
+    assert (defect.channel, defect.joint) == ("velocity", 2)
+    assert f"{factor:.4g} times"[:3] in defect.statement
+    assert ("deg/s" in defect.statement) == (round(factor) == 57)
+
+
+def test_a_velocity_that_is_another_joints_does_not_follow():
+    time, position, torque = healthy()
+    velocity = np.gradient(position, time, axis=0)[:, ::-1]
+    found = only(log_from_arrays("planted", time, position, torque, velocity=velocity), "velocity_mismatch")
+    assert [defect.joint for defect in found] == [1, 2]
+    assert "does not follow" in found[0].statement
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.5])
+@pytest.mark.parametrize("lag_s", [0.0, 0.02])
+def test_a_velocity_that_is_noisy_or_late_is_no_contradiction(noise, lag_s):
+    time, position, torque = healthy()
+    late = np.column_stack([np.interp(time - lag_s, time, column) for column in position.T])
+    velocity = np.gradient(late, time, axis=0)
+    velocity += noise * np.random.default_rng(1).standard_normal(velocity.shape)
+    assert log_from_arrays("late", time, position, torque, velocity=velocity).defects == ()
+
+
+@pytest.mark.parametrize(("channel", "factor", "said"), [("torque", 1e3, "mN m"), ("current", 1e3, "mA")])
+def test_efforts_of_a_size_that_is_unusual_are_said_with_the_size_they_would_have(channel, factor, said):
+    time, position, torque = healthy()
+    efforts = {"torque": None, channel: torque * factor}
+    log = log_from_arrays("planted", time, position, efforts.pop("torque"), **efforts)
+    found = only(log, "implausible_unit")
+    assert [(defect.channel, defect.joint) for defect in found] == [(channel, 1), (channel, 2)]
+    assert f"read as {said} it would be {np.abs(torque[:, 0]).max():.4g}" in found[0].statement
+
+
+@pytest.mark.parametrize("channel", ["torque", "current"])
+def test_efforts_in_whole_numbers_look_like_counts(channel):
+    time, position, torque = healthy()
+    efforts = {"torque": None, channel: np.round(torque * 37.0)}
+    log = log_from_arrays("planted", time, position, efforts.pop("torque"), **efforts)
+    found = [defect for defect in log.defects if defect.kind == "implausible_unit"]
+    assert [defect.joint for defect in found] == [1, 2]
+    assert "whole numbers" in found[0].statement

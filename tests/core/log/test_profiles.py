@@ -32,6 +32,20 @@ RECORDERS = {
         renamed("timestamp", first=1, q="observation.state_{}", tau="observation.effort_{}"),
         {"position": {"unit": "rad"}, "torque": {"unit": "N m"}},
     ),
+    "rostopic": (
+        renamed("%time", 1e9, q="field.position{}", qd="field.velocity{}", tau="field.effort{}"),
+        {},
+    ),
+    "kuka-fri": (renamed("time", first=1, q="mp{}", tau="mt{}"), {}),
+    "kinova-kortex": (
+        renamed("timestamp", q="actuators[{}].position", tau="actuators[{}].torque"),
+        {"time": {"column": "timestamp", "unit": "s"}, "position": {"unit": "rad"}},
+    ),
+    "abb-egm": (
+        renamed("feedback.time", 1e6, q="feedback.joints[{}]")
+        | {f"tau_{j}": COLUMNS[f"tau_{j}"] for j in (1, 2, 3)},
+        {"position": {"unit": "rad"}},
+    ),
     "abb-test-signal-viewer": (
         renamed("Time", first=1, q="resolver_angle_{}", tau="torque_ref_{}"),
         {"time": {"column": "Time", "unit": "s"}, "position": {"unit": "rad"}, "torque": {"unit": "N m"}},

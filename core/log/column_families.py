@@ -1,0 +1,85 @@
+"""Gather columns that belong together: one quantity of all joints, by what their names have in common.
+
+Most recorders number the joints, others name them. What is left of a name without the joint tells the
+quantity, and the arm where there are several.
+"""
+
+import re
+from collections.abc import Collection, Sequence
+
+from .channels import JOINT_CHANNELS, REFERENCE_WORDS
+
+_CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channel.words) - {"joint"}
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+_BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[A-Za-z%°][^\[\](){}<>]*[\])}>]")
+_INDEX = re.compile(r"\d+")
+
+
+def name_words(name: str) -> set[str]:
+    """Cut a name at its signs, numbers and capitals; what stands in brackets is a unit and no word of it.
+
+    Examples
+    --------
+    >>> sorted(name_words("Joint1_Pos [deg]"))
+    ['joint', 'pos']
+    """
+    return {word.lower() for word in _WORD.findall(_BRACKETS.sub(" ", name))}
+
+
+def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Gather columns that differ in their last number only, in the order of that number.
+
+    Examples
+    --------
+    >>> numbered_families(["t", "q2", "q1"])
+    {'q ': ['q1', 'q2']}
+    """
+    families: dict[str, list[tuple[int, str]]] = {}
+    for name in names:
+        numbers = list(_INDEX.finditer(_BRACKETS.sub(lambda found: " " * len(found[0]), name)))
+        if numbers:
+            last = numbers[-1]
+            stem = f"{name[: last.start()]} {name[last.end() :]}"
+            families.setdefault(stem, []).append((int(last.group()), name))
+    return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
+
+
+def named_families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Gather columns that say the same quantity of joints which have names, in the order of the file.
+
+    Examples
+    --------
+    >>> named_families(["t", "elbow_pos", "wrist_pos", "elbow_eff"])
+    {'pos': ['elbow_pos', 'wrist_pos'], 'eff': ['elbow_eff']}
+    """
+    families: dict[str, list[str]] = {}
+    for name in names:
+        words = name_words(name)
+        told = sorted(words & (_CHANNEL_WORDS | REFERENCE_WORDS))
+        if told and words - set(told):
+            families.setdefault(" ".join(told), []).append(name)
+    return families
+
+
+def arm_of(stem: str) -> frozenset[str]:
+    """Give the words of a name that are neither a quantity's nor a reference's: those of an arm, if any.
+
+    Examples
+    --------
+    >>> arm_of("left_q ")
+    frozenset({'left'})
+    """
+    return frozenset(name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "actual", "measured"})
+
+
+def channel_of(stem: str, known: Collection[str]) -> str | None:
+    """Find the channel of a name; a reference stands for what was measured where nothing else does."""
+    words = name_words(stem)
+    by_trust = sorted(JOINT_CHANNELS, key=lambda channel: channel.name == "position")  # "joint" says least
+    own = list(filter(lambda channel: not words.isdisjoint(channel.words), by_trust))
+    measured = next((channel for channel in own if channel.need != "reference"), None)
+    if measured is None:
+        return own[0].name if own else None
+    if not words & REFERENCE_WORDS or (measured.need != "optional" and measured.name not in known):
+        return measured.name
+    return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured.name), None)

@@ -1,0 +1,127 @@
+"""Make columns of a long table, whose every row carries one joint, or one signal, at one instant.
+
+The column that names the joint is one of text, or of numbers under a name that says so; stamps occur once per
+joint. What is left of a row are the joint's values, which become columns `value.joint`.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import LogError
+from .table import MemoryTable, Table, check_columns, check_values
+
+KEY_WORDS = frozenset(
+    (
+        "joint",
+        "joint_name",
+        "name",
+        "motor",
+        "motor_id",
+        "axis",
+        "id",
+        "joint_id",
+        "servo",
+        "actuator",
+        "signal",
+    )
+)
+"""Names of the column that says which joint a row is of, in small letters."""
+VALUE_WORDS = frozenset(("value", "values", "val", "data"))
+"""Names of a single column whose meaning is the key's."""
+FEWEST_REPEATS = 0.5
+"""At least this share of the stamps repeat the row before in a table of two joints or more."""
+MOST_KEYS = 64
+
+
+@dataclass(frozen=True, eq=False)
+class _Long:
+    """Carry a long table."""
+
+    key: str
+    keys: list[str]
+    """The joints or signals, in the order in which they first occur."""
+    rows: list[np.ndarray]
+    """Rows of each."""
+    stamp: str
+    values: tuple[str, ...]
+
+
+def widen(table: Table) -> Table:
+    """Give a table with a column per joint, if the table is a long one; any other as it is.
+
+    Raises
+    ------
+    LogError
+        If joints have different stamps, so that their rows belong to different instants.
+    """
+    found = _long(table)
+    if found is None:
+        return table
+    block = np.hstack(list(table.batches((found.stamp, *found.values))))
+    stamps = _shared_stamps(found, block[0])
+    columns: dict[str, np.ndarray | None] = {found.stamp: stamps}
+    for name, values in zip(found.values, block[1:], strict=True):
+        for key, rows in zip(found.keys, found.rows, strict=True):
+            columns[_name(found, name, key)] = values[rows]
+    check_columns(list(columns))
+    check_values(len(columns) * len(stamps))
+    note = (
+        f"rows of one {found.key} each, {len(found.keys)} of them ({', '.join(found.keys[:8])}), made columns"
+    )
+    units = {found.stamp: table.units[found.stamp]} if found.stamp in table.units else {}
+    return MemoryTable(columns, units, (*table.notes, note))
+
+
+def _long(table: Table) -> _Long | None:
+    """Recognise a long table by its key and by stamps that repeat."""
+    key = next((name for name in table.names if name.lower() in KEY_WORDS), None)
+    stamp = next((name for name in table.names if _is_stamp(name)), None)
+    if key is None or stamp is None:
+        return None
+    texts = set(table.texts)
+    values = tuple(name for name in table.names if name not in (key, stamp) and name not in texts)
+    words = table.words(key) if key in texts else _numbers(table, key)
+    keys = list(dict.fromkeys(words))
+    if not values or not 2 <= len(keys) <= MOST_KEYS:
+        return None
+    stamps = np.hstack(list(table.batches([stamp])))[0]
+    if np.mean(np.diff(stamps) == 0.0) < FEWEST_REPEATS * (1.0 - 1.0 / len(keys)):
+        return None
+    named = np.array(words)
+    return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
+
+
+def _is_stamp(name: str) -> bool:
+    word = name.lower().lstrip("%").split("[")[0].split("(")[0].strip()
+    return word in ("time", "t", "timestamp", "stamp") or word.startswith(("time_", "timestamp_", "stamp_"))
+
+
+def _numbers(table: Table, key: str) -> list[str]:
+    """Read a key of whole numbers; empty where it is none."""
+    try:
+        numbers = np.hstack(list(table.batches([key])))[0]
+    except LogError:
+        return []
+    whole = len(numbers) > 0 and bool(np.all(numbers == np.rint(numbers)))
+    return [str(int(number)) for number in numbers] if whole else []
+
+
+def _shared_stamps(found: _Long, stamps: np.ndarray) -> np.ndarray:
+    own = [stamps[rows] for rows in found.rows]
+    first = own[0]
+    if all(len(others) == len(first) and np.array_equal(others, first) for others in own):
+        return np.asarray(first)
+    raise LogError(
+        f"the rows of different {found.key}s have different stamps",
+        evidence={
+            "rows": dict(zip(found.keys[:16], map(len, own), strict=False)),
+            "first_stamps": {key: float(one[0]) for key, one in zip(found.keys[:16], own, strict=False)},
+        },
+        remedy=f"write one row per {found.key} and instant, all of an instant under one stamp; or write each "
+        f"{found.key} to a file of its own and join the files",
+    )
+
+
+def _name(found: _Long, value: str, key: str) -> str:
+    return key if len(found.values) == 1 and value.lower() in VALUE_WORDS else f"{value}.{key}"

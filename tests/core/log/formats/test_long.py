@@ -1,0 +1,72 @@
+"""A long table, a row per joint and instant, becomes columns; what cannot become them is refused."""
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from tests.core.log.writers import swing
+from veritorque.core.errors import LogError
+from veritorque.core.log.check import check_log
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
+
+COLUMNS = swing(joints=2)
+NAMES = {"joint": ("shoulder", "elbow"), "axis": (1, 2), "Motor_ID": (11, 12), "name": ("b", "a")}
+
+
+def long_rows(key, header):
+    rows = [
+        f"{time:.6f},{name},{COLUMNS[f'q_{joint}'][row]:.12f},{COLUMNS[f'tau_{joint}'][row]:.12f}"
+        for row, time in enumerate(COLUMNS["time"])
+        for joint, name in enumerate(NAMES[key], 1)
+    ]
+    return "\n".join([header.replace("KEY", key), *rows])
+
+
+@pytest.mark.parametrize("key", NAMES)
+@pytest.mark.parametrize("header", ["time,KEY,position,torque", "t,KEY,pos,effort"])
+def test_a_row_per_joint_becomes_columns_and_a_mapping_is_suggested_that_reads_them(key, header, tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(long_rows(key, header))
+    suggested = check_log(path).suggestion
+    log = read_log(path, mapping=suggested)
+    np.testing.assert_allclose(whole_rows(log).position[:, 1], COLUMNS["q_2"], atol=1e-9)
+    np.testing.assert_allclose(whole_rows(log).torque[:, 0], COLUMNS["tau_1"], atol=1e-9)
+    (defect,) = log.defects
+    assert (defect.kind, key in defect.statement) == ("rearranged", True)
+
+
+def test_a_row_per_signal_becomes_the_columns_that_it_names(tmp_path):
+    names = list(COLUMNS)[1:]
+    rows = len(COLUMNS["time"])
+    table = pa.table(
+        {
+            "time": np.repeat(COLUMNS["time"], len(names)),
+            "signal": names * rows,
+            "value": np.column_stack([COLUMNS[name] for name in names]).ravel(),
+        }
+    )
+    pq.write_table(table, tmp_path / "log.parquet")
+    log = read_log(tmp_path / "log.parquet")
+    np.testing.assert_array_equal(whole_rows(log).torque[:, 1], COLUMNS["tau_2"])
+
+
+def test_joints_sampled_at_instants_of_their_own_are_refused(tmp_path):
+    path = tmp_path / "log.csv"
+    rows = long_rows("joint", "time,KEY,position,torque").split("\n")
+    path.write_text("\n".join(row for number, row in enumerate(rows) if number != 778))
+    with pytest.raises(LogError, match="different stamps") as refusal:
+        read_log(path)
+    assert refusal.value.evidence["rows"] == {"shoulder": 3000, "elbow": 2999}
+
+
+def test_a_column_called_id_does_not_make_a_table_long(tmp_path):
+    path = tmp_path / "log.csv"
+    header = ",".join([*COLUMNS, "id"])
+    rows = [
+        ",".join(f"{value:.9f}" for value in row) + f",{number % 2}"
+        for number, row in enumerate(zip(*COLUMNS.values(), strict=True))
+    ]
+    path.write_text("\n".join([header, *rows]))
+    assert read_log(path).ignored_columns == ("id",)

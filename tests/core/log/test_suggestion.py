@@ -1,0 +1,105 @@
+"""The names that recorders use lead to a mapping that can be pasted, with the unit that a name says."""
+
+import numpy as np
+import pytest
+
+from tests.core.log.writers import swing, write_csv
+from veritorque.core.log.check import check_log
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
+from veritorque.core.log.suggestion import UNKNOWN
+
+COLUMNS = swing(joints=2)
+DEG = 180.0 / np.pi
+
+
+def recorded(time, *names, time_scale=1.0, scales=()):
+    """Name the columns q_1, q_2, tau_1, tau_2 as a recorder does, in its units."""
+    scales = dict(enumerate(scales))
+    table = {time: COLUMNS["time"] * time_scale}
+    for index, (name, values) in enumerate(zip(names, list(COLUMNS.values())[1:], strict=True)):
+        table[name] = values * scales.get(index, 1.0)
+    return table
+
+
+RECORDERS = {
+    "names of joints, pos and eff": recorded("t", "shoulder_pos", "elbow_pos", "shoulder_eff", "elbow_eff"),
+    "names of joints, before": recorded("time", "pos_hip", "pos_knee", "torque_hip", "torque_knee"),
+    "JointN_Pos": recorded("Time", "Joint1_Pos", "Joint2_Pos", "Joint1_Force", "Joint2_Force"),
+    "Axis N": recorded("timestamp", "Axis 1 Position", "Axis 2 Position", "Axis 1 Torque", "Axis 2 Torque"),
+    "units in brackets": recorded(
+        "Time [ms]", "q1 [deg]", "q2 [deg]", "Torque1 [Nm]", "Torque2 [Nm]", time_scale=1e3, scales=(DEG, DEG)
+    ),
+    "units after a sign": recorded(
+        "time_us", "pos_deg_1", "pos_deg_2", "tau_mNm_1", "tau_mNm_2", time_scale=1e6,
+        scales=(DEG, DEG, 1e3, 1e3),
+    ),
+    "rostopic": recorded(
+        "%time", "field.position0", "field.position1", "field.effort0", "field.effort1", time_scale=1e9
+    )
+    | {"field.header.seq": np.arange(len(COLUMNS["time"]))},
+    "KUKA FRI": recorded("time", "mp1", "mp2", "mt1", "mt2") | {"ip1": COLUMNS["q_1"], "ip2": COLUMNS["q_2"]},
+    "Kinova": recorded(
+        "timestamp", "actuators[0].position", "actuators[1].position", "actuators[0].torque",
+        "actuators[1].torque", scales=(DEG, DEG),
+    ),
+    "MATLAB": recorded("t", "q(1)", "q(2)", "tau(1)", "tau(2)"),
+    "CAPITALS": recorded("TIME", "POS1", "POS2", "TRQ1", "TRQ2"),
+}  # fmt: skip  # a table
+
+
+@pytest.mark.parametrize("recorder", RECORDERS)
+def test_the_mapping_that_is_suggested_for_a_recorder_reads_its_log_in_si(recorder, tmp_path):
+    path = write_csv(tmp_path / "log.csv", RECORDERS[recorder])
+    suggested = check_log(path).suggestion
+    assert suggested is not None
+    rows = whole_rows(read_log(path, mapping=suggested))
+    np.testing.assert_allclose(rows.time, COLUMNS["time"], atol=1e-9)
+    for joint in (1, 2):
+        np.testing.assert_allclose(rows.position[:, joint - 1], COLUMNS[f"q_{joint}"], atol=1e-9)
+        np.testing.assert_allclose(rows.torque[:, joint - 1], COLUMNS[f"tau_{joint}"], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("names", "channel", "unit"),
+    [
+        (("q1(deg)", "q2(deg)", "torque1(%)", "torque2(%)"), "torque", "%"),
+        (("pos1", "pos2", "torque_pct_1", "torque_pct_2"), "torque", "%"),
+        (("pos1", "pos2", "current1 [%]", "current2 [%]"), "current", "%"),
+        (("pos1", "pos2", "torque1_counts", "torque2_counts"), "torque", "counts"),
+    ],
+)
+def test_a_unit_that_needs_a_scale_is_suggested_with_the_scale_left_open(names, channel, unit, tmp_path):
+    suggested = check_log(write_csv(tmp_path / "log.csv", recorded("time", *names))).suggestion
+    assert suggested[channel] == {"columns": list(names[2:]), "unit": unit, "scale": UNKNOWN}
+
+
+@pytest.mark.parametrize(
+    ("names", "unit"), [(("q1", "q2", "i1_mA", "i2_mA"), "mA"), (("q1", "q2", "I1 [A]", "I2 [A]"), "A")]
+)
+def test_a_unit_of_a_current_is_read_off_its_name(names, unit, tmp_path):
+    suggested = check_log(write_csv(tmp_path / "log.csv", recorded("time", *names))).suggestion
+    assert suggested["current"]["unit"] == unit
+
+
+@pytest.mark.parametrize("arms", [("left", "right"), ("Robot A", "Robot B")])
+def test_every_arm_of_a_file_has_a_mapping_of_its_own(arms, tmp_path):
+    table = {"time": COLUMNS["time"]}
+    for number, arm in enumerate(arms):
+        for name, values in list(COLUMNS.items())[1:]:
+            table[f"{arm}_{name}"] = values + number
+    path = write_csv(tmp_path / "log.csv", table)
+    seen = check_log(path)
+    mappings = [seen.suggestion, *seen.other_arms]
+    assert len(mappings) == len(arms)
+    for number, mapping in enumerate(mappings):
+        read = whole_rows(read_log(path, mapping=mapping)).position
+        np.testing.assert_allclose(read[:, 0], COLUMNS["q_1"] + number, atol=1e-12)
+
+
+def test_the_suggestion_for_lists_of_a_data_set_is_whole(tmp_path):
+    names = ("observation.state_1", "observation.state_2", "observation.effort_1", "observation.effort_2")
+    path = write_csv(tmp_path / "log.csv", recorded("timestamp", *names))
+    suggested = check_log(path).suggestion
+    assert suggested["profile"] == "lerobot"
+    assert read_log(path, mapping=suggested).joints == 2
