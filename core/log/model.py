@@ -20,7 +20,7 @@ class Defect:
     Attributes
     ----------
     kind
-        ``rearranged, bad_end, time_restarts, shuffled_rows, gap, jitter, repeated_rows,
+        ``rearranged, bad_end, time_restarts, shuffled_rows, broken_stamps, gap, jitter, repeated_rows,
         stuck_channel, outliers, saturation, quantisation, standstill, short,
         slow_rate, one_direction, velocity_mismatch, implausible_unit, missing_torque``.
     channel

@@ -47,13 +47,14 @@ def choose_rows(source: LogSource, stamps: Iterable[Samples] | None) -> Chosen:
     stamps
         All stamps in s, piece by piece, to be gone through once; None where the rows follow a uniform clock.
     """
-    order, done = Order(), []
+    order = Order()
+    done: list[Defect] = []
     if stamps is not None and _has_backward_steps(stamps):
         source = ArraySource(source.rows(0, source.samples))
         order = order_of(source.data.time, source.data.position)
-        if order.sorting is not None:
-            done.append(_sorting_defect(source.data, order))
-            source = ArraySource(rows_at(source.data, order.sorting))
+        if order.rows is not None:
+            done += _order_defects(source.data, order)
+            source = ArraySource(rows_at(source.data, order.rows))
     edges = [*order.starts, source.samples]
     runs = [Piece(start, stop) for start, stop in pairwise(edges)]
     runs, of_clock = _without_broken_clock(source, runs)
@@ -162,12 +163,22 @@ def _restart_defect(
     return Defect("time_restarts", "time", None, rows, tuple(sorted(longest)), statement)
 
 
-def _sorting_defect(rows: LogRows, order: Order) -> Defect:
-    statement = (
-        f"{order.moved} of {len(rows.time)} rows do not stand where their stamp belongs, and sorting them by "
-        "time makes the motion smoother: they are put in the order of time."
-    )
-    return Defect("shuffled_rows", "time", None, order.moved, (), statement)
+def _order_defects(rows: LogRows, order: Order) -> list[Defect]:
+    found = []
+    if order.moved:
+        statement = (
+            f"{order.moved} of {len(rows.time)} rows do not stand where their stamps belong, and fit the "
+            "motion there: they are put in the order of time."
+        )
+        found.append(Defect("shuffled_rows", "time", None, order.moved, (), statement))
+    if order.broken:
+        what = "row has a stamp" if order.broken == 1 else "rows have stamps"
+        statement = (
+            f"{order.broken} {what} out of order, and would not fit the motion where they belong by them: "
+            "left out as rows with a broken stamp."
+        )
+        found.append(Defect("broken_stamps", "time", None, order.broken, (), statement))
+    return found
 
 
 def _end_defects(ends: list[list[tuple[BadEnd, Samples]]]) -> list[Defect]:

@@ -150,7 +150,6 @@ FAULTS = {
     "no clock": (without("time"), "no column for time", '{"rate_hz": 250}'),
     "a value that is none": (set_to(100, 2, np.nan), "q_2: rows: 1; first_rows: 101", "cut these rows out"),
     "a stamp twice": (set_to(200, 0, None), "duplicate stamps: 1", '"time": null'),
-    "a step back": (set_to(200, 0, 0.5), "time goes backwards", "sort the rows by time"),
 }
 
 
@@ -210,12 +209,15 @@ def text_of(path, change):
 
 TEXTS = {
     "decimal commas between commas": (lambda text: text.replace(".", ","), "decimal commas", "semicolons"),
-    "blanks between columns": (lambda text: text.replace(",", " "), "separated by spaces", "by commas"),
-    "cut short": (lambda text: text[:-30], "line 2401 holds 3 cells", "copy it whole"),
-    "a line of units": (
-        lambda text: text.replace("\n", "\ns,rad,rad,Nm,Nm\n", 1),
-        "found: s",
-        "starts with #",
+    "a line of other units": (
+        lambda text: text.replace("\n", "\ns,deg,deg,Nm,Nm\n", 1),
+        "unit in the file: deg",
+        'map position with "unit": "deg"',
+    ),
+    "a row in the middle cut short": (
+        lambda text: text.replace("\n", "\n0.0,1.0\n", 200).replace("\n0.0,1.0\n", "\n", 199),
+        "holds 2 cells",
+        "one cell per column",
     ),
     "a decimal comma further down": (
         lambda text: text.replace(",", ";")[::-1].replace(".", ",", 1)[::-1],
