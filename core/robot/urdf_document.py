@@ -18,7 +18,7 @@ from .frames import rotation_rpy
 from .inertia import from_mass_properties
 from .model import Limits
 from .right_angles import meant_angle
-from .urdf_elements import attribute, child, children, excerpt, number, numbers, parse_urdf, required
+from .urdf_elements import attribute, bound, child, children, excerpt, number, numbers, parse_urdf, required
 
 MOVING_KINDS = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
 
@@ -75,11 +75,12 @@ class UrdfJoint:
 
     @cached_property
     def stops(self) -> tuple[float, float]:
-        """Give the lower and upper limit as written; 0 and 0 where there are none."""
+        """Give the lower and upper limit as written; 0 and 0 where either means none."""
         limit = child(self.element, "limit")
         if limit is None or self.kind == "continuous":
             return (0.0, 0.0)
-        return (number(limit, "lower", self.where, 0.0), number(limit, "upper", self.where, 0.0))
+        lower, upper = (bound(limit, side, self.where) for side in ("lower", "upper"))
+        return (0.0, 0.0) if lower is None or upper is None else (lower, upper)
 
     @cached_property
     def limits(self) -> Limits:
@@ -88,7 +89,7 @@ class UrdfJoint:
         if limit is None:
             return Limits()
         velocity, torque = (
-            abs(number(limit, side, self.where, 0.0)) or None for side in ("velocity", "effort")
+            abs(bound(limit, side, self.where) or 0.0) or None for side in ("velocity", "effort")
         )
         return Limits(self.stops if self.stops[0] < self.stops[1] else None, velocity, torque)
 

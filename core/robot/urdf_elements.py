@@ -21,7 +21,7 @@ _EXPAND = "expand it first: xacro robot.urdf.xacro > robot.urdf"
 _PREFIX = re.compile(rb"[<\s/]([A-Za-z_][\w.-]*):[A-Za-z_]")
 _MOST_PREFIXES = 50
 """More than a robot's file uses; each is looked for in the whole text."""
-_ROOT = re.compile(rb"<robot(?=[\s/>])")
+_ROOT_OR_COMMENT = re.compile(rb"<!--.*?-->|<robot(?=[\s/>])", re.DOTALL)
 _OTHERS = {
     "mujoco": (
         "an MJCF, MuJoCo's format",
@@ -114,7 +114,8 @@ def _with_prefixes_declared(text: bytes | str) -> bytes:
     used = {name for name in _PREFIX.findall(written) if name not in (b"xacro", b"xml", b"xmlns")}
     new = (name for name in sorted(used)[:_MOST_PREFIXES] if b"xmlns:" + name not in written)
     declared = b"".join(b' xmlns:%s="urn:undeclared:%s"' % (name, name) for name in new)
-    return _ROOT.sub(b"<robot" + declared, written, count=1)
+    root = next((found for found in _ROOT_OR_COMMENT.finditer(written) if found[0] == b"<robot"), None)
+    return written if root is None else written[: root.end()] + declared + written[root.end() :]
 
 
 def _bytes(text: bytes | str) -> bytes:
@@ -206,6 +207,24 @@ def number(element: Element, name: str, where: str, default: float | None = None
     if default is not None and element.get(name) is None:
         return default
     return float(_values(attribute(element, name, where), name, where, 1)[0])
+
+
+def bound(element: Element, name: str, where: str) -> float | None:
+    """Give a limit as a number; None where it is empty, infinite or no number, which writers mean as none.
+
+    A missing one is zero, as URDF says.
+
+    Raises
+    ------
+    RobotError
+        If it is a word.
+    """
+    text = element.get(name, "0").strip()
+    try:
+        value = float(text or "nan")
+    except ValueError:
+        return number(element, name, where)
+    return value if abs(value) <= LARGEST_NUMBER else None
 
 
 def numbers(element: Element | None, name: str, where: str, default: tuple[float, float, float]) -> Vector3:

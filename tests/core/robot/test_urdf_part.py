@@ -6,6 +6,7 @@ import pytest
 from tests.core.robot.urdf_makers import joint, link, robot
 from veritorque.core.errors import RobotError
 from veritorque.core.robot.inertia import from_mass_properties
+from veritorque.core.robot.model import Limits
 from veritorque.core.robot.plausibility import plausibility_warnings
 from veritorque.core.robot.urdf import robot_from_urdf
 
@@ -84,11 +85,19 @@ def test_a_lower_limit_above_the_upper_one_is_taken_for_none_and_said():
     assert "swap" not in _said(text)
 
 
+@pytest.mark.parametrize("none", ["inf", "-inf", "nan", "", "1e308"])
+def test_limits_without_a_value_are_none(none):
+    limit = f'<limit lower="-1" upper="{none}" effort="{none}" velocity="{none}"/>'
+    limits = robot_from_urdf(robot(PAIR + joint("a", "revolute", "base", "tip", limit))).joints[0].limits
+    assert limits == Limits()
+
+
 @pytest.mark.parametrize(
     "slip",
     [
         ('<limit lower="-2"', '<limit drake:acceleration="9" lower="-2"'),
         ("</robot>", '<drake:joint name="no joint"/></robot>'),
+        ("<robot", '<!-- a <robot> --><robot drake:x="1"'),
         ("</robot>", "<gazebo><sensor:imu/></gazebo></robot>"),
     ],
 )
