@@ -60,9 +60,9 @@ class Drawing:
         return child
 
     def add_chain(self, parent: str, kinds: list[str]) -> str:
-        """Hang a chain on a link."""
+        """Hang a chain on a link; one joint in ten follows another one of its kind, as in a parallelogram."""
         for kind in kinds:
-            parent = self.add_joint(parent, kind)
+            parent = self.add_joint(parent, kind, mimics=self.rng.random() < 0.1)
         return parent
 
     def _write(self, text: str) -> None:

@@ -43,7 +43,8 @@ def rank_of(text: str, seed: int) -> Rank:
     for _ in range(max(40, 80 * model.nv // len(joints) // 4)):
         q, dq, ddq = rng.uniform(-np.pi, np.pi, len(joints)), *rng.normal(scale=2.0, size=(2, len(joints)))
         angles, speeds, changes = gather.T @ q + offsets, gather.T @ dq, gather.T @ ddq
-        bodies = gather @ pin.computeJointTorqueRegressor(model, data, _state(model, angles), speeds, changes)
+        regressor = pin.computeJointTorqueRegressor(model, data, _state(model, angles), speeds, changes)
+        bodies = gather @ regressor.reshape(model.nv, -1)  # one joint's regressor comes as a vector
         drives = [np.diag(part) for part in (ddq, dq, np.sign(dq), np.ones(len(joints)))]
         blocks.append(np.hstack([bodies, *drives]))
     return _rank(np.vstack(blocks))
