@@ -16,13 +16,28 @@ HIGH_COST = 1.25
 """Constraints that raise the squared error by more than a quarter contradict the log."""
 POOR_PREDICTION_PERCENT = 50.0
 HELD_OUT_OVER_FITTED = 2.0
+DOUBTFUL = ("implausible_unit", "velocity_mismatch", "one_direction")
+"""Defects of a log by which values are wrong, or not known, however well the model fits."""
 CERTAIN = 3.0
 """A value this many standard deviations from zero has a significant sign."""
 
 
 def doubts(found: Identification) -> tuple[str, ...]:
     """List the warnings."""
-    return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found), *_not_excited(found))
+    fitted = (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found), *_not_excited(found))
+    return (*_logs(found), *fitted)
+
+
+def _logs(found: Identification) -> list[str]:
+    """Say what a log shows against itself, whatever the fit; of several joints the first is told in full."""
+    sentences = []
+    for log in found.logs:
+        for kind in DOUBTFUL:
+            alike = [defect for defect in log.defects if defect.kind == kind]
+            others = ", ".join(str(defect.joint) for defect in alike[1:])
+            more = f" (so it is on joints {others})" if others else ""
+            sentences += [f"Log {log.name}: {defect.statement.rstrip('.')}{more}" for defect in alike[:1]]
+    return sentences
 
 
 def _cost(found: Identification) -> list[str]:

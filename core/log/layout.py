@@ -20,6 +20,7 @@ from .named_units import unit_called
 from .refusals import absent_names, contradiction_error, missing_error, unit_error
 
 OTHER_NAME = "a column of another name is mapped, with its unit"
+OTHER_FILE = "if they are in another file, join the two: veritorque logs join A B -o run.parquet"
 
 
 @dataclass(frozen=True)
@@ -232,13 +233,15 @@ def _binding(channel: str, request: ChannelRequest) -> Binding:
 def _require(table: Table, channels: Sequence[Binding]) -> None:
     names = [channel.name for channel in channels]
     if "position" not in names:
-        raise missing_error("position", ["q_1", "q_2", "..."], table, "map the positions with their unit")
+        remedy = f"map the positions with their unit; {OTHER_FILE}"
+        raise missing_error("position", ["q_1", "q_2", "..."], table, remedy)
     if not set(EFFORTS) & set(names):
         raise missing_error(
             EFFORTS[0],
             [name for effort in EFFORTS for name in (f"{CHANNELS[effort].prefix}_1", "...")],
             table,
-            f"log the torque of every joint, or its motor current, with the positions; {OTHER_NAME}",
+            f"log the torque of every joint, or its motor current, with the positions; {OTHER_NAME}; "
+            f"{OTHER_FILE}",
         )
 
 

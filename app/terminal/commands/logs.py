@@ -9,6 +9,7 @@ import typer
 from ....core.errors import LogError
 from ..options import JsonOption, MappingOption, ProfileOption, mapping_of
 from ..output.exit_codes import Exit
+from ..output.files import require_folder
 from ..output.streams import complain, echo, note
 
 if TYPE_CHECKING:
@@ -25,6 +26,11 @@ EPILOG = """\b
 Examples:
   veritorque logs check examples/yumi/log.csv
   veritorque logs check examples/yumi/log.csv --fail-on-defects --json
+"""
+
+JOIN_EPILOG = """\b
+Example:
+  veritorque logs join positions.csv torques.csv -o run.parquet
 """
 
 
@@ -62,6 +68,26 @@ def check(
         raise typer.Exit(Exit.INPUT)
     if fail_on_defects and any(document["defects"] for document in documents):
         raise typer.Exit(Exit.FOUND)
+
+
+@COMMANDS.command(epilog=JOIN_EPILOG)
+def join(
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG LOG...", help="Files of one run, with stamps.")],
+    *,
+    output: Annotated[Path, typer.Option("--output", "-o", help="Parquet file to write.")],
+) -> None:
+    """Join files of one run: positions in one and torques in another, or a file per joint or channel."""
+    from ....core.log.joining import join_logs
+    from ..computing import limit_threads
+
+    limit_threads(1)
+    require_folder(output)
+    joined = join_logs(logs)
+    joined.save(output)
+    for line in joined.notes:
+        note(f"  {line}")
+    rows = len(next(iter(joined.columns.values())))
+    echo(f"{output}: {rows} rows, {len(joined.columns)} columns: {', '.join(joined.columns)}")
 
 
 def _print_suggestion(path: Path, seen: "LogCheck") -> None:

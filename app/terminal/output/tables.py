@@ -11,6 +11,8 @@ from .columns import Column, print_table
 
 Document = Mapping[str, Any]
 FRICTION: Final = ("OFF", "FC", "FV")
+READ_OTHERWISE: Final = ("rearranged", "bad_end", "time_restarts", "shuffled_rows", "broken_stamps")
+"""Defects of a log by which it was read otherwise than it stands in its file."""
 
 
 def print_result(console: Console, result: Document) -> None:
@@ -91,6 +93,8 @@ def summary(result: Document) -> list[str]:
             f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
             f"configurations: {number(workspace['workspace'])}."
         )
+    defects = [defect for defect in result.get("defects", []) if defect["kind"] in READ_OTHERWISE]
+    lines += [f"Log {defect['log']}: {escape(defect['statement'])}" for defect in defects]
     return lines + [f"Warning: {escape(doubt)}" for doubt in result.get("doubts", [])]
 
 

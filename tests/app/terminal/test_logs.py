@@ -241,3 +241,21 @@ def test_decimal_commas_are_understood_where_columns_are_not_set_apart_by_commas
     path = text_of(tmp_path / "comma.csv", lambda text: text.replace(",", sign).replace(".", ","))
     told = json.loads(run("logs", "check", path, "--json").stdout)
     assert (told["rate_hz"], told["defects"]) == (pytest.approx(200.0, rel=1e-6), [])
+
+
+def test_files_of_one_run_are_joined_into_one_log(tmp_path):
+    time, position, torque = columns(seconds=12.0)
+    for name, values, prefix in (("positions", position, "q"), ("torques", torque, "tau")):
+        header = f"time,{prefix}_1,{prefix}_2"
+        np.savetxt(
+            tmp_path / f"{name}.csv",
+            np.column_stack([time, values]),
+            delimiter=",",
+            header=header,
+            comments="",
+        )
+    both = [str(tmp_path / "positions.csv"), str(tmp_path / "torques.csv")]
+    joined = run("logs", "join", *both, "-o", str(tmp_path / "run.parquet"))
+    assert (joined.exit_code, "2400 rows" in joined.stdout) == (Exit.DONE, True)
+    assert run("logs", "check", str(tmp_path / "run.parquet")).stdout.endswith("0 defects\n")
+    assert run("logs", "join", *both, "-o", str(tmp_path / "none" / "run.parquet")).exit_code == Exit.INPUT

@@ -69,3 +69,14 @@ def test_a_joint_that_stands_is_named_as_not_excited(world):
 
 def test_a_model_that_explains_little_is_doubted(world):
     assert any("unexplained" in one for one in _doubts(*world, terms=["viscous"]))
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"), [(1e5, "in whole numbers"), (1e3, "read as mN m it would be")], ids=["counts", "mN m"]
+)
+def test_what_a_log_shows_against_itself_is_doubted_whatever_the_fit(world, factor, said):
+    robot, rows = world
+    torque = rows.torque * factor * 3000.0 / np.abs(rows.torque).max() / 500.0
+    found = _doubts(robot, rows, torque=np.round(torque) if said == "in whole numbers" else torque)
+    (doubt,) = [one for one in found if one.startswith("Log log:")]
+    assert said in doubt

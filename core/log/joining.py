@@ -1,0 +1,161 @@
+"""Join files that belong together: positions in one and torques in another, or a file per joint or channel.
+
+The clock of the first file that holds positions is kept, because positions are differentiated. What other
+files hold is brought to it, inside the time that all share: as it is where the stamps are the same, else
+positions by a cubic through four samples, and torques, which carry noise, by a straight line between two.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from ..arrays import Instants, Samples
+from ..errors import LogError
+from .channels import CHANNELS, TIME, UNITS
+from .column_families import channel_of, name_words
+from .formats.table import Table, check_values
+from .named_units import unit_called, unit_in_name
+from .plausible_units import plausible_readings
+from .reader import open_table
+
+CUBIC_POINTS = 4
+FEWEST_SHARED = 0.5
+"""Files that share less than this part of the shortest one's time do not belong together."""
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """Carry the columns of several files on one clock, and what was done to get them."""
+
+    columns: dict[str, Samples]
+    notes: tuple[str, ...]
+
+    def save(self, path: Path) -> None:
+        """Write the columns as Parquet."""
+        pq.write_table(pa.table(self.columns), path)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Carry the columns of one file."""
+
+    name: str
+    stamp: str
+    time: Samples
+    columns: dict[str, Samples]
+
+
+def join_logs(paths: Sequence[Path]) -> Joined:
+    """Join files by their stamps.
+
+    Columns keep their names; those that several files have get the name of their file in front.
+
+    Raises
+    ------
+    LogError
+        If a file has no clock, or clocks share less than half of the shortest file's time.
+    """
+    parts = [_read(path) for path in paths]
+    first = next((part for part in parts if any(map(_is_position, part.columns))), parts[0])
+    begin, end = max(part.time[0] for part in parts), min(part.time[-1] for part in parts)
+    _check_shared(parts, float(begin), float(end))
+    inside = (first.time >= begin) & (first.time <= end)
+    clock = first.time[inside]
+    columns, notes = {TIME: clock}, []
+    taken = _repeated([name for part in parts for name in part.columns])
+    for part in parts:
+        same = len(part.time) == len(first.time) and np.array_equal(part.time, first.time)
+        for name, values in part.columns.items():
+            kept = values[inside] if same else _brought(name, clock, part.time, values)
+            columns[f"{part.name}_{name}" if name in taken else name] = kept
+        if not same:
+            notes.append(
+                f"{part.name}: brought to the clock of {first.name} by straight lines between samples"
+            )
+    check_values(len(columns) * len(clock))
+    if not inside.all():
+        notes.append(
+            f"{int(np.count_nonzero(~inside))} rows of {first.name} outside the shared time left out"
+        )
+    return Joined(columns, tuple(notes))
+
+
+def _is_position(name: str) -> bool:
+    return channel_of(name, ()) in ("position", "position_ref")
+
+
+def _brought(name: str, clock: Instants, time: Samples, values: Samples) -> Instants:
+    """Interpolate a column at other stamps."""
+    if not _is_position(name) or len(time) < CUBIC_POINTS:
+        return np.asarray(np.interp(clock, time, values))
+    first = np.clip(np.searchsorted(time, clock) - CUBIC_POINTS // 2, 0, len(time) - CUBIC_POINTS)
+    points = [first + offset for offset in range(CUBIC_POINTS)]
+    total = np.zeros(len(clock))
+    for own in points:
+        weight = np.ones(len(clock))
+        for other in points:
+            if other is not own:
+                weight *= (clock - time[other]) / (time[own] - time[other])
+        total += weight * values[own]
+    return total
+
+
+def _read(path: Path) -> _Part:
+    table = open_table(path)[1]
+    stamp = _stamp(table, path)
+    numbers = [name for name in table.names if name != stamp and name not in table.texts]
+    block = np.hstack(list(table.batches([stamp, *numbers])))
+    time = block[0] * _seconds(table, stamp, block[0])
+    if not np.all(np.diff(time) > 0.0):
+        raise LogError(
+            "the stamps of a file that is to be joined do not increase",
+            evidence={
+                "file": path.name,
+                "column": stamp,
+                "not_increasing": int(np.sum(np.diff(time) <= 0.0)),
+            },
+            remedy="join files of one run each, whose stamps increase",
+        )
+    return _Part(path.stem, stamp, time, dict(zip(numbers, block[1:], strict=True)))
+
+
+def _stamp(table: Table, path: Path) -> str:
+    words = set(CHANNELS[TIME].words)
+    found = [name for name in table.names if name_words(name) & words and channel_of(name, ()) is None]
+    if not found:
+        raise LogError(
+            "a file that is to be joined has no clock",
+            evidence={"file": path.name, "columns": list(table.names[:24])},
+            remedy="give every file a column of stamps on one clock, called time",
+        )
+    return found[0]
+
+
+def _seconds(table: Table, stamp: str, values: Samples) -> float:
+    """Give how many seconds one of the stamps is."""
+    said = unit_called(TIME, table.units.get(stamp, "")) or unit_in_name(TIME, stamp)
+    plausible = plausible_readings(TIME, values)
+    unit = said or (plausible[0].split(":")[0] if plausible and stamp != TIME else "s")
+    return UNITS[TIME][unit].factor
+
+
+def _check_shared(parts: Sequence[_Part], begin: float, end: float) -> None:
+    shortest = min(part.time[-1] - part.time[0] for part in parts)
+    if end - begin >= FEWEST_SHARED * shortest:
+        return
+    spans: Mapping[str, list[float]] = {
+        part.name: [float(part.time[0]), float(part.time[-1])] for part in parts
+    }
+    raise LogError(
+        "the files share too little time to belong together",
+        evidence={"from_to_s": dict(spans), "shared_s": max(end - begin, 0.0)},
+        remedy="join files of the same run, on the same clock",
+    )
+
+
+def _repeated(names: Sequence[str]) -> set[str]:
+    return {name for name in names if names.count(name) > 1}
