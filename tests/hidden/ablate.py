@@ -22,8 +22,12 @@ from pkgutil import iter_modules
 from typing import NamedTuple
 
 from tests.hidden.group_test import group_test
-from tests.hidden.plan import Order, answered, drawn, orders, quick
+from tests.hidden.plan import Order, drawn, orders, quick
 from tests.plant.cases import ImpossibleError
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.identification.options import parse_diagnose_options
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
 
 PACKAGE = "veritorque.core.diagnosis"
 FACTORS = {0.5: "halved", 2.0: "doubled"}
@@ -37,15 +41,7 @@ NEAR_ONE = {
 }
 """Probabilities and shares near 1: it is their distance from 1 that is halved and doubled."""
 ODD = {"ROWS.spike_order"}
-LOADED = (
-    "clarabel",
-    "numba",
-    "scipy.stats",
-    "sklearn.ensemble",
-    "tests.hidden.plan",
-    "veritorque.core.identification.identify",
-    "veritorque.core.simulation.multistep",
-)
+LOADED = ("clarabel", "numba", "scipy.stats", "sklearn.ensemble", "tests.hidden.plan")
 """What every process begins with: all but the diagnosis, whose defaults are read when it is loaded."""
 Answer = tuple[str, ...]
 """The verdict, and every cause with its joints."""
@@ -202,11 +198,16 @@ def answers(task: Task) -> Answers:
 
 
 def _answer(order: Order) -> Answer:
+    from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
+
+    case = drawn(order)
+    base = base_model(standard_model(case.believed, None))
+    plan, validation = ColumnPlan(base.model, base.kept), parse_diagnose_options({}).validation
     try:
-        found = answered(drawn(order))
+        found = diagnose(DiagnosisProblem(plan, (case.log,), validation.chosen(1), validation.blocks))
     except Exception as error:  # noqa: BLE001 - a failure is an answer, too
         return (f"failed: {error}",)
-    return (found["verdict"], *sorted(f"{one['cause']} {one['joints']}" for one in found["findings"]))
+    return (found.verdict, *sorted(f"{one.cause} {list(one.joints)}" for one in found.findings))
 
 
 def _possible(listed: list[Order]) -> Iterator[Order]:
