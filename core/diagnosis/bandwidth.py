@@ -44,8 +44,7 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
             break
         actual = dataset.band_hz / dataset.motion_band_hz
         factor = (BAND.noise_share / share) ** BAND.noise_power
-        narrowing = float(np.clip(factor, BAND.least_narrowing, BAND.most_narrowing))
-        width = max(BAND.narrowest, min(width, actual) * narrowing)
+        width = max(BAND.narrowest, min(width, actual) * min(factor, BAND.most_narrowing))
         fitted = dataset_at(width)
         even, even_shares = position_noise_torque(fitted, over_stamps=False)
     # With scattered stamps a wide band still shows friction, but no delay, filter or spring.

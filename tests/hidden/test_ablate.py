@@ -25,7 +25,7 @@ def test_every_threshold_can_be_changed_and_stays_of_its_kind():
     ("name", "value", "factor", "changed"),
     [
         ("ENTRY.level", 1e-4, 2.0, 2e-4),
-        ("SEARCH.several", 1, 0.5, 1),
+        ("SEARCH.causes", 1, 0.5, 1),
         ("ROWS.spike_order", 5, 2.0, 11),
         ("PREDICTION.quantile", 0.975, 2.0, 0.95),
     ],

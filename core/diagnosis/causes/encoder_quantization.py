@@ -6,7 +6,7 @@ import numpy as np
 
 from ...arrays import JointSeries, JointVector, Mask
 from ...dynamics.prediction import Prediction
-from ...log.defects.resolution import FEWEST_INCREMENTS, Resolution
+from ...log.defects.resolution import FEWEST_INCREMENTS, NEAR, Resolution
 from ...log.defects.stretch import stretches
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit, prismatic_joints
@@ -78,7 +78,7 @@ def _finding(
             f"and for {100.0 * float(of_torque.max()):.2g} % of joint {int(of_torque.argmax()) + 1}'s torque"
         ),
         statistic=float(share.max()),
-        p_value=SAMPLE_CHECKS.increment_by_chance**FEWEST_INCREMENTS,
+        p_value=(2.0 * NEAR) ** FEWEST_INCREMENTS,
         residual_share=share,
     )
 

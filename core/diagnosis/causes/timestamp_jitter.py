@@ -20,7 +20,7 @@ from ...signals.resample import dropped_mask, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
-from ..thresholds.dataset import SAMPLE_CHECKS
+from ..thresholds.dataset import ROWS, SAMPLE_CHECKS
 from .protocol import Quantity, number_text
 from .sample_check import Corruption, SampleCheck, SampleFinding, residual_share
 
@@ -84,7 +84,7 @@ def _jittered(std: float) -> Corruption:
 def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]:
     """Give remainders, velocities and the remaining share of white noise, over the segment's beginning."""
     rate_hz = segment.rate_hz
-    count = min(segment.samples, int(SAMPLE_CHECKS.jitter_seconds * rate_hz))
+    count = min(segment.samples, int(ROWS.seconds * rate_hz))
     low_pass = kernel(SAMPLE_CHECKS.jitter_band * rate_hz, rate_hz, SAMPLE_CHECKS.filter_order)
     reach = len(low_pass) // 2
     if count < SAMPLE_CHECKS.jitter_filters * reach:

@@ -23,7 +23,7 @@ from ..search.likelihood_ratio import bic_gain, likelihood_ratio
 from ..search.residuals import residual
 from ..search.state import SearchState
 from ..thresholds.checks import ALTERNATIVES
-from ..thresholds.search import SELECTION
+from ..thresholds.search import MASKING, SEARCH, SELECTION
 from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 
@@ -131,7 +131,7 @@ def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Cand
 def _pattern_is_better(own: Comparison) -> bool:
     """Tell whether an unnamed pattern explains much more than a member in its place."""
     if own.member.cause.traits.transient:
-        return own.over_unnamed < ALTERNATIVES.event_share * own.statistic
+        return own.over_unnamed < MASKING.kept * own.statistic
     return own.over_unnamed < -max(SELECTION.undecided, ALTERNATIVES.unnamed_share * own.statistic)
 
 
@@ -170,7 +170,7 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
         for scored in fitter.scan(without)
         if scored.candidate.key not in taken and scored.candidate.cause.id not in closed
     ]
-    trials = [with_candidate(fitter, without, scored) for scored in others[: ALTERNATIVES.compared]]
+    trials = [with_candidate(fitter, without, scored) for scored in others[: SEARCH.swaps]]
     whole = [fitter.fit(trial.members, trial) for trial in trials]
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 

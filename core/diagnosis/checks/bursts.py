@@ -12,6 +12,8 @@ from ...arrays import Indices, JointSeries
 from ..dataset.dataset import Dataset
 from ..result import UnnamedPattern
 from ..thresholds.checks import UNNAMED
+from ..thresholds.residual import PREDICTION
+from ..thresholds.search import HOLDOUT
 
 
 def burst(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
@@ -37,7 +39,7 @@ def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tupl
         (float(np.median(size[inside]) / max(elsewhere, 1e-300)), joint, begin)
         for log in np.unique(dataset.log[rows])
         for begin, inside, beside in _windows(dataset, rows, int(log))
-        if len(size) - len(beside) >= UNNAMED.least_rows
+        if len(size) - len(beside) >= PREDICTION.least_rows
         for elsewhere in [float(np.sqrt(np.mean(np.delete(size, beside) ** 2)))]
     ]
 
@@ -51,7 +53,7 @@ def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, Ind
     for begin in begins:
         after, before = time - begin, begin + UNNAMED.burst_seconds - time
         inside = own[(after >= 0.0) & (before >= 0.0)]
-        if len(inside) >= UNNAMED.burst_rows:
+        if len(inside) >= HOLDOUT.least_rows:
             around = own[(after > -UNNAMED.burst_distance) & (before > -UNNAMED.burst_distance)]
             found.append((float(begin), inside, around))
     return found

@@ -15,8 +15,8 @@ from ...arrays import Indices, JointSeries, Samples, Vector
 from ...numerics.chi2_tail import log_chi2_tail
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis
-from ..thresholds.checks import UNNAMED
 from ..thresholds.dataset import BAND
+from ..thresholds.residual import PREDICTION
 from .unnamed_pattern import UnnamedPatternCause
 
 SMOOTHED = (3, 5, 9, 15)
@@ -36,7 +36,7 @@ def switching_candidates(
     dataset, found = fitter.dataset, []
     for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
         rows = int(np.count_nonzero(usable))
-        if rows < UNNAMED.least_rows or dataset.log.any():
+        if rows < PREDICTION.least_rows or dataset.log.any():
             continue
         ways = list(_change_sets(dataset.time, joint, np.where(usable, series, 0.0), rows))
         chances = [
@@ -52,7 +52,7 @@ def _change_sets(time: Samples, joint: int, series: Samples, rows: int) -> Itera
     """Give a joint's sets of change points that are neither too few nor too many to be tested."""
     for changes in _changes(series):
         trials = _log_trials(len(changes), rows / BAND.rows)
-        if len(changes) >= UNNAMED.least_changes and trials < UNNAMED.most_log_trials:
+        if len(changes) > 1 and trials < np.log(np.finfo(float).max):
             instants = 0.5 * (time[changes] + time[changes + 1])
             yield Candidate(_UNLISTED, (joint,), _UNLISTED.switching(instants), float(np.exp(trials)))
 

@@ -58,11 +58,8 @@ def predictors(statistic: float, margin: float, measured: Gain | None) -> Predic
     measured
         Its gain on held-out rows; None where it was not measured.
     """
-    strength = np.clip(
-        (statistic - CONFIDENCE.clear_statistic) / CONFIDENCE.clear_statistic,
-        CONFIDENCE.least_strength,
-        CONFIDENCE.most_strength,
-    )
+    clear = CONFIDENCE.clear_statistic
+    strength = min((statistic - clear) / clear, CONFIDENCE.most_strength)
     lead = np.clip(margin / SELECTION.undecided, CONFIDENCE.least_lead, CONFIDENCE.most_lead)
     helps = 0.0 if measured is None else float(np.sign(measured.interval_95[0]))
     return float(strength), float(lead), helps

@@ -14,6 +14,7 @@ from ..dataset.dataset import Dataset
 from ..residual.blocks import row_blocks
 from ..result import UnnamedPattern
 from ..thresholds.checks import UNNAMED
+from ..thresholds.residual import PREDICTION
 
 NORMAL = 3.0
 
@@ -23,7 +24,7 @@ def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern 
     blocks = row_blocks(dataset)
     found = []
     for joint, (series, usable) in enumerate(zip(residual.T, dataset.usable.T, strict=True), start=1):
-        if np.count_nonzero(usable) < UNNAMED.least_rows:
+        if np.count_nonzero(usable) < PREDICTION.least_rows:
             continue
         smooth = uniform_filter1d(np.where(usable, series, 0.0), UNNAMED.level_rows)[usable]
         size, deviation = kurtosis(smooth, blocks[usable])

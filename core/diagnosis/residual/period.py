@@ -128,7 +128,7 @@ def _mismatch(position: JointSeries) -> Vector:
 def _minima(mismatch: Vector) -> list[int]:
     """List the lags of low minima beyond the first rise, shortest first."""
     last = int(FLOOR.longest_lag * len(mismatch))
-    risen = np.flatnonzero(mismatch[:last] > FLOOR.risen)
+    risen = np.flatnonzero(mismatch[:last] > FLOOR.valley)
     if not len(risen):
         return []
     inner = np.arange(max(int(risen[0]), 1), last - 1)

@@ -34,7 +34,7 @@ def is_masked(fitter: HypothesisFitter, whole: Hypothesis, index: int, less: Hyp
                 return True
             continue
         left = MASKING.left * np.maximum(likelihood_ratio_by_joint(without, whole), 0.0)
-        if np.maximum(own_ratio - left, 0.0).sum() < MASKING.clear * own_ratio.sum():
+        if np.maximum(own_ratio - left, 0.0).sum() < MASKING.kept * own_ratio.sum():
             return True
     return False
 
@@ -50,7 +50,7 @@ def _is_masked_event(
 
 def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, other: Candidate, alone: float) -> bool:
     """Tell whether a candidate explains as much beside a hypothesis: then it is no alternative."""
-    return fitter.scan(own, [other])[0].statistic > MASKING.beside * alone
+    return fitter.scan(own, [other])[0].statistic > MASKING.kept * alone
 
 
 def is_masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) -> bool:

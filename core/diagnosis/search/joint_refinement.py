@@ -7,7 +7,7 @@ Numer. Anal. 10(2), 1973, on refining nonlinear parameters by turns.
 
 from dataclasses import replace
 
-from ..thresholds.search import REFINEMENT, SELECTION
+from ..thresholds.search import MASKING, REFINEMENT, SELECTION
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import likelihood_ratio
@@ -41,7 +41,7 @@ def _costs_too_much(fitter: HypothesisFitter, before: Hypothesis, after: Hypothe
     if likelihood_ratio(before, after) > -SELECTION.undecided:
         return False
     without = fitter.fit(before.members[:-1], before)
-    return likelihood_ratio(without, after) < REFINEMENT.kept * likelihood_ratio(without, before)
+    return likelihood_ratio(without, after) < MASKING.kept * likelihood_ratio(without, before)
 
 
 def _refine_once(state: SearchState) -> SearchState:

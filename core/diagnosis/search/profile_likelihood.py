@@ -14,6 +14,7 @@ from scipy.optimize import root_scalar
 from ...arrays import Samples, Vector
 from ...numerics.chi2_tail import log_chi2_tail
 from ..regression.score_test import Score
+from ..thresholds.causes import EVENTS
 from ..thresholds.search import REFINEMENT
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis, admits
@@ -130,7 +131,7 @@ def _peaks(time: Samples, worth: np.ndarray) -> list[float]:
     for instant in time[np.argsort(-worth, kind="stable")]:
         if len(peaks) == REFINEMENT.onsets:
             break
-        if all(abs(instant - peak) > REFINEMENT.onset_distance for peak in peaks):
+        if all(abs(instant - peak) > EVENTS.shortest for peak in peaks):
             peaks.append(float(instant))
     return peaks
 

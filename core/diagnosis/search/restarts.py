@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..causes.masking import excludes, masks
-from ..thresholds.search import SEARCH, SELECTION
+from ..thresholds.search import SELECTION
 from .hypothesis import Hypothesis
 from .likelihood_ratio import likelihood_ratio
 from .state import SearchState
@@ -32,7 +32,7 @@ def _restarts(found: SearchState) -> Iterator[SearchState]:
     """Give the ends of restarts that do not come to a set of causes which the search came through."""
     present = [member.cause.id for member in found.chosen.members]
     for cause in found.fitter.causes:
-        if cause.id in present or sum(map(masks(cause.id).__contains__, present)) < SEARCH.several:
+        if cause.id in present or len([name for name in present if name in masks(cause.id)]) < 2:
             continue
         start = _start_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
         if start is not None:

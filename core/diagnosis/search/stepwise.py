@@ -150,5 +150,5 @@ def _swap(state: SearchState, smaller: Sequence[Hypothesis], brings: Sequence[fl
         if swapped is not None:
             after = state.at(fitter, swapped)
             after = after.recorded("swapped", swapped.members[-1], likelihood_ratio(now, swapped))
-            return after.excluding(member.key, MASKING.beside * brings[index])
+            return after.excluding(member.key, MASKING.kept * brings[index])
     return None

@@ -77,10 +77,8 @@ class Linearisation:
 class Events:
     """Decide which short spans hold a contact. All are set by hand unless a source is named."""
 
-    level: float = 1e-3
-    """Probability of an event in a log of noise alone."""
-    trials_of_span: float = 2.0
-    """Factor on the number of spans, for shifting and stretching the best one."""
+    level: float = 5e-4
+    """Probability of an event in a log of noise alone, for spans that are not shifted and stretched."""
     spans: int = 1200
     """Spans of a log of half a minute that a contact's p-value is corrected for. Counted from the grid."""
     onsets: int = 120
@@ -89,7 +87,7 @@ class Events:
     least_share: float = 0.2
     """Share of the best event's score that others have to reach."""
     shortest: float = 0.2
-    """Seconds: what is shorter is an outlier."""
+    """Seconds: what is shorter is an outlier, and what begins so soon after another is not told from it."""
     longest: float = 3.2
     """Seconds of the longest span in the grid: what is longer lasts."""
     edge: float = 0.6

@@ -15,14 +15,10 @@ class Alternatives:
     """The same where the two agree to first order in frequency."""
     unnamed_share: float = 0.25
     """Share of a finding's likelihood ratio by which an unnamed pattern has to lead to refute it."""
-    event_share: float = 0.5
-    """Share of its likelihood ratio by which a cause in short spans has to lead over patterns."""
     least_expected: float = 4.0
     """Likelihood ratio expected on held-out rows below which these decide little."""
     least_gain: float = 0.5
     """Per cent by which a cause has to reduce the error on held-out rows."""
-    compared: int = 6
-    """Alternatives that are fitted."""
     least_ratio_listed: float = 0.1
     """Share of a finding's likelihood ratio from which a refuted alternative is listed."""
 
@@ -48,12 +44,6 @@ class Unnamed:
     """Seconds that a log counts for at least when rates are laid out."""
     most_seconds: float = 60.0
     """Seconds that it counts for at most: what is slower is drift."""
-    least_rows: int = 200
-    """Usable rows of a joint (for a burst: outside it) from which on it is judged."""
-    least_changes: int = 2
-    """Changes of level from which on a torque is called switching."""
-    most_log_trials: float = 600.0
-    """Natural logarithm of the number of ways to place the changes beyond which none is judged."""
     level_rows: int = 5
     """Rows that are averaged before the kurtosis is taken."""
     level_deviations: float = 5.0
@@ -64,8 +54,6 @@ class Unnamed:
     """Seconds from a window to the rows that it is compared with."""
     burst_ratio: float = 6.0
     """Ratio of the median size in a window to the RMS elsewhere from which it is a burst."""
-    burst_rows: int = 8
-    """Rows of a window from which on it is judged."""
 
 
 @dataclass(frozen=True)
@@ -80,8 +68,6 @@ class Confidence:
     """Probability, the highest that is reported. Set by hand."""
     clear_statistic: float = 25.0
     """Likelihood ratio at which the strength is 0; each further one of that size adds 1."""
-    least_strength: float = -1.0
-    """Smallest strength."""
     most_strength: float = 2.0
     """Largest strength."""
     least_lead: float = -1.0

@@ -28,8 +28,6 @@ class Band:
     noise_power: float = 0.2
     """Power of the excess by which the band is narrowed. Source: the torque of white position noise grows
     with the square of frequency, its mean square in a band with the fifth power of the band's edge."""
-    least_narrowing: float = 0.5
-    """Smallest factor of one narrowing."""
     most_narrowing: float = 0.85
     """Largest factor of one narrowing."""
     narrowings: int = 4
@@ -47,7 +45,7 @@ class Rows:
     """Choose the rows of a diagnosis. All are set by hand unless a source is named."""
 
     seconds: float = 120.0
-    """Seconds of all logs together that are used."""
+    """Seconds of all logs together that are used, and of every segment that are examined for jitter."""
     stretch_seconds: float = 30.0
     """Seconds of one stretch of a long log."""
     reversal_periods: float = 1.0
@@ -85,8 +83,6 @@ class SampleChecks:
     """Order of the low-pass filters of the checks."""
     dropped_reach: int = 5
     """Rows over which it is judged whether the robot moved."""
-    jitter_seconds: float = 120.0
-    """Seconds of every segment that are examined for jitter."""
     jitter_band: float = 0.25
     """Share of the log's rate above which positions are compared with velocities."""
     jitter_filters: int = 8
@@ -107,8 +103,6 @@ class SampleChecks:
     """Share of a residual from which an encoder that stands out is reported."""
     coarse_of_torque: float = 0.02
     """Share of a torque from which an encoder that stands out is reported."""
-    increment_by_chance: float = 0.2
-    """Probability that one increment lies within a tenth of a whole number of steps. Two tenths of a step."""
 
 
 SAMPLE_CHECKS = SampleChecks()

@@ -57,10 +57,8 @@ class Floor:
     """Share of the instants that must repeat."""
     longest_lag: float = 0.8
     """Share of the stretch up to which a period is sought."""
-    risen: float = 0.5
-    """Mismatch, relative to independent positions, from which on the motion has left where it began."""
     valley: float = 0.3
-    """Mismatch, in the same units, below which a minimum may be a period."""
+    """Mismatch, relative to independent positions, below which a minimum may be a period after a rise."""
 
 
 PREDICTION, FLOOR = Prediction(), Floor()

@@ -56,7 +56,7 @@ class Holdout:
     over_usual: float = 6.0
     """Ratio of the same to the mean of the fitted blocks, which has to be exceeded as well."""
     least_rows: int = 8
-    """Rows of a block from which on it is judged."""
+    """Rows of a block, or of a window in which a burst is sought, from which on it is judged."""
     as_many: float = 0.5
     """Share of the rows held out first that other held-out blocks must have, per joint."""
     block_rows: int = 25
@@ -70,14 +70,12 @@ class Masking:
     All are set by hand unless a source is named.
     """
 
-    beside: float = 0.5
-    """Share of its likelihood ratio that a cause keeps beside a finding if it is no alternative to it.
-    Source: docs/decisions.md."""
+    kept: float = 0.5
+    """Share of its likelihood ratio that a cause has to keep: beside another one if it is no alternative to
+    it, beyond what others leave, over unnamed patterns if it acts in short spans, and at the operating point
+    that it yields. Source: 686 and 840 simulated logs, docs/decisions.md."""
     left: float = 0.25
     """Share of a cause's likelihood ratio, per joint, that its columns' error may leave."""
-    clear: float = 0.5
-    """Share of a member's likelihood ratio that has to lie beyond what others leave. Source: 686 and 840
-    simulated logs, docs/decisions.md."""
     event_over_other: float = 0.05
     """Share of another cause's likelihood ratio that a cause in short spans has to reach. Source: false
     contacts beside strong effects in simulated logs reached 0.04, docs/decisions.md."""
@@ -102,10 +100,7 @@ class Search:
     fitted_whole: int = 4
     """Best candidates that are fitted with the noise of all joints estimated anew."""
     swaps: int = 6
-    """Candidates that are fitted in a member's place."""
-    several: int = 2
-    """Findings from which on one common cause is tried in their place. The smallest number that is
-    several."""
+    """Candidates that are fitted in a member's place, for a swap or as alternatives."""
     scored_anew: int = 24
     """Best candidates of a scan that are scored again at the present operating point."""
     cached_change: float = 0.01
@@ -122,14 +117,10 @@ class Refinement:
 
     rounds: int = 8
     """Rounds of joint refinement at most."""
-    kept: float = 0.5
-    """Share of its likelihood ratio that a cause has to keep at the operating point that it yields."""
     onset_joints: int = 3
     """Joints that decide when a cause begins to act, those with the largest effect."""
     onsets: int = 12
     """Likely instants of onset that are compared."""
-    onset_distance: float = 0.2
-    """Seconds between two of them at least."""
     interval: float = 1.96
     """Standard deviations of a normal variable on each side that hold 95 %. A quantile of the normal law."""
     drop: float = 0.5

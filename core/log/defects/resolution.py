@@ -16,6 +16,8 @@ SAMPLED_ROWS = 20_000
 SMALL_STEPS = 20
 """Increments of up to this many steps show the grid; larger ones lose it in rounding."""
 FEWEST_INCREMENTS = 50
+NEAR = 0.1
+"""Steps by which an increment that counts as a whole number of them may differ from it."""
 ON_GRID = 0.98
 COARSE_POSITION_STEPS = 3.0
 COARSE_TORQUE_SHARE = 0.05
@@ -70,7 +72,7 @@ def _grid_step(increments: Samples) -> tuple[float, float]:
         return 0.0, 0.0
     smallest = float(moved.min())
     ratios = moved[moved < SMALL_STEPS * smallest] / smallest
-    on_grid = np.abs(ratios - np.round(ratios)) < 0.1
+    on_grid = np.abs(ratios - np.round(ratios)) < NEAR
     if len(ratios) < FEWEST_INCREMENTS or np.mean(on_grid) < ON_GRID:
         return 0.0, float(np.median(moved))
     return smallest, float(np.median(moved))

@@ -40,7 +40,7 @@ def find_events(
     search = _Search(time, columns, left, precisions)
     spans = search.spans()
     scores = search.scores(spans)
-    hurdle = np.log(EVENTS.level / max(EVENTS.trials_of_span * len(spans), 1.0))
+    hurdle = np.log(EVENTS.level / max(len(spans), 1))
     freedom = int(np.count_nonzero(columns.any(axis=(0, 2))))
     found: list[Span] = []
     best = 0.0
