@@ -160,7 +160,7 @@ CHANNELS: Final[dict[str, Channel]] = {
         ),
         Channel(
             "position", "q", POSITIONS, "measured position of the joint", "always",
-            ("q", "pos", "position", "positions", "angle", "angles", "theta", "joint", "ang"),
+            ("q", "pos", "position", "positions", "angle", "angles", "theta", "joint", "ang", "state"),
         ),
         Channel(
             "velocity", "qd", VELOCITIES, "velocity of the joint, as the recorder gives it", "optional",

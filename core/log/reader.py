@@ -14,6 +14,7 @@ import numpy as np
 from ..errors import LogError
 from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME
 from .defects.examine import examine
+from .formats.combine import combine_stamps, split_lists
 from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
 from .formats.delimited import open_delimited
 from .formats.long import widen
@@ -88,7 +89,7 @@ def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:
         If the file is of no format that holds a log, or damaged.
     """
     form = recognise(path, media_type)
-    return form, widen(OPENERS[form](path))
+    return form, widen(combine_stamps(split_lists(OPENERS[form](path))))
 
 
 def bind_columns(table: Table, mapping: Mapping[str, object] | None) -> Layout:

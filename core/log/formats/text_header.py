@@ -16,6 +16,8 @@ from ..named_units import UNIT_WORDS
 DELIMITERS = ",;\t"
 BLANKS = " "
 """Stands for any number of blanks and tabs."""
+ROWS, WIDE = 20, 0.8
+"""More than this share of so many rows below a header has to be as wide as the header."""
 SEARCHED_LINES = 200
 """The header has to come within so many lines that are no comments."""
 STAMP = re.compile(
@@ -94,8 +96,10 @@ def _header_at(lines: Sequence[str], content: Sequence[int], place: int) -> Text
         names = split_cells(line, delimiter)
         if len(names) < 2 or any(map(is_number, names)) or not any(names):
             continue
-        rows = [split_cells(lines[index], delimiter) for index in content[place + 1 : place + 3]]
-        if len(rows) > 0 and _is_row(rows[0], len(names)):
+        rows = [split_cells(lines[index], delimiter) for index in content[place + 1 : place + 1 + ROWS]]
+        if not _are_wide(rows, len(names)):
+            continue
+        if _is_row(rows[0], len(names)):
             return _found(lines, content, place, delimiter, rows_at=1)
         if len(rows) > 1 and _are_units(rows[0], len(names)) and _is_row(rows[1], len(names)):
             return _found(lines, content, place, delimiter, rows_at=2)
@@ -156,6 +160,11 @@ def _delimiters(line: str) -> Iterator[str]:
 
 def _is_row(cells: Sequence[str], width: int) -> bool:
     return len(cells) == width and any(map(is_number, cells))
+
+
+def _are_wide(rows: Sequence[Sequence[str]], width: int) -> bool:
+    """Tell whether nearly all rows are as wide as the header: titles in pairs are no table."""
+    return sum(len(cells) == width for cells in rows) > WIDE * len(rows)
 
 
 def _are_units(cells: Sequence[str], width: int) -> bool:

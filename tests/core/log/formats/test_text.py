@@ -32,6 +32,7 @@ def padded(delimiter):
 FILES = {
     "title lines": ["Recorder v2.1", "Date: 2024-03-01", "Operator: N. N.", "", *lines()],
     "a title with commas": ["arm, run 7, fast", *lines()],
+    "titles in pairs": ["Name\tProject", "Rate\t250", "File\trun.bin", "Start\t133508", "", *lines("\t")],
     "titles above tabs": ["RECORDER\t", "axis log of 3 drives", *lines("\t")],
     "a row of units": [lines()[0], "s,rad,rad,Nm,Nm", *lines()[1:]],
     "a row of units in brackets": [lines(";")[0], "[s];[rad];[rad];[N m];[N m]", *lines(";")[1:]],
