@@ -1,0 +1,42 @@
+"""Define what a conflict is: a disagreement of description and log that one correction removes."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from .setup import Setup
+from .trial import Trials
+
+Channel = Literal["torque", "position", "both"]
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """Say what may be wrong, and give the set-up in which it is corrected."""
+
+    conflict: str
+    """Name of its kind."""
+    joints: tuple[int, ...]
+    """Joints that it concerns, from 1; empty where it concerns the whole robot."""
+    channel: Channel | None
+    """What was measured or assigned otherwise; None where the description is wrong."""
+    setup: Setup
+    """The corrected set-up."""
+    statement: str
+    """What disagrees, in words."""
+    remedy: str
+    """What to do, in the imperative."""
+
+
+class Conflict(ABC):
+    """Describe one kind of conflict."""
+
+    name: ClassVar[str]
+    """Its name in documents."""
+    title: ClassVar[str]
+    """Its name for people."""
+
+    @abstractmethod
+    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
+        """List the corrections that may remove it."""

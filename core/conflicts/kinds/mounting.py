@@ -1,0 +1,98 @@
+"""Suspect that the robot hangs or leans otherwise than its description says: gravity has another direction."""
+
+from collections.abc import Callable, Iterator
+from itertools import product
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ...arrays import Vector3
+from ..conflict import Conflict, Hypothesis
+from ..setup import Setup
+from ..thresholds import MOUNTING
+from ..trial import Trials
+
+Bound = Callable[[Vector3], float]
+_COARSE = np.array([way for way in product((-1.0, 0.0, 1.0), repeat=3) if any(way)])
+_COARSE /= np.linalg.norm(_COARSE, axis=1)[:, None]
+"""The axes of the base, and the directions halfway between two and three of them."""
+_USUAL = _COARSE[np.count_nonzero(_COARSE, axis=1) < 3]  # noqa: PLR2004 - a corner is no usual mounting
+
+
+class Mounting(Conflict):
+    """Let gravity have any direction."""
+
+    name = "mounting"
+    title = "Mounting of the robot"
+
+    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
+        """Refine the likeliest direction of gravity and its opposite, and the likeliest far from both."""
+        described = np.asarray(setup.robot.gravity, dtype=float)
+        size = float(np.linalg.norm(described))
+        if size == 0.0:
+            return
+        of_gravity = trials.bound_of_gravity(setup)
+
+        def bound(way: Vector3) -> float:
+            return of_gravity(size * way)
+
+        for way in _likely(bound):
+            gravity = size * way
+            if _angle(way, described) < MOUNTING.least_angle:
+                continue
+            listed = ", ".join(f"{component + 0.0:.3g}" for component in gravity)
+            yield Hypothesis(
+                self.name,
+                (),
+                None,
+                setup.with_gravity(gravity),
+                f"gravity is [{listed}] m/s2 in the base frame, {np.degrees(_angle(way, described)):.0f} degrees "
+                "from the described direction",
+                f"describe the robot with gravity [{listed}]",
+            )
+
+
+def _likely(bound: Bound) -> Iterator[Vector3]:
+    """Give directions worth a trial."""
+    scores = np.array([bound(way) for way in _COARSE])
+    first = _COARSE[np.argmin(scores)]
+    apart = np.array([min(_angle(way, first), _angle(way, -first)) > MOUNTING.apart for way in _COARSE])
+    best = _refined(first, bound)
+    yield best
+    yield _usual(-best)
+    if apart.any():
+        yield _COARSE[apart][np.argmin(scores[apart])]
+
+
+def _refined(first: Vector3, bound: Bound) -> Vector3:
+    """Minimise over the sphere from a direction, in two coordinates of its tangent plane."""
+    plane = np.linalg.svd(first[None, :])[2][1:]
+
+    def direction(step: np.ndarray) -> Vector3:
+        way = first + step @ plane
+        return np.asarray(way / np.linalg.norm(way))
+
+    found = minimize(
+        lambda step: bound(direction(step)),
+        np.zeros(2),
+        method="Nelder-Mead",
+        options={
+            "initial_simplex": [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3]],
+            "xatol": 1e-3,
+            "fatol": 1e-5,
+            "maxfev": 60,
+        },
+    )
+    return _usual(direction(found.x))
+
+
+def _usual(way: Vector3) -> Vector3:
+    """Take a direction near a usual mounting for it."""
+    angles = np.array([_angle(way, usual) for usual in _USUAL])
+    nearest = int(np.argmin(angles))
+    return _USUAL[nearest] if angles[nearest] < MOUNTING.usual_angle else way
+
+
+def _angle(first: Vector3, second: Vector3) -> float:
+    cosine = first @ second / (np.linalg.norm(first) * np.linalg.norm(second))
+    return float(np.arccos(np.clip(cosine, -1.0, 1.0)))

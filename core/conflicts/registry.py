@@ -1,0 +1,29 @@
+"""List the kinds of conflict. A new kind is one file in `kinds` and one line here.
+
+The order is that of preference: where two corrections predict equally well, the first is applied.
+"""
+
+from collections.abc import Mapping
+
+from .conflict import Conflict
+from .kinds.channels_swapped import ChannelsSwapped
+from .kinds.convention import Convention
+from .kinds.gravity_compensated import GravityCompensated
+from .kinds.mounting import Mounting
+from .kinds.position_sign import PositionSign
+from .kinds.torque_sign import TorqueSign
+from .kinds.unit import Unit
+from .kinds.zero_quarter_turn import ZeroQuarterTurn
+
+_LISTED: tuple[Conflict, ...] = (
+    TorqueSign(),
+    PositionSign(),
+    Mounting(),
+    GravityCompensated(),
+    ChannelsSwapped(),
+    ZeroQuarterTurn(),
+    Convention(),
+    Unit(),
+)
+CONFLICTS: Mapping[str, Conflict] = {conflict.name: conflict for conflict in _LISTED}
+"""The kinds of conflict by name."""

@@ -1,0 +1,78 @@
+"""Condense conditioned motions to some hundred instants that a set-up can be tried on in milliseconds."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays import BlockKey, JointMask, JointSeries, SampleMask
+from ..log.assignment import Assignment
+from ..signals.condition import Motion
+from ..signals.parallel import Tile
+from ..signals.state import MotionState
+from .thresholds import TRIAL
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Hold some instants of all motions, filtered alike."""
+
+    position: JointSeries
+    velocity: JointSeries
+    acceleration: JointSeries
+    torque: JointSeries
+    """In rad or m, per s, per s2, N m or N."""
+    usable: JointMask
+    judged: SampleMask
+    """Rows that no trial is fitted to."""
+    independent: float
+    """Number of independent values of a joint among the rows that are judged: what a model leaves varies as
+    the motion does, twice its band per second."""
+
+    def read(self, assignment: Assignment) -> "Samples":
+        """Read the channels as an assignment does."""
+        position, torque = assignment.position, assignment.torque
+        speed = 1.0 / assignment.time_factor
+        return replace(
+            self,
+            position=position.of(self.position),
+            velocity=position.of(self.velocity, rate=True) * speed,
+            acceleration=position.of(self.acceleration, rate=True) * speed**2,
+            torque=torque.of(self.torque),
+            usable=self.usable[:, list(position.source)],
+        )
+
+    @property
+    def state(self) -> MotionState:
+        """Give the motion as terms of a model take it."""
+        return MotionState(self.position, self.velocity, self.acceleration, np.zeros(len(self.position)))
+
+
+def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Samples:
+    """Take every n-th kept instant of the blocks that are not held out."""
+    stride = max(1, -(-sum(motion.kept for motion in motions) // TRIAL.rows))
+    parts = [
+        _part(tile, stride, _is_judged(tile.block, number, held_out))
+        for number, motion in enumerate(motions)
+        for tile in motion.tiles()
+        if (number, tile.block) not in held_out
+    ]
+    columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    share = columns[-1].mean()
+    seconds = sum(motion.log.duration * 2.0 * motion.recipe.motion_band_hz for motion in motions)
+    return Samples(*columns, independent=max(1.0, float(share * seconds)))
+
+
+def _is_judged(block: int, number: int, held_out: frozenset[BlockKey]) -> bool:
+    """Tell whether a block judges: every third of those of a log that are fitted."""
+    before = sum((number, other) not in held_out for other in range(block))
+    return before % TRIAL.judged_every == 1
+
+
+def _part(tile: Tile, stride: int, judged: bool) -> Iterator[np.ndarray]:
+    state = tile.state
+    for series in (state.position, state.velocity, state.acceleration, tile.torque):
+        yield tile.filtered(np.ascontiguousarray(series.T)).T[::stride]
+    usable = tile.usable[::stride]
+    yield usable
+    yield np.full(len(usable), judged)

@@ -1,0 +1,46 @@
+"""Hold what is assumed of how a robot and its logs belong together, as one value that can be changed."""
+
+from dataclasses import dataclass, replace
+
+from ..arrays import Vector3
+from ..log.assignment import Assignment, Channels
+from ..robot.model import Link, RobotModel
+
+
+@dataclass(frozen=True, eq=False)
+class Setup:
+    """Hold a robot's description and the assignment of the measured channels to its joints."""
+
+    robot: RobotModel
+    assignment: Assignment
+
+    @classmethod
+    def as_described(cls, robot: RobotModel) -> "Setup":
+        """Take description and channels as they are."""
+        return cls(robot, Assignment.as_measured(len(robot.joints)))
+
+    @property
+    def joints(self) -> int:
+        """Count the joints."""
+        return len(self.robot.joints)
+
+    def with_position(self, channels: Channels) -> "Setup":
+        """Assign the position channels in another way."""
+        return replace(self, assignment=replace(self.assignment, position=channels))
+
+    def with_torque(self, channels: Channels) -> "Setup":
+        """Assign the torque channels in another way."""
+        return replace(self, assignment=replace(self.assignment, torque=channels))
+
+    def with_gravity(self, gravity: Vector3) -> "Setup":
+        """Mount the robot in another way; gravity in the base frame, m/s2."""
+        return replace(self, robot=replace(self.robot, gravity=gravity))
+
+    def with_links(self, links: tuple[Link, ...]) -> "Setup":
+        """Read the table in another way."""
+        return replace(self, robot=replace(self.robot, links=links))
+
+    def revolute(self) -> tuple[int, ...]:
+        """List the joints, from 0, that only revolute links have."""
+        prismatic = {link.joint - 1 for link in self.robot.links if link.kind == "prismatic"}
+        return tuple(joint for joint in range(self.joints) if joint not in prismatic)

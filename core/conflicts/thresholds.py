@@ -1,0 +1,58 @@
+"""Hold every number that decides what is called a conflict, once each, with its unit, meaning and source."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Decide whether a fit gives reason to ask at all. All are set by hand."""
+
+    cost: float = 1.05
+    """Factor by which the consistency constraint raises the squared error."""
+    unexplained_percent: float = 10.0
+    """Per cent of a joint's RMS torque that the model leaves."""
+    deviations: float = 3.0
+    """Standard deviations by which least squares finds a friction or rotor inertia below zero."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Limit the trials of a hypothesis. All are set by hand unless a source is named."""
+
+    rows: int = 600
+    """Instants of all logs together that trials use."""
+    judged_every: int = 3
+    """Of the fitted blocks, each of this number judges and is not fitted."""
+    least_error: float = 1e-4
+    """Error relative to the RMS torque below which a joint cannot become better."""
+    most_corrections: int = 3
+    """Conflicts in one set-up."""
+
+
+@dataclass(frozen=True)
+class Decision:
+    """Compare two set-ups by their errors on rows that neither was fitted to."""
+
+    undecided: float = 6.0
+    """Difference of twice the log-likelihood below which neither of two is preferred. Source: Burnham &
+    Anderson, Model Selection (2002), ch. 2."""
+    least_gain: float = 0.1
+    """Natural logarithm by which the joints' mean error has to fall: a tenth. Set by hand; a smaller one may be
+    a cause, which the diagnosis names with its size."""
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """Decide between directions of gravity. All are set by hand."""
+
+    usual_angle: float = np.radians(6.0)
+    """Angle, rad, to an axis of the base, or to halfway between two, within which a robot is taken to be mounted along it."""
+    least_angle: float = np.radians(12.0)
+    """Angle, rad, from the described direction below which a tilt is a cause with a size, and no conflict."""
+    apart: float = np.radians(60.0)
+    """Angle, rad, between two directions that are refined separately."""
+
+
+DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
