@@ -1,11 +1,11 @@
 """Condense conditioned motions to some hundred instants that a set-up can be tried on in milliseconds."""
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import BlockKey, JointMask, JointSeries, SampleMask
+from ..arrays import BlockKey, InstantSeries, JointMask, JointSeries, SampleMask
 from ..log.assignment import Assignment
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
@@ -51,28 +51,34 @@ class Samples:
 def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Samples:
     """Take every n-th kept instant of the blocks that are not held out."""
     stride = max(1, -(-sum(motion.kept for motion in motions) // TRIAL.rows))
-    parts = [
-        _part(tile, stride, _is_judged(tile.block, number, held_out))
+    tiles = [
+        (tile, _is_judged(tile.block, number, held_out))
         for number, motion in enumerate(motions)
         for tile in motion.tiles()
         if (number, tile.block) not in held_out
     ]
-    columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    share = columns[-1].mean()
-    seconds = sum(motion.log.duration * 2.0 * motion.recipe.motion_band_hz for motion in motions)
-    return Samples(*columns, independent=max(1.0, float(share * seconds)))
+
+    def gathered(series: Callable[[Tile], InstantSeries]) -> InstantSeries:
+        return np.concatenate([series(tile)[::stride] for tile, _ in tiles])
+
+    judged = np.concatenate([np.full(-(-len(tile.time) // stride), judges) for tile, judges in tiles])
+    cycles = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
+    return Samples(
+        position=gathered(lambda tile: _filtered(tile, tile.state.position)),
+        velocity=gathered(lambda tile: _filtered(tile, tile.state.velocity)),
+        acceleration=gathered(lambda tile: _filtered(tile, tile.state.acceleration)),
+        torque=gathered(lambda tile: _filtered(tile, tile.torque)),
+        usable=np.concatenate([tile.usable[::stride] for tile, _ in tiles]),
+        judged=judged,
+        independent=max(1.0, float(judged.mean() * 2.0 * cycles)),
+    )
+
+
+def _filtered(tile: Tile, series: JointSeries) -> InstantSeries:
+    return tile.filtered(np.ascontiguousarray(series.T)).T
 
 
 def _is_judged(block: int, number: int, held_out: frozenset[BlockKey]) -> bool:
     """Tell whether a block judges: every third of those of a log that are fitted."""
     before = sum((number, other) not in held_out for other in range(block))
     return before % TRIAL.judged_every == 1
-
-
-def _part(tile: Tile, stride: int, judged: bool) -> Iterator[np.ndarray]:
-    state = tile.state
-    for series in (state.position, state.velocity, state.acceleration, tile.torque):
-        yield tile.filtered(np.ascontiguousarray(series.T)).T[::stride]
-    usable = tile.usable[::stride]
-    yield usable
-    yield np.full(len(usable), judged)

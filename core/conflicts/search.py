@@ -1,12 +1,11 @@
 """Find the corrections under which description and logs agree.
 
-Every hypothesis is one set-up. Least squares bounds how good it can be; those that can still win are fitted with
-the constraints, best bound first, and judged on rows that were not fitted. The best is applied and the search
-goes on from it, until none is better by what chance and number of hypotheses explain.
+Every hypothesis is one set-up. Least squares bounds how good it can be. Those that can still win are fitted
+with the constraints, best bound first, and judged on rows that were not fitted. The best is applied and the
+search goes on from it, until none is better than chance and the number of hypotheses explain.
 """
 
-from dataclasses import dataclass, replace
-from operator import attrgetter
+from dataclasses import dataclass
 
 import numpy as np
 

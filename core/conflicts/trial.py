@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_solve, cholesky, solve_triangular
 
-from ..arrays import BaseParameters, JointVector, Matrix, Series, Vector, Vector3
+from ..arrays import BaseParameters, Indices, JointVector, Matrix, SampleMask, Series, Vector, Vector3
 from ..dynamics.model import standard_model
 from ..errors import SolverError
 from ..estimate.constraints import Bounds, default_prior
@@ -29,7 +29,7 @@ from .thresholds import TRIAL
 _GENERAL = np.array([0.37, -0.54, -0.75])
 """A direction of gravity along no axis: base parameters for it span those of any other direction."""
 _RIDGE = 1e-11
-"""Added to the diagonal of scaled products, so that they have a Cholesky factor: below what 600 rows can tell."""
+"""Added to the diagonal of scaled products, so that they have a Cholesky factor."""
 _REWEIGHTINGS = 2
 
 
@@ -38,7 +38,7 @@ class Regressor:
     """Hold the observation matrix of a set-up's motion, joint by joint."""
 
     base: BaseModel
-    columns_of: tuple[np.ndarray, ...]
+    columns_of: tuple[Indices, ...]
     fitted: tuple[Matrix, ...]
     judged: tuple[Matrix, ...]
 
@@ -84,7 +84,7 @@ class Equations:
 
     def fitted_errors(self, base: BaseParameters) -> JointVector:
         """Give the RMS residual over the RMS torque of the fitted rows per joint."""
-        return np.sqrt(self._left(base) / np.where(self.squares > 0.0, self.squares, 1.0))
+        return np.asarray(np.sqrt(self._left(base) / np.where(self.squares > 0.0, self.squares, 1.0)))
 
     def judged_errors(self, base: BaseParameters) -> JointVector:
         """Give the same of the rows that judge; one for a joint without torque."""
@@ -97,7 +97,7 @@ class Equations:
         fitted = [
             base[columns] @ (product @ base[columns] - 2.0 * moment) for product, moment, columns in parts
         ]
-        return np.maximum(self.squares + np.array(fitted), 1e-14 * self.squares)
+        return np.asarray(np.maximum(self.squares + np.array(fitted), 1e-14 * self.squares))
 
     def _normal(self, noise: JointVector) -> tuple[Matrix, Vector]:
         size = len(self.regressor.base.kept)
@@ -221,12 +221,13 @@ class Trials:
         return id(setup.robot.links), tuple(setup.robot.gravity), setup.assignment.time_factor
 
 
-def _chosen(samples: Samples) -> tuple[tuple[np.ndarray, ...], tuple[np.ndarray, ...]]:
+def _chosen(samples: Samples) -> tuple[tuple[Indices, ...], tuple[Indices, ...]]:
     """Give the rows of every joint that are fitted, and those that judge."""
-    return tuple(  # type: ignore[return-value] - two of them
-        tuple(np.flatnonzero(usable & wanted) for usable in samples.usable.T)
-        for wanted in (~samples.judged, samples.judged)
-    )
+    return _rows(samples, ~samples.judged), _rows(samples, samples.judged)
+
+
+def _rows(samples: Samples, wanted: SampleMask) -> tuple[Indices, ...]:
+    return tuple(np.flatnonzero(usable & wanted) for usable in samples.usable.T)
 
 
 def _cholesky(product: Matrix) -> tuple[Vector, Matrix]:

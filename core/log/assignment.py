@@ -9,6 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import JointSeries
+from .binding import Binding
+from .channels import TIME
+from .mapping import RATE
 from .model import Defect, JointLog, LogRows, LogSource
 
 _LIKE_POSITION = ("position", "velocity", "position_ref", "velocity_ref")
@@ -114,6 +117,7 @@ def assigned(log: JointLog, assignment: Assignment) -> JointLog:
         rate_hz=log.rate_hz / factor,
         duration=log.duration * factor,
         defects=tuple(_assigned_defect(defect, assignment) for defect in log.defects),
+        bindings=tuple(_assigned_binding(binding, assignment) for binding in log.bindings),
     )
 
 
@@ -125,6 +129,29 @@ def _assigned_defect(defect: Defect, assignment: Assignment) -> Defect:
         return replace(defect, intervals=intervals)
     like = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
     return replace(defect, intervals=intervals, joint=like.source.index(defect.joint - 1) + 1)
+
+
+def _assigned_binding(binding: Binding, assignment: Assignment) -> Binding:
+    if binding.name == TIME:
+        return binding
+    channels = assignment.position if binding.name in _LIKE_POSITION else assignment.torque
+    if binding.name == _SIGNLESS:
+        channels = Channels(channels.source, (1.0,) * len(channels.source), (0.0,) * len(channels.source))
+    if "velocity" in binding.name:
+        channels = replace(channels, offset=(0.0,) * len(channels.source))
+    return binding.reassigned(channels.source, channels.factor, channels.offset)
+
+
+def mapping_of(log: JointLog) -> dict[str, object]:
+    """Write the mapping with which a log's file is read as the log has it.
+
+    A clock whose rate is not the stamps' is written as a rate.
+    """
+    mapping = {binding.name: binding.as_mapping() for binding in log.bindings}
+    factor = log.source.assignment.time_factor if isinstance(log.source, AssignedSource) else 1.0
+    if TIME not in mapping or factor != 1.0:
+        mapping |= {TIME: None, RATE: log.rate_hz}
+    return mapping
 
 
 def _times(values: tuple[float, ...], scale: list[float]) -> tuple[float, ...]:

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..errors import LogError
+from .binding import Binding
 from .channels import TIME
-from .layout import Binding
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
 from .suggestion import suggest_mappings, suggest_units

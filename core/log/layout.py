@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import JointSeries, Series
 from ..errors import LogError
+from .binding import Binding
 from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME, UNITS, Channel
 from .formats.table import Table
 from .mapping import ChannelRequest, LogMapping
@@ -24,28 +25,6 @@ OTHER_FILE = "if they are in another file, join the two: veritorque logs join A 
 
 
 @dataclass(frozen=True)
-class Binding:
-    """Bind a channel to its columns, with their units and what turns each into SI: `gain * value + bias`."""
-
-    name: str
-    columns: tuple[str, ...]
-    gain: tuple[float, ...]
-    bias: tuple[float, ...]
-    units: tuple[str, ...] = ()
-
-    def convert(self, block: Series) -> JointSeries:
-        """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
-        values = np.array(
-            block.T, order="C"
-        )  # a copy: the block belongs to its source, which may give it again
-        if any(gain != 1.0 for gain in self.gain):
-            values *= np.array(self.gain)
-        if any(self.bias):
-            values += np.array(self.bias)
-        return values
-
-
-@dataclass(frozen=True)
 class Layout:
     """Map channels to columns. Without a time column the rows follow a uniform clock of `rate_hz`."""
 
@@ -53,6 +32,11 @@ class Layout:
     rate_hz: float
     channels: tuple[Binding, ...]
     ignored: tuple[str, ...] = ()
+
+    @property
+    def bindings(self) -> tuple[Binding, ...]:
+        """List all bindings, time first where there is a column of it."""
+        return (*([self.time] if self.time else []), *self.channels)
 
     @property
     def columns(self) -> tuple[str, ...]:

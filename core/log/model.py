@@ -10,6 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ..arrays import JointSeries, Samples
+from .binding import Binding
 from .channels import JOINT_CHANNELS
 
 
@@ -119,6 +120,8 @@ class JointLog:
         Columns of the file that the mapping does not name.
     sha256
         Hash of the file's bytes, for provenance.
+    bindings
+        The columns that the samples were read from, time first where there is a column of it.
     """
 
     name: str
@@ -131,6 +134,7 @@ class JointLog:
     channels: tuple[str, ...] = ("position", "torque")
     ignored_columns: tuple[str, ...] = ()
     sha256: str = ""
+    bindings: tuple[Binding, ...] = ()
 
     @property
     def samples(self) -> int:

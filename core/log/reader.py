@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import LogError
+from .binding import Binding
 from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME
 from .defects.examine import examine
 from .formats.combine import combine_stamps, split_lists
@@ -24,7 +25,7 @@ from .formats.npz import open_npz
 from .formats.parquet import ParquetSource, ParquetTable, open_parquet
 from .formats.recording import open_bag, open_mcap
 from .formats.table import Table
-from .layout import Binding, Layout, bind
+from .layout import Layout, bind
 from .mapping import by_name, parse_mapping
 from .model import ArraySource, Defect, JointLog, LogRows
 from .pieces.choose import Chosen, choose_rows
@@ -243,6 +244,7 @@ def _log_of(name: str, chosen: Chosen, layout: Layout, sha256: str) -> JointLog:
         channels=tuple(channel.name for channel in layout.channels),
         ignored_columns=layout.ignored,
         sha256=sha256,
+        bindings=layout.bindings,
     )
 
 

@@ -8,10 +8,11 @@ else sizes do. A suggestion is shown, never applied.
 from collections.abc import Mapping, Sequence
 
 from ..errors import LogError
+from .binding import Binding
 from .channels import CHANNELS, EFFORTS, REFERENCE_WORDS, TIME, UNITS
 from .column_families import arm_of, channel_of, name_words, named_families, numbered_families
 from .formats.table import Table
-from .layout import Binding, Layout
+from .layout import Layout
 from .mapping import RATE
 from .model import Defect
 from .named_units import unit_called, unit_in_name

@@ -5,9 +5,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from ....core.log.binding import Binding
 from ....core.log.channels import CHANNELS
 from ....core.log.check import LogCheck, Reach
-from ....core.log.layout import Binding
 from ...json_text import plain
 
 SHOWN = 6

@@ -1,10 +1,11 @@
-"""Suspect that the robot hangs or leans otherwise than its description says: gravity has another direction."""
+"""Suspect that the robot is mounted otherwise than described, so that gravity has another direction."""
 
 from collections.abc import Callable, Iterator
 from itertools import product
+from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
+from scipy.optimize import fmin
 
 from ...arrays import Vector3
 from ..conflict import Conflict, Hypothesis
@@ -16,7 +17,16 @@ Bound = Callable[[Vector3], float]
 _COARSE = np.array([way for way in product((-1.0, 0.0, 1.0), repeat=3) if any(way)])
 _COARSE /= np.linalg.norm(_COARSE, axis=1)[:, None]
 """The axes of the base, and the directions halfway between two and three of them."""
-_USUAL = _COARSE[np.count_nonzero(_COARSE, axis=1) < 3]  # noqa: PLR2004 - a corner is no usual mounting
+_USUAL = _COARSE[np.count_nonzero(_COARSE, axis=1) < 3]
+
+_REFINEMENT: Any = {
+    "initial_simplex": [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3]],
+    "xtol": 1e-3,
+    "ftol": 1e-5,
+    "maxfun": 60,
+    "disp": False,
+}
+"""Steps of a third of a radian, refined to a milliradian."""
 
 
 class Mounting(Conflict):
@@ -31,12 +41,8 @@ class Mounting(Conflict):
         size = float(np.linalg.norm(described))
         if size == 0.0:
             return
-        of_gravity = trials.bound_of_gravity(setup)
-
-        def bound(way: Vector3) -> float:
-            return of_gravity(size * way)
-
-        for way in _likely(bound):
+        bound = trials.bound_of_gravity(setup)
+        for way in _likely(lambda way: bound(size * way)):
             gravity = size * way
             if _angle(way, described) < MOUNTING.least_angle:
                 continue
@@ -46,8 +52,8 @@ class Mounting(Conflict):
                 (),
                 None,
                 setup.with_gravity(gravity),
-                f"gravity is [{listed}] m/s2 in the base frame, {np.degrees(_angle(way, described)):.0f} degrees "
-                "from the described direction",
+                f"gravity is [{listed}] m/s2 in the base frame, "
+                f"{np.degrees(_angle(way, described)):.0f} degrees from the described direction",
                 f"describe the robot with gravity [{listed}]",
             )
 
@@ -72,18 +78,8 @@ def _refined(first: Vector3, bound: Bound) -> Vector3:
         way = first + step @ plane
         return np.asarray(way / np.linalg.norm(way))
 
-    found = minimize(
-        lambda step: bound(direction(step)),
-        np.zeros(2),
-        method="Nelder-Mead",
-        options={
-            "initial_simplex": [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3]],
-            "xatol": 1e-3,
-            "fatol": 1e-5,
-            "maxfev": 60,
-        },
-    )
-    return _usual(direction(found.x))
+    found = fmin(lambda step: bound(direction(step)), np.zeros(2), **_REFINEMENT)
+    return _usual(direction(found))
 
 
 def _usual(way: Vector3) -> Vector3:

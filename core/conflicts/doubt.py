@@ -1,0 +1,26 @@
+"""Tell whether a fit gives reason to ask if description and log belong together.
+
+An optimum exists even for wrong signs, units or gravity. These show in the cost of the consistency constraint,
+in frictions and rotor inertias that least squares finds negative, and in the residual.
+"""
+
+import numpy as np
+
+from ..estimate.feasibility import cost_ratio
+from ..identification.identify import Fit
+from .thresholds import DOUBT
+
+
+def is_doubtful(fit: Fit) -> bool:
+    """Tell whether a plain fit is in doubt."""
+    return cost_ratio(fit.estimate) > DOUBT.cost or _unexplained(fit)
+
+
+def _unexplained(fit: Fit) -> bool:
+    observation = fit.observation
+    factors = observation.joint_factors(observation.parts(fit.problem.held_out)[0])
+    limit = (0.01 * DOUBT.unexplained_percent) ** 2
+    return any(
+        factor.residual_square(fit.estimate.base[columns]) > limit * factor.torque_square
+        for factor, columns in zip(factors, observation.columns_of, strict=True)
+    )

@@ -1,0 +1,67 @@
+"""Bind a channel to its columns: units, and what turns a number into SI."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import JointSeries, Series
+from .channels import TIME, UNITS
+
+
+@dataclass(frozen=True)
+class Binding:
+    """Bind a channel to its columns, with their units and what turns each into SI: `gain * value + bias`."""
+
+    name: str
+    columns: tuple[str, ...]
+    gain: tuple[float, ...]
+    bias: tuple[float, ...]
+    units: tuple[str, ...] = ()
+
+    def convert(self, block: Series) -> JointSeries:
+        """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
+        values = np.array(
+            block.T, order="C"
+        )  # a copy: the block belongs to its source, which may give it again
+        if any(gain != 1.0 for gain in self.gain):
+            values *= np.array(self.gain)
+        if any(self.bias):
+            values += np.array(self.bias)
+        return values
+
+    def reassigned(
+        self, source: tuple[int, ...], factor: tuple[float, ...], offset: tuple[float, ...]
+    ) -> "Binding":
+        """Give every joint another column, multiplied by a factor, with an offset added in SI."""
+        return Binding(
+            self.name,
+            tuple(self.columns[joint] for joint in source),
+            tuple(self.gain[joint] * own for joint, own in zip(source, factor, strict=True)),
+            tuple(
+                self.bias[joint] * own + add for joint, own, add in zip(source, factor, offset, strict=True)
+            ),
+            tuple(self.units[joint] for joint in source) if self.units else (),
+        )
+
+    def as_mapping(self) -> dict[str, object]:
+        """Write the binding as a mapping says it: columns, unit, and scale and offset where they are needed.
+
+        Examples
+        --------
+        >>> Binding("torque", ("m1",), (-0.001,), (0.0,), ("mN m",)).as_mapping()
+        {'columns': ['m1'], 'unit': ['mN m'], 'scale': [-1.0]}
+        """
+        if self.name == TIME:
+            return {"column": self.columns[0], **({"unit": self.units[0]} if self.units else {})}
+        units = [
+            UNITS[self.name][unit]
+            for unit in self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
+        ]
+        scale = [gain / unit.factor for gain, unit in zip(self.gain, units, strict=True)]
+        offset = [bias / unit.factor - unit.offset for bias, unit in zip(self.bias, units, strict=True)]
+        mapping: dict[str, object] = {"columns": list(self.columns), "unit": [unit.name for unit in units]}
+        if any(value != 1.0 for value in scale):
+            mapping["scale"] = scale
+        if any(offset):
+            mapping["offset"] = offset
+        return mapping
