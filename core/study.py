@@ -10,9 +10,11 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from .arrays import Parameters
+from .conflicts.check import Conflicts, check
 from .diagnosis.diagnose import DiagnosisProblem
 from .diagnosis.diagnose import diagnose as find_causes
 from .diagnosis.result import Diagnosis
+from .document.conflicts import conflict_rows, with_conflicts
 from .document.diagnosis import diagnosis_document
 from .document.identification import grouping_row, identification_document
 from .document.numbers import plain
@@ -28,10 +30,11 @@ from .extension.result import Extension
 from .extension.verification import verify
 from .identification.admission import admit, known_log
 from .identification.identify import Fit, Progress, fit, judge
-from .identification.options import IdentifyOptions, parse_diagnose_options, parse_options
+from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
 from .identification.reference_score import score_reference
 from .identification.result import Identification
+from .log.assignment import assigned
 from .log.model import JointLog
 from .numerics.mapping import SERIAL, Mapper
 from .reduction.base import base_model
@@ -86,19 +89,48 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     task = _Task(request, parse_options(request.options))
-    found = _identify(task, progress or _no_progress)
+    found, conflicts = _identify(task, progress or _no_progress)
     write_traces(task.asked.traces, found)
-    return identification_document(found, version=_version(), options=task.options.given)
+    document = identification_document(found, version=_version(), options=task.options.given)
+    return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
 
 
 def identify_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Identification:
     """Identify a robot and give every chapter's result."""
-    return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)
+    return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)[0]
 
 
-def _identify(task: _Task, tell: Progress) -> Identification:
-    problem = _prepare(task, tell)
-    return judge(task.asked.logs, task.options, fit(problem, task.options, tell), tell, task.asked.mapper)
+def _identify(task: _Task, tell: Progress) -> tuple[Identification, Conflicts]:
+    settled = _settle(task, tell)
+    asked = settled.task.asked
+    return judge(asked.logs, task.options, settled.fit, tell, asked.mapper), settled.conflicts
+
+
+@dataclass(frozen=True, eq=False)
+class _Settled:
+    """Hold a task whose conflicts are corrected, and its fit."""
+
+    task: _Task
+    fit: Fit
+    conflicts: Conflicts
+
+
+def _settle(task: _Task, tell: Progress, reference: Reference | None = None) -> _Settled:
+    """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing.
+
+    Against a reference nothing is corrected: the reference is of the robot as it is described.
+    """
+    asked, options = task.asked, task.options
+    first = fit(_prepare(task, tell, reference), options, tell)
+    tell("check", 0.62)
+    conflicts = check(first, asked.logs, options.terms)
+    setup = conflicts.setup
+    if setup is None or reference is not None or options.conflicts == REPORT:
+        return _Settled(task, first, conflicts)
+    logs = tuple(assigned(log, setup.assignment) for log in asked.logs)
+    corrected = replace(task, asked=replace(asked, robot=setup.robot, logs=logs))
+    again = fit(_prepare(corrected, tell), options, tell)
+    return _Settled(corrected, again, replace(conflicts, applied=True))
 
 
 def check_reference(request: IdentifyRequest) -> None:
@@ -142,23 +174,31 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     task = _Task(request, parse_diagnose_options(request.options))
-    found = _diagnose(task, progress or _no_progress)
+    found, conflicts = _diagnose(task, progress or _no_progress)
     write_traces(task.asked.traces, found.before, found)
-    return diagnosis_document(found, version=_version(), options=task.options.given)
+    document = diagnosis_document(found, version=_version(), options=task.options.given)
+    return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
 
 
 def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Extension:
     """Identify, diagnose, extend and identify again; give every chapter's result."""
-    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _no_progress)
+    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _no_progress)[0]
 
 
-def _diagnose(task: _Task, tell: Progress) -> Extension:
-    options, reference = task.options, _read_reference(task)
-    problem = _prepare(task, tell, reference)
-    if options.reference == PRIOR:
-        reference = reference_from_prior(problem.base)
+def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
+    reference = _read_reference(task)
+    first = _scale_progress(tell, 0.0, 0.3)
+    settled = _settle(task, first, reference)
+    if task.options.reference == PRIOR:
+        reference = reference_from_prior(settled.fit.problem.base)
+    return _explain(settled, reference, tell), settled.conflicts
+
+
+def _explain(settled: _Settled, reference: Reference | None, tell: Progress) -> Extension:
+    """Find the causes of what a fit leaves, and extend the model by them."""
+    task, problem, options = settled.task, settled.fit.problem, settled.task.options
     first, last = _scale_progress(tell, 0.0, 0.3), _scale_progress(tell, 0.8, 0.15)
-    before = judge(task.asked.logs, options, fit(problem, options, first), first, task.asked.mapper)
+    before = judge(task.asked.logs, options, settled.fit, first, task.asked.mapper)
     question = DiagnosisProblem(
         problem.plan, task.asked.logs, problem.held_out, options.validation.blocks, reference
     )

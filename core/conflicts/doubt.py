@@ -1,19 +1,16 @@
 """Tell whether a fit gives reason to ask if description and log belong together.
 
-An optimum exists even for wrong signs, units or gravity. These show in the cost of the consistency constraint,
-in frictions and rotor inertias that least squares finds negative, and in the residual.
+An optimum exists even for wrong signs, units or gravity. These show in the cost of the consistency constraint
+and in the residual.
 """
 
-import numpy as np
-
-from ..estimate.feasibility import cost_ratio
 from ..identification.identify import Fit
 from .thresholds import DOUBT
 
 
 def is_doubtful(fit: Fit) -> bool:
     """Tell whether a plain fit is in doubt."""
-    return cost_ratio(fit.estimate) > DOUBT.cost or _unexplained(fit)
+    return fit.estimate.cost_ratio > DOUBT.cost or _unexplained(fit)
 
 
 def _unexplained(fit: Fit) -> bool:

@@ -22,6 +22,8 @@ class Samples:
     acceleration: JointSeries
     torque: JointSeries
     """In rad or m, per s, per s2, N m or N."""
+    direction: JointSeries
+    """Sign of the velocity, filtered: the sign of a filtered velocity is another thing."""
     usable: JointMask
     judged: SampleMask
     """Rows that no trial is fitted to."""
@@ -39,6 +41,7 @@ class Samples:
             velocity=position.of(self.velocity, rate=True) * speed,
             acceleration=position.of(self.acceleration, rate=True) * speed**2,
             torque=torque.of(self.torque),
+            direction=np.sign(position.factor) * self.direction[:, list(position.source)],
             usable=self.usable[:, list(position.source)],
         )
 
@@ -68,6 +71,7 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
         velocity=gathered(lambda tile: _filtered(tile, tile.state.velocity)),
         acceleration=gathered(lambda tile: _filtered(tile, tile.state.acceleration)),
         torque=gathered(lambda tile: _filtered(tile, tile.torque)),
+        direction=gathered(lambda tile: _filtered(tile, np.sign(tile.state.velocity))),
         usable=np.concatenate([tile.usable[::stride] for tile, _ in tiles]),
         judged=judged,
         independent=max(1.0, float(judged.mean() * 2.0 * cycles)),

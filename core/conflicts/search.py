@@ -30,35 +30,22 @@ class FoundConflict:
 
 
 @dataclass(frozen=True, eq=False)
-class FoundConflicts:
-    """Hold all conflicts that were found, and the set-up in which they are corrected."""
-
-    conflicts: tuple[FoundConflict, ...]
-    setup: Setup
-    tried: int
-    """How many hypotheses were compared."""
-
-
-@dataclass(frozen=True, eq=False)
 class _Tried:
     hypothesis: Hypothesis
     outcome: Outcome
 
 
-def find_conflicts(setup: Setup, trials: Trials) -> FoundConflicts:
-    """Search for corrections of a set-up, one after the other."""
+def find_conflicts(setup: Setup, trials: Trials) -> tuple[FoundConflict, ...]:
+    """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
     found: list[FoundConflict] = []
-    tried = 0
     present = trials.outcome(trials.equations(setup))
     while present is not None and len(found) < TRIAL.most_corrections:
-        listed = _bounded(setup, trials)
-        tried += len(listed)
-        conflict = _best(listed, present, trials)
+        conflict = _best(_bounded(setup, trials), present, trials)
         if conflict is None:
             break
         found.append(conflict)
         setup, present = conflict.hypothesis.setup, conflict.after
-    return FoundConflicts(tuple(found), setup, tried)
+    return tuple(found)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,6 @@ class Doubt:
     """Factor by which the consistency constraint raises the squared error."""
     unexplained_percent: float = 10.0
     """Per cent of a joint's RMS torque that the model leaves."""
-    deviations: float = 3.0
-    """Standard deviations by which least squares finds a friction or rotor inertia below zero."""
 
 
 @dataclass(frozen=True)
@@ -56,4 +54,22 @@ class Mounting:
     """Angle, rad, between two directions that are refined separately."""
 
 
-DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
+@dataclass(frozen=True)
+class TimeBase:
+    """Decide whether stamps contradict a measured velocity. All are set by hand unless a source is named."""
+
+    seconds: float = 0.1
+    """Seconds over which the velocity is integrated."""
+    moving: float = 1e-4
+    """Share of the largest joint's squared way from which on a joint moves."""
+    follows: float = 0.95
+    """Correlation above which a velocity is the positions', but for a factor."""
+    alike: float = 0.03
+    """Relative difference up to which the factors of joints are one."""
+    tolerance: float = 0.05
+    """Logarithm of the factor below which it is a filter's or a controller's lag."""
+    furthest: float = np.log(6.0)
+    """Logarithm beyond which it is a unit's: revolutions per second are 6.28 times less than radians."""
+
+
+DOUBT, TRIAL, DECISION, MOUNTING, TIME_BASE = Doubt(), Trial(), Decision(), Mounting(), TimeBase()

@@ -14,6 +14,7 @@ from scipy.linalg import cho_solve, cholesky, solve_triangular
 
 from ..arrays import BaseParameters, Indices, JointVector, Matrix, SampleMask, Series, Vector, Vector3
 from ..dynamics.model import standard_model
+from ..dynamics.terms.coulomb import Coulomb
 from ..errors import SolverError
 from ..estimate.constraints import Bounds, default_prior
 from ..estimate.estimate import solve
@@ -188,7 +189,12 @@ class Trials:
         return self._regressors[key]
 
     def _series(self, setup: Setup) -> Series:
-        return self._plan(setup).series(self.samples.read(setup.assignment).state)
+        plan, samples = self._plan(setup), self.samples.read(setup.assignment)
+        series = plan.series(samples.state)
+        for row, (joint, column) in enumerate(plan.entries):
+            if plan.model.parameters[plan.columns[column]].symbol == Coulomb.symbol[0]:
+                series[row] = samples.direction[:, joint]
+        return series
 
     def _of_series(self, setup: Setup, series: Series) -> Regressor:
         plan, base = self._plan(setup), self._base(setup.robot)

@@ -47,6 +47,11 @@ class Estimate:
         """Give the same at the unconstrained optimum: a lower bound."""
         return self.system.cost(self.unconstrained)
 
+    @property
+    def cost_ratio(self) -> float:
+        """Give the factor by which the constraints raise the weighted sum of squares."""
+        return self.objective / max(self.objective_unconstrained, np.finfo(float).tiny)
+
 
 def estimate(
     base: BaseModel,

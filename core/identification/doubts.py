@@ -7,7 +7,6 @@ the consistency constraint and in the residual.
 import numpy as np
 
 from ..arrays import JointVector, Mask
-from ..estimate.estimate import Estimate
 from ..log.model import Defect
 from ..regressor.observe import Block
 from .result import Identification
@@ -42,7 +41,7 @@ def _logs(found: Identification) -> list[str]:
 
 def _cost(found: Identification) -> list[str]:
     estimate = found.estimate
-    cost = _cost_ratio(estimate)
+    cost = estimate.cost_ratio
     if cost <= HIGH_COST:
         return []
     joints = ", ".join(str(joint + 1) for joint in np.flatnonzero(_joint_cost(found) > HIGH_COST))
@@ -52,10 +51,6 @@ def _cost(found: Identification) -> list[str]:
         "in the sign of a torque, in units or in gravity, or the torque was measured elsewhere than modelled"
     )
     return [sentence]
-
-
-def _cost_ratio(estimate: Estimate) -> float:
-    return estimate.objective / max(estimate.objective_unconstrained, np.finfo(float).tiny)
 
 
 def _joint_cost(found: Identification) -> JointVector:
@@ -74,7 +69,7 @@ def _joint_cost(found: Identification) -> JointVector:
 
 def _signs(found: Identification) -> list[str]:
     # Least squares leaves a smaller residual than the estimate that the deviations were taken from.
-    deviation = found.precision.standard_deviation / np.sqrt(_cost_ratio(found.estimate))
+    deviation = found.precision.standard_deviation / np.sqrt(found.estimate.cost_ratio)
     ratio = found.estimate.unconstrained / deviation
     negative = {
         found.base.names[row]

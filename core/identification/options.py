@@ -20,6 +20,8 @@ from ..validation.holdout import HoldOut
 DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
 """A diagnosis wants many held-out blocks: the interval of a gain is drawn from them."""
 
+APPLY, REPORT = "apply", "report"
+
 
 @dataclass(frozen=True)
 class BootstrapOptions:
@@ -50,12 +52,23 @@ class IdentifyOptions:
     """Names of the torque terms; None for the standard model."""
     smooth_coulomb: bool = False
     """Whether the sign of Coulomb friction is smoothed over widths chosen from the fitted data."""
+    conflicts: str = APPLY
+    """What is done with a correction under which robot and logs agree: ``apply`` or ``report`` it."""
     essential: bool = False
     """Whether only essential base parameters may explain torque."""
     reference: str | None = None
     """What a diagnosis compares the logs with: a job's name or ``prior``; None to identify everything
     anew."""
     given: Mapping[str, object] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be done with a correction."""
+        if self.conflicts not in (APPLY, REPORT):
+            raise OptionError(
+                "conflicts of robot and log can be applied or reported",
+                evidence={"pointer": "/options/conflicts", "given": self.conflicts[:50]},
+                remedy=f"ask for {APPLY} (the default) or {REPORT}",
+            )
 
 
 class OptionFields(Fields):
@@ -90,6 +103,7 @@ _SCALARS = {
     "terms": "null or a list of at least one torque term, each named once",
     "smooth_coulomb": "true or false",
     "essential": "true or false",
+    "conflicts": "apply or report",
 }
 _OBJECTS = {name: f"an object with {', '.join(fields)}" for name, fields in _SECTIONS.items()}
 OPTION_FIELDS = dict(sorted((_SCALARS | _OBJECTS).items()))

@@ -37,7 +37,8 @@ class Channels:
         """Exchange the channels of two joints, with their factors and offsets."""
         order = list(range(len(self.source)))
         order[first], order[second] = second, first
-        return Channels(*(tuple(values[index] for index in order) for values in self._columns))
+        factor, offset = (tuple(values[place] for place in order) for values in (self.factor, self.offset))
+        return Channels(tuple(self.source[place] for place in order), factor, offset)
 
     def scaled(self, factor: float, *joints: int) -> "Channels":
         """Multiply the channels of some joints."""
@@ -51,13 +52,8 @@ class Channels:
 
     def of(self, measured: JointSeries, *, rate: bool = False) -> JointSeries:
         """Give the joints' series; a rate of change has no offset."""
-        return measured[:, list(self.source)] * np.array(self.factor) + (
-            0.0 if rate else np.array(self.offset)
-        )
-
-    @property
-    def _columns(self) -> tuple[tuple[int, ...], tuple[float, ...], tuple[float, ...]]:
-        return self.source, self.factor, self.offset
+        scaled = measured[:, list(self.source)] * np.array(self.factor)
+        return np.asarray(scaled if rate else scaled + np.array(self.offset))
 
 
 @dataclass(frozen=True)
@@ -147,7 +143,7 @@ def mapping_of(log: JointLog) -> dict[str, object]:
 
     A clock whose rate is not the stamps' is written as a rate.
     """
-    mapping = {binding.name: binding.as_mapping() for binding in log.bindings}
+    mapping: dict[str, object] = {binding.name: binding.as_mapping() for binding in log.bindings}
     factor = log.source.assignment.time_factor if isinstance(log.source, AssignedSource) else 1.0
     if TIME not in mapping or factor != 1.0:
         mapping |= {TIME: None, RATE: log.rate_hz}

@@ -78,8 +78,10 @@ def _refined(first: Vector3, bound: Bound) -> Vector3:
         way = first + step @ plane
         return np.asarray(way / np.linalg.norm(way))
 
-    found = fmin(lambda step: bound(direction(step)), np.zeros(2), **_REFINEMENT)
-    return _usual(direction(found))
+    def lost(step: np.ndarray) -> float:
+        return bound(direction(step))
+
+    return _usual(direction(fmin(lost, np.zeros(2), **_REFINEMENT)))
 
 
 def _usual(way: Vector3) -> Vector3:

@@ -1,0 +1,125 @@
+"""Write the conflicts of robot and logs, each with the correction to paste."""
+
+from typing import cast
+
+import numpy as np
+
+from ..conflicts.check import Conflicts
+from ..conflicts.conflict import Hypothesis
+from ..conflicts.search import FoundConflict
+from ..conflicts.setup import Setup
+from ..log.assignment import assigned, mapping_of
+from ..log.model import JointLog
+from ..robot.model import RobotModel
+from ..robot.writing import to_description
+from .numbers import plain
+
+STAMPS_CONFIDENCE = 0.9
+"""Probability that the stamps are wrong and not the unit of the velocity. Set by hand: units whose factor
+lies so near one are rare."""
+
+
+def conflict_rows(
+    conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, ...]
+) -> list[dict[str, object]]:
+    """Tabulate the conflicts of a robot as described and its logs as recorded.
+
+    The correction of each holds all corrections together, so that any of them can be pasted.
+    """
+    setup = conflicts.setup
+    correction = {} if setup is None else _correction(setup, robot, logs)
+    fitted = [_row(found, correction, applied=conflicts.applied) for found in conflicts.found]
+    stamps = [
+        _stamps_row(factor, log)
+        for factor, log in zip(conflicts.stamp_factors, logs, strict=True)
+        if factor is not None
+    ]
+    return [{key: plain(value) for key, value in row.items()} for row in [*fitted, *stamps]]
+
+
+def conflict_sentence(row: dict[str, object]) -> str:
+    """Say a conflict as a warning."""
+    before, after = row["error_before_percent"], row["error_after_percent"]
+    if before is None:
+        return f"The log contradicts itself: {row['statement']}. Remedy: {row['remedy']}"
+    end = (
+        "Everything below is computed with this correction" if row["applied"] else f"Remedy: {row['remedy']}"
+    )
+    return (
+        f"Robot and log disagree: {row['statement']}; corrected, the mean error falls from {before:.3g} to "
+        f"{after:.3g} %. {end}"
+    )
+
+
+def with_conflicts(document: dict[str, object], rows: list[dict[str, object]]) -> dict[str, object]:
+    """Put conflicts into a result document, and first among its warnings."""
+    warnings = [*map(conflict_sentence, rows), *cast("list[str]", document["doubts"])]
+    return document | {"conflicts": rows, "doubts": warnings}
+
+
+def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) -> dict[str, object]:
+    hypothesis, before, after = found.hypothesis, found.before, found.after
+    return {
+        "conflict": hypothesis.conflict,
+        "joints": hypothesis.joints,
+        "channel": hypothesis.channel,
+        "confidence": found.confidence,
+        "error_before_percent": 100.0 * np.exp(before.score),
+        "error_after_percent": 100.0 * np.exp(after.score),
+        "joint_errors_before_percent": 100.0 * before.errors,
+        "joint_errors_after_percent": 100.0 * after.errors,
+        "applied": applied,
+        "statement": hypothesis.statement,
+        "remedy": hypothesis.remedy,
+        "correction": correction,
+        "ambiguous_with": [_alternative(other) for other in found.equivalents],
+    }
+
+
+def _alternative(hypothesis: Hypothesis) -> dict[str, object]:
+    return {
+        "conflict": hypothesis.conflict,
+        "joints": hypothesis.joints,
+        "channel": hypothesis.channel,
+        "why": f"it predicts these logs as well to say that {hypothesis.statement}",
+    }
+
+
+def _correction(setup: Setup, robot: RobotModel, logs: tuple[JointLog, ...]) -> dict[str, object]:
+    """Give the mapping with which the logs are to be read, and the fields of the description to replace."""
+    mappings = [mapping_of(assigned(log, setup.assignment)) for log in logs]
+    before = [mapping_of(log) for log in logs]
+    described: dict[str, object] = {}
+    if setup.robot.links is not robot.links:
+        described["joints"] = to_description(setup.robot)["joints"]
+    if not np.array_equal(setup.robot.gravity, robot.gravity):
+        described["gravity"] = setup.robot.gravity
+    return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (
+        {"mappings": mappings} if len(logs) > 1 and mappings != before else {}
+    )
+
+
+def _stamps_row(factor: float, log: JointLog) -> dict[str, object]:
+    rate = log.rate_hz * factor
+    return {
+        "conflict": "time_base",
+        "joints": [],
+        "channel": None,
+        "confidence": STAMPS_CONFIDENCE,
+        "error_before_percent": None,
+        "error_after_percent": None,
+        "applied": False,
+        "statement": (
+            f"the measured velocity of {log.name} is {factor:.4g} times what positions and stamps give, on "
+            f"every joint that moves, as if its stamps were {_slower(factor)}"
+        ),
+        "remedy": f"correct the clock, as with a rate of {rate:.6g} Hz, or the unit of the velocity",
+        "correction": {"mapping": mapping_of(log) | {"time": None, "rate_hz": rate}, "robot": {}},
+        "ambiguous_with": [
+            {"conflict": "unit", "joints": [], "channel": None, "why": "the velocity may be in another unit"}
+        ],
+    }
+
+
+def _slower(factor: float) -> str:
+    return f"{factor:.4g} times too far apart" if factor > 1.0 else f"{1.0 / factor:.4g} times too close"
