@@ -129,7 +129,11 @@ def _settle(task: _Task, tell: Progress, reference: Reference | None = None) -> 
         return _Settled(task, first, conflicts)
     logs = tuple(assigned(log, setup.assignment) for log in asked.logs)
     corrected = replace(task, asked=replace(asked, robot=setup.robot, logs=logs))
-    again = fit(_prepare(corrected, tell), options, tell)
+
+    def correct(_stage: str, done: float) -> None:
+        tell("correct", 0.63 + 0.05 * done)
+
+    again = fit(_prepare(corrected, correct), options, correct)
     return _Settled(corrected, again, replace(conflicts, applied=True))
 
 

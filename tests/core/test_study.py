@@ -91,7 +91,7 @@ def test_progress_only_ever_grows_and_stays_within_the_whole():
     assert fractions == sorted(fractions)
     assert 0.0 <= fractions[0] <= fractions[-1] <= 1.0
     stages = list(dict.fromkeys(stage for stage, _ in seen))
-    assert stages == ["condition", "smooth", "observe", "estimate", "assess", "validate"]
+    assert stages == ["condition", "smooth", "observe", "estimate", "check", "assess", "validate"]
 
 
 @pytest.mark.parametrize("estimator", ["sdp", "ols", "wls", "irls"])

@@ -8,7 +8,10 @@ from ..trial import Trials
 
 
 class PositionSign(Conflict):
-    """Reverse one position, with or without its torque, or all of them."""
+    """Reverse one position, with or without its torque, or all of them.
+
+    To reverse all positions and all torques is to mirror the robot, which turns gravity round.
+    """
 
     name = "position_sign"
     title = "Sign of a position"
@@ -16,24 +19,30 @@ class PositionSign(Conflict):
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
         """Reverse each position, each joint's axis, and all positions together."""
         position, torque = setup.assignment.position, setup.assignment.torque
-        every = tuple(range(setup.joints))
-        for joints in [*((joint,) for joint in every), *([every] if len(every) > 1 else [])]:
-            named = "all joints" if len(joints) > 1 else f"joint {joints[0] + 1}"
-            reversed_ = setup.with_position(position.scaled(-1.0, *joints))
-            numbers = tuple(joint + 1 for joint in joints)
+        for joint in range(setup.joints):
+            other = setup.with_position(position.scaled(-1.0, joint))
             yield Hypothesis(
                 self.name,
-                numbers,
+                (joint + 1,),
                 "position",
-                reversed_,
-                f"the position of {named} has the opposite sign",
-                f"reverse the sign of the position of {named}",
+                other,
+                f"the position of joint {joint + 1} has the opposite sign",
+                f"reverse the sign of the position of joint {joint + 1}",
             )
             yield Hypothesis(
                 self.name,
-                numbers,
+                (joint + 1,),
                 "both",
-                reversed_.with_torque(torque.scaled(-1.0, *joints)),
-                f"position and torque of {named} are counted against the described axis",
-                f"reverse the signs of position and torque of {named}",
+                other.with_torque(torque.scaled(-1.0, joint)),
+                f"position and torque of joint {joint + 1} are counted against the described axis",
+                f"reverse the signs of position and torque of joint {joint + 1}",
+            )
+        if setup.joints > 1:
+            yield Hypothesis(
+                self.name,
+                tuple(range(1, setup.joints + 1)),
+                "position",
+                setup.with_position(position.scaled(-1.0, *range(setup.joints))),
+                "all positions have the opposite sign",
+                "reverse the sign of all positions",
             )
