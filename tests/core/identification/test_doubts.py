@@ -32,18 +32,26 @@ def _doubts(robot, rows, position=None, torque=None, **options):
         rows.position if position is None else position,
         rows.torque if torque is None else torque,
     )
-    return identify(IdentifyRequest(robot, (log,), {"bootstrap": {"draws": 0}, **options}))["doubts"]
+    return identify(IdentifyRequest(robot, (log,), {"bootstrap": {"draws": 0}} | options))["doubts"]
 
 
 def test_a_sound_study_raises_no_doubt(world):
     assert _doubts(*world) == []
 
 
-def test_torque_of_the_opposite_sign_is_doubted(world):
+def test_torque_of_the_opposite_sign_is_doubted_where_it_is_not_corrected(world):
     robot, rows = world
-    found = _doubts(robot, rows, torque=-rows.torque)
+    found = _doubts(robot, rows, torque=-rows.torque, conflicts="report")
+    assert found[0].startswith("Robot and log disagree: all torques have the opposite sign")
     assert any("consistency constraint raises the squared error" in one and "sign" in one for one in found)
     assert any("opposite sign" in one and "joint 1" in one for one in found)
+
+
+def test_torque_of_the_opposite_sign_leaves_no_doubt_but_itself_once_it_is_corrected(world):
+    robot, rows = world
+    found = _doubts(robot, rows, torque=-rows.torque)
+    assert len(found) == 1
+    assert found[0].startswith("Robot and log disagree: all torques have the opposite sign")
 
 
 def test_outliers_are_named_where_they_are_why_held_out_motion_is_predicted_worse(world):

@@ -1,0 +1,120 @@
+"""Spoil a sound robot and its log in one thing, drawn from a seed."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from veritorque.core.log.assignment import Assignment, assigned
+from veritorque.core.log.model import JointLog, whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.model import RobotModel
+
+
+@dataclass(frozen=True, eq=False)
+class Spoilt:
+    """Hold a robot and a log that disagree, and what was done to them."""
+
+    robot: RobotModel
+    log: JointLog
+    conflict: str | None
+    """Name of the conflict; None where nothing was spoilt."""
+    joints: tuple[int, ...] = ()
+    channel: str | None = None
+    gravity: np.ndarray | None = None
+    """The true direction, where mounting was described wrongly."""
+
+
+Spoiler = Callable[[RobotModel, JointLog, np.random.Generator], Spoilt]
+
+
+def _joint(robot: RobotModel, rng: np.random.Generator) -> int:
+    return int(rng.integers(len(robot.joints)))
+
+
+def torque_sign(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Reverse one torque, or all."""
+    plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
+    joints = tuple(range(log.joints)) if rng.random() < 0.2 else (joint,)
+    spoilt = replace(plain, torque=plain.torque.scaled(-1.0, *joints))
+    return Spoilt(robot, assigned(log, spoilt), "torque_sign", tuple(one + 1 for one in joints), "torque")
+
+
+def position_sign(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Reverse one position."""
+    plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
+    spoilt = replace(plain, position=plain.position.scaled(-1.0, joint))
+    return Spoilt(robot, assigned(log, spoilt), "position_sign", (joint + 1,), "position")
+
+
+def channels_swapped(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Exchange torques, positions or both of two joints."""
+    plain = Assignment.as_measured(log.joints)
+    first, second = sorted(int(one) for one in rng.choice(log.joints, 2, replace=False))
+    channel = str(rng.choice(["torque", "position", "both"]))
+    if channel != "torque":
+        plain = replace(plain, position=plain.position.exchanged(first, second))
+    if channel != "position":
+        plain = replace(plain, torque=plain.torque.exchanged(first, second))
+    return Spoilt(robot, assigned(log, plain), "channels_swapped", (first + 1, second + 1), channel)
+
+
+def mounting(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Describe the robot as mounted otherwise: on a wall, below a ceiling, or leaning by some angle."""
+    usual = Rotation.from_euler(
+        "x" if rng.random() < 0.5 else "y", rng.choice([90.0, -90.0, 180.0]), degrees=True
+    )
+    tilted = Rotation.from_rotvec(np.radians(rng.uniform(20.0, 160.0)) * _unit(rng))
+    turn = usual if rng.random() < 0.6 else tilted
+    true = np.asarray(robot.gravity)
+    return Spoilt(replace(robot, gravity=turn.apply(true)), log, "mounting", gravity=true)
+
+
+def zero_quarter_turn(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Move the zero of one joint by quarter turns."""
+    plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
+    angle = np.radians(float(rng.choice([90.0, 180.0, -90.0])))
+    spoilt = replace(plain, position=plain.position.moved(angle, joint))
+    return Spoilt(robot, assigned(log, spoilt), "zero_quarter_turn", (joint + 1,), "position")
+
+
+def unit(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Take one torque in mN m for N m."""
+    plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
+    spoilt = replace(plain, torque=plain.torque.scaled(1000.0, joint))
+    return Spoilt(robot, assigned(log, spoilt), "unit", (joint + 1,), "torque")
+
+
+def time_base(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Stretch the stamps beside a measured velocity."""
+    rows, factor = whole_rows(log), float(rng.choice([0.5, 2.0, 1.25, 4.0]))
+    velocity = np.gradient(rows.position, rows.time, axis=0)
+    spoilt = log_from_arrays(log.name, rows.time * factor, rows.position, rows.torque, velocity=velocity)
+    return Spoilt(robot, spoilt, "time_base")
+
+
+def nothing(robot: RobotModel, log: JointLog, _rng: np.random.Generator) -> Spoilt:
+    """Leave everything as it is."""
+    return Spoilt(robot, log, None)
+
+
+def _unit(rng: np.random.Generator) -> np.ndarray:
+    way = rng.normal(size=3)
+    return np.asarray(way / np.linalg.norm(way))
+
+
+SPOILERS: Mapping[str, Spoiler] = {
+    spoiler.__name__: spoiler
+    for spoiler in (
+        nothing,
+        torque_sign,
+        position_sign,
+        channels_swapped,
+        mounting,
+        zero_quarter_turn,
+        unit,
+        time_base,
+    )
+}
+"""The ways to spoil, by the name of the conflict."""
