@@ -25,6 +25,7 @@ NAVIGATION = {
         "currents",
         "exciting",
         "identification",
+        "conflicts",
         "diagnosis",
         "export",
         "http",

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, JsonValue
 
 from .common import HeldOutSpan, JointFit, Open, about
+from .conflicts import Conflict
 from .diagnosis import Diagnosis
 
 
@@ -69,5 +70,6 @@ class ResultDocument(Open):
     held_out: list[HeldOutSpan] = Field(default=[])
     condition_number: float | None
     defects: list[JsonValue]
-    doubts: Annotated[list[str], about("warnings, as sentences")]
+    doubts: Annotated[list[str], about("warnings, as sentences; conflicts come first")]
+    conflicts: Annotated[list[Conflict], about("what robot and logs disagree in")] = Field(default=[])
     diagnosis: Annotated[Diagnosis | None, about("of a job of kind diagnose")] = None

@@ -66,9 +66,28 @@ def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
 
 
 def _best(listed: list[_Bounded], present: Outcome, trials: Trials) -> FoundConflict | None:
-    """Choose the hypothesis that predicts best, the most usual of those that predict as well."""
+    """Choose the hypothesis that predicts best, the most usual of those that predict alike."""
     independent = trials.samples.independent * len(present.errors)
-    margin = DECISION.undecided / (2.0 * independent)
+    margin, equal = (0.5 * decided / independent for decided in (DECISION.undecided, DECISION.equal))
+    tried = _tried(listed, present, trials, margin)
+    best = min((candidate.outcome.score for candidate in tried), default=present.score)
+    chance = margin + np.log(max(len(listed), 1)) / independent
+    if present.score - best < max(DECISION.least_gain, chance):
+        return None
+    near = [candidate for candidate in tried if candidate.outcome.score < best + margin]
+    chosen = next(candidate for candidate in near if candidate.outcome.score <= best + equal)
+
+    def likelihood(outcome: Outcome) -> float:
+        return float(np.exp(independent * (best - outcome.score)))
+
+    others = sum(likelihood(candidate.outcome) for candidate in tried if candidate not in near)
+    confidence = 1.0 / (1.0 + others + len(listed) * likelihood(present))
+    equivalents = tuple(candidate.hypothesis for candidate in near if candidate is not chosen)
+    return FoundConflict(chosen.hypothesis, present, chosen.outcome, confidence, equivalents)
+
+
+def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, margin: float) -> list[_Tried]:
+    """Fit those that can still win, best bound first; give them in order of preference."""
     tried: list[tuple[int, _Tried]] = []
     best = present.score
     for place, candidate in sorted(enumerate(listed), key=lambda pair: pair[1].bound):
@@ -78,21 +97,4 @@ def _best(listed: list[_Bounded], present: Outcome, trials: Trials) -> FoundConf
         if outcome is not None:
             tried.append((place, _Tried(candidate.hypothesis, outcome)))
             best = min(best, outcome.score)
-    needed = max(DECISION.least_gain, margin + np.log(max(len(listed), 1)) / independent)
-    if present.score - best < needed:
-        return None
-    near = [one for _, one in sorted(tried, key=lambda pair: pair[0]) if one.outcome.score < best + margin]
-    chosen, others = near[0], near[1:]
-    weights = np.exp(-independent * (np.array([one.outcome.score for _, one in tried]) - best))
-    rest = (
-        sum(weights)
-        - sum(weight for weight, (_, one) in zip(weights, tried, strict=True) if one in near)
-        + len(listed) * np.exp(-independent * (present.score - best))
-    )
-    return FoundConflict(
-        chosen.hypothesis,
-        present,
-        chosen.outcome,
-        float(1.0 / (1.0 + rest)),
-        tuple(one.hypothesis for one in others),
-    )
+    return [candidate for _, candidate in sorted(tried, key=lambda pair: pair[0])]

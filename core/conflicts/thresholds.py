@@ -36,6 +36,8 @@ class Decision:
     undecided: float = 6.0
     """Difference of twice the log-likelihood below which neither of two is preferred. Source: Burnham &
     Anderson, Model Selection (2002), ch. 2."""
+    equal: float = 1.0
+    """The same below which two predict alike, and the more usual one is applied. Set by hand."""
     least_gain: float = 0.15
     """Natural logarithm by which the joints' mean error has to fall: a seventh. Set by hand: on the four
     measured robots as described, no other set-up reaches 0.11."""
