@@ -5,6 +5,7 @@ the samples refuses what cannot be used and lists what is wrong but usable.
 """
 
 import hashlib
+import json
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -30,6 +31,7 @@ from .mapping import by_name, parse_mapping
 from .model import ArraySource, Defect, JointLog, LogRows
 from .pieces.choose import Chosen, choose_rows
 from .profiles import fill_in
+from .suggestion import suggest_mappings
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,
@@ -77,8 +79,26 @@ def read_log(
     """
     path = Path(path)
     table = open_table(path, media_type)[1]
-    layout = bind_columns(table, mapping)
+    try:
+        layout = bind_columns(table, mapping)
+    except LogError as error:
+        raise error if mapping else _with_suggestion(error, table) from error
     return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
+
+
+def _with_suggestion(error: LogError, table: Table) -> LogError:
+    """Add the mapping that the names of the columns suggest, to be confirmed."""
+    mappings = suggest_mappings(table)
+    if not mappings:
+        return error
+    evidence = error.evidence | {"suggested_mappings": mappings}
+    several = ", one for each arm" if len(mappings) > 1 else ""
+    written = " or ".join(map(json.dumps, mappings))
+    return LogError(
+        error.cause,
+        evidence=evidence,
+        remedy=f"check this mapping, suggested by the names{several}, and give it with the log: {written}",
+    )
 
 
 def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:

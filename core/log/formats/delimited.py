@@ -96,7 +96,7 @@ class DelimitedTable:
             column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
         )
         delimiter = "\t" if self.delimiter == BLANKS else self.delimiter
-        parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=self._judge_row)
+        parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=_RowJudge(self.cut))
         with reading(FORM, self.path), self._naming_columns():
             if self.delimiter == BLANKS or self.repeated:
                 blanks = self.delimiter == BLANKS
@@ -104,10 +104,6 @@ class DelimitedTable:
                     yield from arrow_csv.open_csv(lines, read, parse, convert)
             else:
                 yield from arrow_csv.open_csv(self.path, read, parse, convert)
-
-    def _judge_row(self, row: arrow_csv.InvalidRow) -> str:
-        cut = bool(self.cut) and row.actual_columns < row.expected_columns and row.text.encode() == self.cut
-        return "skip" if cut or row.text.lstrip().startswith("#") else "error"
 
     @contextmanager
     def _naming_columns(self) -> Iterator[None]:
@@ -121,6 +117,23 @@ class DelimitedTable:
             if (row := _BAD_ROW.search(str(error))) is not None:
                 raise _row_length_error(row, self.delimiter) from error
             raise
+
+
+class _RowJudge:
+    """Pass over comments, and over the one row that was cut short; any other odd row is an error."""
+
+    def __init__(self, cut: bytes) -> None:
+        self._cut = cut
+
+    def __call__(self, row: arrow_csv.InvalidRow) -> str:
+        """Say what becomes of a row of another number of cells."""
+        if row.text.lstrip().startswith("#"):
+            return "skip"
+        is_cut = (
+            bool(self._cut) and row.actual_columns < row.expected_columns and row.text.encode() == self._cut
+        )
+        self._cut = b""
+        return "skip" if is_cut else "error"
 
 
 def open_delimited(path: Path) -> DelimitedTable:

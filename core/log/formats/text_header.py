@@ -77,7 +77,10 @@ def split_cells(line: str, delimiter: str) -> list[str]:
         return [cell.strip('"') for cell in line.split()]
     if '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
+    except csv.Error:  # a cell longer than any name or number
+        return [cell.strip() for cell in line.split(delimiter)]
 
 
 def is_number(cell: str) -> bool:

@@ -1,9 +1,12 @@
 """The names that recorders use lead to a mapping that can be pasted, with the unit that a name says."""
 
+import json
+
 import numpy as np
 import pytest
 
 from tests.core.log.writers import swing, write_csv
+from veritorque.core.errors import LogError
 from veritorque.core.log.check import check_log
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import read_log
@@ -103,3 +106,12 @@ def test_the_suggestion_for_lists_of_a_data_set_is_whole(tmp_path):
     suggested = check_log(path).suggestion
     assert suggested["profile"] == "lerobot"
     assert read_log(path, mapping=suggested).joints == 2
+
+
+def test_a_refusal_for_names_offers_the_mapping_that_would_do(tmp_path):
+    path = write_csv(tmp_path / "log.csv", RECORDERS["JointN_Pos"])
+    with pytest.raises(LogError) as refusal:
+        read_log(path)
+    (offered,) = refusal.value.evidence["suggested_mappings"]
+    assert json.dumps(offered) in refusal.value.remedy
+    assert read_log(path, mapping=offered).joints == 2

@@ -129,3 +129,10 @@ def test_a_row_of_units_that_contradicts_the_default_names_is_not_passed_over(ro
         read_log(path)
     assert refusal.value.evidence["unit_in_the_file"] == unit
     assert f'map {channel} with "unit": "{unit}"' in refusal.value.remedy
+
+
+def test_only_the_last_row_may_be_cut_short(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join([*lines()[:900], "12.000,0.1", *lines()[900:], "12.000,0.1"]))
+    with pytest.raises(LogError, match="holds 2 cells"):
+        read_log(path)
