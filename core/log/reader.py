@@ -97,7 +97,7 @@ def _with_suggestion(error: LogError, table: Table) -> LogError:
     return LogError(
         error.cause,
         evidence=evidence,
-        remedy=f"check this mapping, suggested by the names{several}, and give it with the log: {written}",
+        remedy=f"{error.remedy}; or check the mapping that the names suggest{several}: {written}",
     )
 
 

@@ -19,7 +19,9 @@ def table(names: list[str] | None = None, *, first: str | None = None, delimiter
     columns = motion()
     rows = [delimiter.join(f"{value:.6f}" for value in row) for row in zip(*columns.values(), strict=True)]
     if first is not None:
-        rows[0] = rows[len(rows) // 2] = first  # at an end alone it would be left out
+        rows[0] = first
+        stamp, values = rows[len(rows) // 2].split(delimiter)[0], first.split(delimiter, 1)[1:]
+        rows[len(rows) // 2] = delimiter.join([stamp, *values])  # a row at an end is left out
     return "\n".join([delimiter.join(names or columns), *rows]).encode()
 
 
