@@ -15,7 +15,8 @@ HIGH_COST = 1.25
 """Constraints that raise the squared error by more than a quarter contradict the log."""
 POOR_PREDICTION_PERCENT = 50.0
 HELD_OUT_OVER_FITTED = 2.0
-DOUBTFUL = ("implausible_unit", "velocity_mismatch", "one_direction")
+ONE_DIRECTION = "one_direction"
+DOUBTFUL = ("implausible_unit", "velocity_mismatch", ONE_DIRECTION)
 """Defects of a log by which values are wrong, or not known, however well the model fits."""
 CERTAIN = 3.0
 """A value this many standard deviations from zero has a significant sign."""
@@ -32,6 +33,8 @@ def _logs(found: Identification) -> list[str]:
     sentences = []
     for log in found.logs:
         for kind in DOUBTFUL:
+            if kind == ONE_DIRECTION and len(found.logs) > 1:
+                continue  # the way back may be in another log
             alike = [defect for defect in log.defects if defect.kind == kind]
             others = ", ".join(str(defect.joint) for defect in alike[1:])
             more = f" (so it is on joints {others})" if others else ""
