@@ -37,6 +37,7 @@ class Chosen:
         return self.source.row_in_source(row) if isinstance(self.source, PiecedSource) else row
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is beyond any size is refused later
 def choose_rows(source: LogSource, stamps: Iterable[Samples] | None) -> Chosen:
     """Put rows in order and leave out what does not belong.
 

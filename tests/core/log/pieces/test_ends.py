@@ -114,3 +114,12 @@ def test_a_row_number_in_a_refusal_counts_the_rows_that_were_left_out():
     torque[500, 0] = np.nan
     with pytest.raises(Exception, match="the first in row 501"):
         log_from_arrays("spoilt", time, position, torque)
+
+
+@pytest.mark.parametrize("value", [1e308, -1e308, np.inf, np.nan])
+@pytest.mark.parametrize("channel", ["position", "torque"])
+def test_values_beyond_any_size_in_the_middle_are_refused_and_nothing_overflows(value, channel):
+    time, position, torque = healthy()
+    {"position": position, "torque": torque}[channel][[900, 2500], [0, 1]] = value, -value
+    with pytest.raises(Exception, match="missing, not finite or beyond any size"):
+        log_from_arrays("spoilt", time, position, torque)
