@@ -73,7 +73,7 @@ class Masking:
     kept: float = 0.5
     """Share of its likelihood ratio that a cause has to keep: beside another one if it is no alternative to
     it, beyond what others leave, over unnamed patterns if it acts in short spans, and at the operating point
-    that it yields. Source: 686 and 840 simulated logs, docs/decisions.md."""
+    that it yields. Source for what others leave: 686 and 840 simulated logs, docs/decisions.md."""
     left: float = 0.25
     """Share of a cause's likelihood ratio, per joint, that its columns' error may leave."""
     event_over_other: float = 0.05
