@@ -13,6 +13,7 @@ from .arrays import Parameters
 from .conflicts.check import Conflicts, check
 from .diagnosis.diagnose import DiagnosisProblem
 from .diagnosis.diagnose import diagnose as find_causes
+from .diagnosis.reservations import with_reservations
 from .diagnosis.result import Diagnosis
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.diagnosis import diagnosis_document
@@ -25,10 +26,11 @@ from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
 from .extension.cure import corrections, extended_base, global_indices, input_note, sizes, with_proven
 from .extension.fold import fold
-from .extension.gain import JointGain, gains
+from .extension.gain import JointGain, gains, worsens_motion
 from .extension.result import Extension
 from .extension.verification import verify
 from .identification.admission import admit, known_log
+from .identification.doubts import contradictions
 from .identification.identify import Fit, Progress, fit, judge
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
@@ -206,24 +208,37 @@ def _explain(settled: _Settled, reference: Reference | None, tell: Progress) -> 
     question = DiagnosisProblem(
         problem.plan, task.asked.logs, problem.held_out, options.validation.blocks, reference
     )
-    found = find_causes(question, _scale_progress(tell, 0.3, 0.5))
+    found = with_reservations(
+        find_causes(question, _scale_progress(tell, 0.3, 0.5)),
+        open_conflict=settled.conflicts.is_open,
+        doubted=bool(contradictions(before)),
+    )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = _verify(found, options, plain, tell)
     parts = before.observation.parts(problem.held_out)
     as_it_is = None if reference is None else score_reference(reference, before, parts)
+    without = Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
     if not corrections(found):
-        return Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
+        return without
     try:
         extended = proof or fit(_extend(found, plain), options, last)
         after = judge(task.asked.logs, options, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
-        note = f"the extended model could not be identified: {error.cause}"
-        return Extension(before, found, None, (), None, note, as_it_is)
+        return replace(without, motion_note=f"the extended model could not be identified: {error.cause}")
     tell("simulate", 0.95)
-    old = before.estimate if as_it_is is None else as_it_is
-    gained = gains((before.observation, old.base), (after.observation, after.estimate.base), parts[1])
-    motion, note = _motion((problem.base.model, old.standard), after, found, problem)
-    return Extension(before, found, after, gained, motion, note, as_it_is)
+    return _compare_motion(without, after, problem)
+
+
+def _compare_motion(without: Extension, after: Identification, problem: Problem) -> Extension:
+    """Measure what the extended model gains, and leave it out where simulated motion becomes clearly worse."""
+    before, held = without.before, without.before.observation.parts(problem.held_out)[1]
+    old = before.estimate if without.compared is None else without.compared
+    gained = gains((before.observation, old.base), (after.observation, after.estimate.base), held)
+    motion, note = _motion((problem.base.model, old.standard), after, without.diagnosis, problem)
+    if motion is not None and worsens_motion(motion):
+        note = "the correction makes the simulated motion clearly worse, and was not applied"
+        return replace(without, motion_note=note)
+    return replace(without, after=after, gains=gained, motion=motion, motion_note=note)
 
 
 def _extend(found: Diagnosis, problem: Problem) -> Problem:

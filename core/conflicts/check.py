@@ -24,6 +24,11 @@ class Conflicts:
     """Whether the corrections were applied before anything else was computed."""
 
     @property
+    def is_open(self) -> bool:
+        """Tell whether something disagrees that was not corrected."""
+        return (bool(self.found) and not self.applied) or any(self.stamp_factors)
+
+    @property
     def setup(self) -> Setup | None:
         """Give the corrected set-up; None where nothing is to be corrected."""
         return self.found[-1].hypothesis.setup if self.found else None

@@ -14,6 +14,8 @@ from ..simulation.multistep import Comparison
 
 DRAWS = 1000
 SEED = 0
+CLEARLY_WORSE_PERCENT = 10.0
+"""Upper end of the 95 % interval of a joint's growing position error from which motion is clearly worse."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,15 @@ def motion_intervals(comparison: Comparison) -> Intervals | None:
     ]
     old, new = (np.sqrt(resampled_sums(squares, DRAWS, SEED)) for squares in sums)
     return interval_95(100.0 * np.divide(old - new, old, out=np.zeros_like(old), where=old > 0.0))
+
+
+def worsens_motion(comparison: Comparison) -> bool:
+    """Tell whether a correction makes the simulated motion clearly worse: on some joint, and on the whole."""
+    intervals = motion_intervals(comparison)
+    if intervals is None:
+        return False
+    clearly = bool(np.any(intervals[:, 1] < -CLEARLY_WORSE_PERCENT))
+    return clearly and float(np.mean(comparison.total_gain_percent)) < 0.0
 
 
 def _percent(before: float, after: float) -> float:

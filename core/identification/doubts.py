@@ -24,8 +24,12 @@ CERTAIN = 3.0
 
 def doubts(found: Identification) -> tuple[str, ...]:
     """List the warnings."""
-    fitted = (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found), *_not_excited(found))
-    return (*_logs(found), *fitted)
+    return (*_logs(found), *contradictions(found), *_not_excited(found))
+
+
+def contradictions(found: Identification) -> tuple[str, ...]:
+    """List the warnings that say that the model does not fit the log."""
+    return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found))
 
 
 def _logs(found: Identification) -> list[str]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_temperature import TemperatureFriction, WarmUpFriction
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Quantity, Scalars, Setting
 from .shared.own_joint import NOTHING, OwnJointCause
 
@@ -41,6 +42,11 @@ class FrictionTemperature(OwnJointCause):
         if temperature is not None:
             return TemperatureFriction(at.joint, float(temperature[:, at.joint - 1].mean()))
         return WarmUpFriction(at.joint, float(at.dataset.time.min()), at.scalars["time_constant"])
+
+    def admissible(self, solved: FittedCause) -> bool:
+        """Admit a warm-up that takes seconds."""
+        warm_up = solved.scalars.get("time_constant", ADMISSIBLE.least_warm_up)
+        return super().admissible(solved) and warm_up >= ADMISSIBLE.least_warm_up
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the slopes: per kelvin with a sensor, over the whole warm-up without one."""

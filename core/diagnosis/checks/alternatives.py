@@ -26,6 +26,7 @@ from ..thresholds.checks import ALTERNATIVES
 from ..thresholds.search import MASKING, SEARCH, SELECTION
 from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
+from .plausible_size import has_plausible_size
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +76,10 @@ def _comparison(state: SearchState, index: int, unnamed: tuple[Candidate, ...]) 
 
 
 def _is_dropped(state: SearchState, own: Comparison, *, alone: bool) -> bool:
-    """Tell whether a member is inadmissible or a surrogate."""
+    """Tell whether a member is inadmissible, of a size that makes no sense, or a surrogate."""
     return (
         not state.chosen.admits(own.index)
+        or not has_plausible_size(state.fitter, state.chosen, own.index)
         or (own.margin < -SELECTION.undecided and not alone)
         or _reduces_no_error(state.fitter, state.chosen, own, alone=alone)
         or _pattern_is_better(own)

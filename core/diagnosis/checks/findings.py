@@ -14,7 +14,7 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
 from ..search.residuals import residual
 from ..search.state import SearchState
-from ..thresholds.checks import CONFIDENCE
+from ..thresholds.checks import CONFIDENCE, SIZE
 from .alternatives import Comparison
 from .confidence import confidence, predictors
 from .figure import curve
@@ -52,7 +52,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         cure=cause.cure,
         statement=cause.statement(solved),
         quantities=cause.quantities(solved),
-        confidence=confidence(evidence),
+        confidence=confidence(evidence) if own.margin >= 0.0 else min(confidence(evidence), SIZE.doubtful),
         predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_fraction(left, dataset.usable & ~dataset.held_out[:, None], joints),

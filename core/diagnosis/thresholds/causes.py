@@ -55,6 +55,8 @@ class Admissible:
     """Cycles per revolution of a torque ripple: gravity has one."""
     stated_deviations: float = 2.0
     """Standard deviations from which a change is stated among others of the same cause."""
+    least_warm_up: float = 3.0
+    """Seconds, time constant of a warm-up: no drive of a robot warms up faster."""
     saturation_error: float = 0.03
     """Relative error of the largest predicted torques, which a torque limit is known to."""
 

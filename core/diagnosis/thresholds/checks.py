@@ -76,4 +76,20 @@ class Confidence:
     """Largest lead, in the same units."""
 
 
+@dataclass(frozen=True)
+class Size:
+    """Decide whether a size makes sense beside the log. All are set by hand."""
+
+    torque_share: float = 1.0
+    """Share of a joint's torque, RMS, that a cause's torque may have."""
+    clearness: float = 1.0
+    """Standard deviations that one of a cause's numbers has to differ from zero by at least."""
+    doubtful: float = 0.5
+    """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left, or
+    while an alternative explains more."""
+    half: float = 0.5
+    """Share of a joint's RMS torque, left by model and findings, from which on the model does not fit it."""
+
+
+SIZE = Size()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()

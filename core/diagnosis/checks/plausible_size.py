@@ -1,0 +1,33 @@
+"""Tell whether the size of a cause makes sense beside the log, whatever the likelihood says.
+
+A cause whose torque exceeds all the torque of its joint is cancelled by another column: it stands for a
+direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size.
+"""
+
+import numpy as np
+
+from ..search.fitter import HypothesisFitter
+from ..search.hypothesis import Hypothesis
+from ..thresholds.checks import SIZE
+
+
+def has_plausible_size(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
+    """Tell whether a member's torque and deviations make sense."""
+    return _within_torque(fitter, chosen, index) and _is_determined(fitter, chosen, index)
+
+
+def _within_torque(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
+    """Tell whether the torque of a member exceeds the joint's own on no joint; RMS over usable rows."""
+    dataset, values = fitter.dataset, chosen.fit.values[chosen.columns_of(index)]
+    for joint, own in fitter.columns([chosen.members[index]])[0].items():
+        usable = dataset.usable[:, joint]
+        effect, torque = own[usable] @ values, dataset.torque[usable, joint]
+        if effect @ effect > SIZE.torque_share**2 * (torque @ torque):
+            return False
+    return True
+
+
+def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
+    cause, solved = chosen.members[index].cause, chosen.in_joint_units(index, fitter.dataset.robot)
+    quantities = cause.quantities(solved)
+    return not quantities or bool(np.max([one.clearness for one in quantities]) > SIZE.clearness)
