@@ -9,7 +9,6 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from .arrays import Parameters
 from .conflicts.check import Conflicts, check
 from .diagnosis.diagnose import DiagnosisProblem
 from .diagnosis.diagnose import diagnose as find_causes
@@ -20,13 +19,13 @@ from .document.diagnosis import diagnosis_document
 from .document.identification import grouping_row, identification_document
 from .document.numbers import plain
 from .document.reference import reference_from_document
-from .dynamics.model import DynamicModel, standard_model
-from .errors import OptionError, SolverError, VeritorqueError
+from .dynamics.model import standard_model
+from .errors import OptionError, SolverError
 from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
-from .extension.cure import corrections, extended_base, global_indices, input_note, sizes, with_proven
-from .extension.fold import fold
-from .extension.gain import JointGain, gains, worsens_motion
+from .extension.cure import corrections, extended_base, global_indices, sizes, with_proven
+from .extension.gain import JointGain, gains
+from .extension.measure import measure_gains
 from .extension.result import Extension
 from .extension.verification import verify
 from .identification.admission import admit, known_log
@@ -44,8 +43,6 @@ from .regressor.observe import Observation
 from .report.traces.writing import write_traces
 from .robot.model import RobotModel
 from .signals.several import condition_all
-from .simulation.mechanism import mechanism_of
-from .simulation.multistep import Comparison, compare
 
 __all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full", "parse_options"]
 
@@ -226,19 +223,7 @@ def _explain(settled: _Settled, reference: Reference | None, tell: Progress) -> 
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         return replace(without, motion_note=f"the extended model could not be identified: {error.cause}")
     tell("simulate", 0.95)
-    return _compare_motion(without, after, problem)
-
-
-def _compare_motion(without: Extension, after: Identification, problem: Problem) -> Extension:
-    """Measure what the extended model gains, and leave it out where simulated motion becomes clearly worse."""
-    before, held = without.before, without.before.observation.parts(problem.held_out)[1]
-    old = before.estimate if without.compared is None else without.compared
-    gained = gains((before.observation, old.base), (after.observation, after.estimate.base), held)
-    motion, note = _motion((problem.base.model, old.standard), after, without.diagnosis, problem)
-    if motion is not None and worsens_motion(motion):
-        note = "the correction makes the simulated motion clearly worse, and was not applied"
-        return replace(without, motion_note=note)
-    return replace(without, after=after, gains=gained, motion=motion, motion_note=note)
+    return measure_gains(without, after, problem)
 
 
 def _extend(found: Diagnosis, problem: Problem) -> Problem:
@@ -270,17 +255,6 @@ def _verify(
 
 def _scale_progress(tell: Progress, begin: float, share: float) -> Progress:
     return lambda stage, done: tell(stage, begin + share * done)
-
-
-def _motion(
-    before: tuple[DynamicModel, Parameters], after: Identification, found: Diagnosis, problem: Problem
-) -> tuple[Comparison | None, str]:
-    """Simulate the held-out blocks with both models, and say which findings are not part of the motion."""
-    try:
-        old, new = mechanism_of(*before), mechanism_of(*fold(after.base.model, after.estimate.standard))
-        return compare(old, new, problem.motions, chosen=problem.held_out or None), input_note(found)
-    except VeritorqueError as error:
-        return None, str(error)
 
 
 def _prepare(task: _Task, tell: Progress, reference: Reference | None = None) -> Problem:

@@ -1,7 +1,7 @@
 """Lower what a diagnosis claims while robot and log do not fit each other.
 
-A cause is a small correction of a model that fits. Beside a conflict that is open, or a model that leaves more
-than half of a joint's torque, the likeliest small correction is seldom the reason.
+A cause is a small correction of a model that fits. Beside a conflict that is open, or a model that leaves
+more than half of a joint's torque, the likeliest small correction is seldom the reason.
 """
 
 from collections.abc import Iterator
