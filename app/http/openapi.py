@@ -15,12 +15,14 @@ from ..kinds.registry import KINDS as JOB_KINDS
 from ..problems import KINDS, MEDIA_TYPE
 from ..schemas.common import ProblemDocument
 from ..schemas.jobs import JobRequest
+from ..schemas.logs import LogReading
 from ..schemas.robots import RobotDescription
 
 SCHEMAS = "#/components/schemas/"
 DOCUMENTED: tuple[type[BaseModel], ...] = (
     RobotDescription,
     JobRequest,
+    LogReading,
     *dict.fromkeys(kind.result for kind in JOB_KINDS.values()),
     ProblemDocument,
 )

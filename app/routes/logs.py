@@ -7,7 +7,7 @@ import anyio
 from fastapi import Query, Request, Response
 from fastapi.responses import JSONResponse
 
-from ..http.body.json_body import media_type_of, parse_object, require_media_type
+from ..http.body.json_body import check, media_type_of, parse_json, parse_object, require_media_type
 from ..http.body.uploads import (
     LOG_MEDIA_TYPES,
     LONGEST_TEXT_FILE,
@@ -22,12 +22,12 @@ from ..http.body.uploads import (
 )
 from ..http.immutable_response import UNCHANGED, IfNoneMatch
 from ..http.negotiation import matches
-from ..http.openapi import body, file_part, problems, text_part
+from ..http.openapi import body, file_part, problems, reference, text_part
 from ..http.pagination import CursorOf, Limit, before, following
 from ..http.routing import chapter
 from ..problems import Problem
-from ..schemas.examples import CSV_LOG, MAPPING
-from ..schemas.logs import LogList, LogSummary, LogTraces
+from ..schemas.examples import CSV_LOG, MAPPING, READING
+from ..schemas.logs import LogList, LogReading, LogSummary, LogTraces
 from ..services.decimated_traces import SelectionOf
 from ..services.serialisers import log_document
 from ..services.services import ContextOf, RequestContext
@@ -99,6 +99,25 @@ def list_logs(context: ContextOf, limit: Limit = 100, cursor: CursorOf = None) -
 def read_log(context: ContextOf, log_id: str) -> Response:
     """Read the summary of a log with its defects."""
     return JSONResponse(log_document(context.catalogue.log(log_id)))
+
+
+@ROUTER.post(
+    "/{log_id}/readings",
+    status_code=201,
+    response_model=LogSummary,
+    summary="Read a log with another mapping",
+    responses=problems(404, 413, 415, 422),
+    openapi_extra=body({"application/json": {"schema": reference(LogReading), "example": READING}}),
+)
+async def read_again(request: Request, context: ContextOf, log_id: str) -> Response:
+    """Read the bytes of a log with another mapping, as another log. The first one stays as it is."""
+    require_media_type(request, ("application/json",))
+    asked = check(LogReading, parse_json(await request.body()))
+    log = await anyio.to_thread.run_sync(context.catalogue.log, log_id)
+    again = await anyio.to_thread.run_sync(
+        lambda: context.catalogue.read_again(log, dict(asked.mapping) or None), limiter=context.readers
+    )
+    return JSONResponse(log_document(again), 201, headers={"Location": f"/v1/logs/{again.id}"})
 
 
 @ROUTER.get(

@@ -20,3 +20,4 @@ MAPPING = (
     '{"time": {"column": "t", "unit": "ms"}, "position": {"columns": ["a1", "a2"], "unit": "deg"}, '
     '"torque": {"columns": ["m1", "m2"], "unit": "N m"}}'
 )
+READING = {"mapping": {"torque": {"columns": ["m2", "m1"], "unit": "N m", "scale": [1.0, -1.0]}}}

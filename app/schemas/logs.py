@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field, JsonValue
 
 from ...core.log.channels import JOINT_CHANNELS
-from .common import Instant, Next, Open, about
+from .common import Instant, Next, Open, Strict, about
 
 
 class Defect(Open):
@@ -35,6 +35,15 @@ class LogSummary(Open):
     defects: list[Defect]
     mapping: Annotated[dict[str, JsonValue] | None, about("as it was sent; null for the default names")]
     created_at: Instant
+
+
+class LogReading(Strict):
+    """Ask for another reading of a log's bytes."""
+
+    mapping: Annotated[
+        dict[str, JsonValue],
+        Field(max_length=100, description="what each column is, as at an upload; empty: default names"),
+    ]
 
 
 class LogList(Open):

@@ -13,7 +13,7 @@ from ..inspection.inspector import Inspector
 from ..inspection.log_reading import ChannelSelection, LogFile
 from ..kinds.base_parameters import base_parameters
 from ..problems import Problem
-from ..store.blobs.incoming import Incoming
+from ..store.blobs.incoming import CHUNK_BYTES, Incoming
 from ..store.records import Document, LogRecord, RobotRecord
 from ..store.store import TenantStore
 from .robot_descriptions import read_description, read_urdf
@@ -136,6 +136,22 @@ class Catalogue:
         log = LogFile(incoming.path, log_name(name), mapping, incoming.sha256)
         summary = self._inspector.summarise(log, size=incoming.size, media_type=media_type)
         return self._store.keep_log(incoming, mapping=mapping, summary=summary | {"bytes": incoming.size})
+
+    def read_again(self, log: LogRecord, mapping: Document | None) -> LogRecord:
+        """Read the bytes of a log with another mapping, and keep that as another log.
+
+        Raises
+        ------
+        LogError, Problem
+            If the mapping does not fit; nothing is kept then.
+        DamagedError
+            If the log is not what it was.
+        """
+        self._store.blobs.check(log.sha256)
+        with self._store.blobs.open(log.sha256) as stored, self._store.blobs.receive() as incoming:
+            while chunk := stored.read(CHUNK_BYTES):
+                incoming.write(chunk)
+            return self.add_log(incoming, name=str(log.summary["name"]), mapping=mapping)
 
     def trace_log(self, log: LogRecord, selection: ChannelSelection) -> bytes:
         """Draw channels of a log, as the document that is sent.

@@ -52,9 +52,14 @@ def conflict_sentence(row: dict[str, object]) -> str:
 
 
 def with_conflicts(document: dict[str, object], rows: list[dict[str, object]]) -> dict[str, object]:
-    """Put conflicts into a result document, and first among its warnings."""
+    """Put conflicts and warnings before all results, conflicts first among the warnings."""
     warnings = [*map(conflict_sentence, rows), *cast("list[str]", document["doubts"])]
-    return document | {"conflicts": rows, "doubts": warnings}
+    first = {key: document[key] for key in ("schema_version", "kind")}
+    return (
+        first
+        | {"conflicts": rows, "doubts": warnings}
+        | {key: value for key, value in document.items() if key not in {*first, "doubts"}}
+    )
 
 
 def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) -> dict[str, object]:
@@ -91,7 +96,8 @@ def _correction(setup: Setup, robot: RobotModel, logs: tuple[JointLog, ...]) -> 
     before = [mapping_of(log) for log in logs]
     described: dict[str, object] = {}
     if setup.robot.links is not robot.links:
-        described["joints"] = to_description(setup.robot)["joints"]
+        written = to_description(setup.robot)
+        described |= {field: written[field] for field in ("convention", "joints")}
     if not np.array_equal(setup.robot.gravity, robot.gravity):
         described["gravity"] = setup.robot.gravity
     return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import json
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,9 @@ import pytest
 from tests.browser.test_burden import LARGEST_PAGE
 
 HIDDEN_LOG = Path(__file__).parents[2] / "examples" / "yumi" / "hidden_log.csv"
+LOG = HIDDEN_LOG.with_name("log.csv")
+REVERSED_SAMPLES = 2000
+QUICK = {"bootstrap": {"draws": 0}}
 SAMPLES = 3750
 """The first quarter of a minute tells both things that are hidden, and is diagnosed in less time."""
 COMMON = ["torque", "parameters", "residuals", "bodies", "excitation", "motion", "export"]
@@ -38,6 +42,47 @@ def diagnosed(browser, service):
     address = page.url
     page.close()
     return address
+
+
+@pytest.fixture(scope="session")
+def reversed_log(browser, service):
+    """The address of a study of the example's beginning, in which torque 2 was recorded reversed."""
+    head, *rows = [line.split(",") for line in LOG.read_text().splitlines()[: 1 + REVERSED_SAMPLES]]
+    torque = head.index("tau_2")
+    for row in rows:
+        row[torque] = str(-float(row[torque]))
+    page = browser.new_page()
+    log = page.request.post(
+        f"{service}/v1/logs?name=reversed.csv",
+        data="\n".join(",".join(row) for row in (head, *rows)),
+        headers={"Content-Type": "text/csv"},
+        timeout=120_000,
+    ).json()["id"]
+    job = page.request.post(
+        f"{service}/v1/jobs",
+        data={"kind": "identify", "robot": "yumi-left", "logs": [log], "options": QUICK},
+        timeout=120_000,
+    ).json()["id"]
+    page.close()
+    return f"/studies/{job}"
+
+
+def test_a_conflict_is_applied_by_a_click_and_the_new_study_has_none(look, service, reversed_log):
+    page = look(service).open(reversed_log)
+    card = page.locator(".conflict")
+    card.wait_for(timeout=180_000)
+    before = document_of(page)
+    assert card.locator("h2").inner_text().startswith("Robot and log disagree: reverse the sign of")
+    card.locator("summary").click()
+    (conflict,) = before["conflicts"]
+    shown = json.loads(card.locator("pre").inner_text())
+    assert shown == {"mapping": conflict["correction"]["mapping"]}
+    page.get_by_role("button", name="Apply and start again").click()
+    page.wait_for_url(lambda address: reversed_log not in address)
+    page.locator(".headline").wait_for(timeout=180_000)
+    after = document_of(page)
+    assert (after["conflicts"], page.locator(".conflict").count()) == ([], 0)
+    assert after["base_parameters"] == before["base_parameters"]
 
 
 def drawn(page, sections):

@@ -8,11 +8,11 @@ export function showHeadline(container, { job, document, report }) {
   const verdict = report.querySelector(".verdict")?.textContent.replaceAll(" %", "\u00a0%") ?? "";
   const glance = [...report.querySelectorAll("main > header > ol, main > header > p:not(.verdict):not(.kind)")].map(copied);
   fill(container, element("section", { class: "card headline", "aria-label": "Summary" },
+    warnings(document),
     element("p", { class: "verdict" }, verdict),
     glance,
     element("div", { class: "figures" }, figures(document)),
-    element("p", {}, follow(element("a", { class: "button", href: job.links.report, download: null }, "Open the report"))),
-    warnings(document)));
+    element("p", {}, follow(element("a", { class: "button", href: job.links.report, download: null }, "Open the report")))));
 }
 
 function figures(document) {
@@ -46,10 +46,12 @@ function figure(big, small, kind = null) {
   return element("div", {}, element("strong", { class: kind }, big), element("span", {}, small));
 }
 
+// The warnings of conflicts come first among them, and have a card of their own.
 function warnings(document) {
-  if (!document.doubts?.length) return null;
+  const doubts = (document.doubts ?? []).slice(document.conflicts?.length ?? 0);
+  if (!doubts.length) return null;
   return element("div", { class: "notice" }, element("strong", {}, "Warnings"),
-    element("ul", {}, document.doubts.map((one) => element("li", {}, `${one}.`))));
+    element("ul", {}, doubts.map((one) => element("li", {}, `${one}.`))));
 }
 
 /** Take a part of the report over into this page. */

@@ -1,6 +1,7 @@
-// Show the result of a successful job: headline first, then one section for each topic.
+// Show the result of a successful job: conflicts and headline first, then one section for each topic.
 import { get, request } from "./api.js";
 import { showBodies } from "./bodies.js";
+import { showConflicts } from "./conflicts.js";
 import { element, fill } from "./dom.js";
 import { showExcitation } from "./excitation.js";
 import { showFindings, showRemainder } from "./findings.js";
@@ -23,10 +24,12 @@ export async function show(container, job) {
   const study = { job, document, report, traces: tracesOf(job, document) };
   const all = document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
   const sections = job.links.traces ? all : all.filter(([id]) => !TRACED.has(id));
+  const conflicts = element("div", {});
   const headline = element("div", {});
   const parts = sections.map(([id, title]) => element("section", { class: "card part", id, "aria-labelledby": `${id}-title` },
     element("h2", { id: `${id}-title` }, title), element("div", { class: "content" })));
-  fill(container, headline, contents(sections), parts);
+  fill(container, conflicts, headline, contents(sections), parts);
+  showConflicts(conflicts, study);
   showHeadline(headline, study);
   sections.forEach(([, , draw], place) => whenSeen(parts[place], (content) => draw(content, study)));
 }

@@ -14,14 +14,16 @@ from ....core.report.page.overview import headline
 from ....core.report.page.words import is_significant
 from .columns import Column, print_table
 from .tables import effort_column, percent
+from .warnings import print_warnings
 
 Document = Mapping[str, Any]
 
 
 def print_diagnosis(console: Console, result: Document) -> None:
-    """Print findings, improvements and the unexplained residual."""
+    """Print warnings, findings, improvements and the unexplained residual."""
     diagnosis = result["diagnosis"]
     findings, band = diagnosis["findings"], diagnosis["band_hz"]
+    print_warnings(console, result)
     console.print(f"\n[bold]{escape(headline(result))}[/]")
     for number, finding in enumerate(findings, start=1):
         console.print(f"\n[bold]{number}. {escape(finding['statement'])}.[/]")

@@ -8,6 +8,7 @@ from rich.markup import escape
 
 from ....core.report.page.units import unit_of_effort
 from .columns import Column, print_table
+from .warnings import print_warnings
 
 Document = Mapping[str, Any]
 FRICTION: Final = ("OFF", "FC", "FV")
@@ -16,7 +17,8 @@ READ_OTHERWISE: Final = ("rearranged", "bad_end", "time_restarts", "shuffled_row
 
 
 def print_result(console: Console, result: Document) -> None:
-    """Print parameters, errors and the summary."""
+    """Print warnings, parameters, errors and the summary."""
+    print_warnings(console, result)
     friction, inertial = by_kind(result["base_parameters"])
     for title, part in (("Friction and offsets", friction), ("Base inertial parameters", inertial)):
         if part:
@@ -74,7 +76,7 @@ def effort_column(result: Document, heading: str, rows: Sequence[Document], key:
 
 
 def summary(result: Document) -> list[str]:
-    """Summarise parameter counts, physical consistency and solver status, and list the warnings."""
+    """Summarise parameter counts, physical consistency and solver status, and how the logs were read."""
     counts, feasibility, solver = result["counts"], result["feasibility"], result["solver"]
     smallest = min(feasibility["pseudo_inertia_min_eigenvalue"])
     objective, least = number(solver["objective"]), number(solver["objective_ols"])
@@ -94,8 +96,7 @@ def summary(result: Document) -> list[str]:
             f"configurations: {number(workspace['workspace'])}."
         )
     defects = [defect for defect in result.get("defects", []) if defect["kind"] in READ_OTHERWISE]
-    lines += [f"Log {defect['log']}: {escape(defect['statement'])}" for defect in defects]
-    return lines + [f"Warning: {escape(doubt)}" for doubt in result.get("doubts", [])]
+    return lines + [f"Log {defect['log']}: {escape(defect['statement'])}" for defect in defects]
 
 
 def consistency(feasible: bool | None) -> str:  # noqa: FBT001  (three-valued answer, printed)

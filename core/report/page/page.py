@@ -6,6 +6,7 @@ The page holds no script and loads nothing from elsewhere.
 from collections.abc import Sequence
 
 from . import overview, remainder, robot
+from .conflicts import disagreements, other_warnings
 from .figures import dependence_figure
 from .findings import findings
 from .joints import joint_errors
@@ -39,6 +40,8 @@ def compose_page(
         "title": f"{document['robot']['name']}: {'diagnosis' if document['diagnosis'] else 'identification'}",
         "version": (document.get("provenance") or {}).get("version", ""),
         "facts": facts(document, origin),
+        "disagreements": disagreements(document),
+        "warnings": other_warnings(document),
         "print_margins": print_margins(document, origin),
         "traces": traces_section(traces, names),
     }

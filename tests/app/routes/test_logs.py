@@ -50,6 +50,33 @@ def test_another_mapping_of_the_same_bytes_is_another_log(client, log_bytes):
         assert client.post("/v1/logs", files=form).json()["id"] == mapped["id"]
 
 
+def test_a_stored_log_read_with_another_mapping_is_the_log_that_an_upload_would_be(client, log_bytes):
+    mapping = {"torque": {"columns": ["tau_2", "tau_1"], "unit": "N m", "scale": [1.0, -1.0]}}
+    plain = client.post("/v1/logs?name=swing.csv", content=log_bytes, headers=CSV).json()
+    answer = client.post(f"/v1/logs/{plain['id']}/readings", json={"mapping": mapping})
+    assert answer.status_code == 201
+    asked = {"name": "swing.csv", "mapping": json.dumps(mapping)}
+    uploaded = client.post("/v1/logs", content=log_bytes, headers=CSV, params=asked).json()
+    assert answer.json()["id"] == uploaded["id"] != plain["id"]
+    assert answer.headers["location"] == f"/v1/logs/{uploaded['id']}"
+    back = client.post(f"/v1/logs/{uploaded['id']}/readings", json={"mapping": {}}).json()
+    assert back["id"] == plain["id"]
+
+
+def test_a_reading_that_does_not_fit_is_refused_and_leaves_nothing_behind(client, log_bytes):
+    log = client.post("/v1/logs", content=log_bytes, headers=CSV).json()
+    path, before = f"/v1/logs/{log['id']}/readings", client.get("/v1/logs").json()
+    wrong = {"torque": {"columns": ["nobody", "tau_2"]}}
+    assert_problem(client.post(path, json={"mapping": wrong}), 422, "log")
+    assert_problem(client.post(path, json={"mapping": [], "more": 1}), 422, "request")
+    broken = client.post(path, content=b"{", headers={"Content-Type": "application/json"})
+    assert_problem(broken, 400, "not-json")
+    assert_problem(client.post(path, content=b"{}", headers=CSV), 415, "unsupported-media-type")
+    assert_problem(client.post("/v1/logs/log-none/readings", json={"mapping": {}}), 404, "not-found")
+    assert client.get("/v1/logs").json() == before
+    assert list((client.app.state.services.settings.data_dir / "blobs" / "incoming").iterdir()) == []
+
+
 def test_bytes_that_another_log_needs_outlive_a_deletion(client, log_bytes):
     kept = client.post("/v1/logs?name=kept", content=log_bytes, headers=CSV).json()
     gone = client.post("/v1/logs?name=gone", content=log_bytes, headers=CSV).json()

@@ -21,6 +21,25 @@ def parameter(name="ZZR1", **changes):
     } | changes
 
 
+def conflict(**changes):
+    """Joints 2 and 1 were exchanged; it was noticed and corrected."""
+    return {
+        "conflict": "channels_swapped",
+        "joints": [1, 2],
+        "channel": "torque",
+        "confidence": 0.97,
+        "error_before_percent": 47.12,
+        "error_after_percent": 4.83,
+        "applied": True,
+        "statement": "the torques of joints 1 and 2 are exchanged",
+        "remedy": "exchange the channels of joints 1 and 2",
+        "correction": {"mapping": {"torque": {"columns": ["tau_2", "tau_1"]}}, "robot": {}},
+        "ambiguous_with": [
+            {"conflict": "position_sign", "joints": [2], "channel": "position", "why": "it predicts as well"}
+        ],
+    } | changes
+
+
 def identified(**changes):
     return {
         "schema_version": "1.0",

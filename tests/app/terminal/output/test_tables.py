@@ -8,10 +8,11 @@ import pytest
 from rich.console import Console
 
 from tests.app.terminal.conftest import run
-from tests.core.report.documents import diagnosed
+from tests.core.report.documents import conflict, diagnosed
 from veritorque.app.json_text import json_bytes
 from veritorque.app.terminal.output.columns import Column, print_table
-from veritorque.app.terminal.output.tables import effort_column
+from veritorque.app.terminal.output.findings import print_diagnosis
+from veritorque.app.terminal.output.tables import effort_column, print_result
 
 COMMANDS = {
     "identify yumi-left examples/yumi/log.csv": "identify",
@@ -94,3 +95,18 @@ def test_forces_of_slides_are_told_in_newtons(kinds, heading, cells):
     rows = [{"joint": 1, "rms_torque": 1.0}, {"joint": 2, "rms_torque": 2.0}]
     column = effort_column(document, "rms", rows, "rms_torque", spare=1)
     assert (column.heading, list(column.cells)) == (heading, cells)
+
+
+@pytest.mark.parametrize("show", [print_result, print_diagnosis])
+def test_conflicts_and_warnings_come_before_every_result(show):
+    document = diagnosed() | {"conflicts": [conflict()], "doubts": ["its conflict", "Motion is short"]}
+    told = io.StringIO()
+    show(Console(file=told, width=200), document)
+    lines = told.getvalue().splitlines()
+    assert lines[0] == "Robot and log disagree: exchange the channels of joints 1 and 2, error 47.1 → 4.83 %"
+    begin, end = lines.index("{"), lines.index("}")
+    assert json.loads("".join(lines[begin : end + 1])) == {
+        "mapping": {"torque": {"columns": ["tau_2", "tau_1"]}}
+    }
+    assert lines[end + 2] == "Warning: Motion is short"
+    assert "its conflict" not in told.getvalue()
