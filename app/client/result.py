@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from ...core.document.answer import model_name, plain_document
 from ...core.errors import OptionError
 
 if TYPE_CHECKING:
@@ -163,6 +164,8 @@ class Result:
         Error of the predicted torque on the fitted motion, and on motion held out of the fit.
     verdict
         ``causes_found``, ``nothing_found`` or ``unexplained``; None of an identification.
+    model
+        Which model all numbers are of: ``extended`` after a diagnosis that found something, else ``plain``.
     """
 
     document: Document
@@ -172,6 +175,7 @@ class Result:
     validation: JointErrors
     verdict: str | None
     findings: tuple[Finding, ...]
+    model: str
 
     @classmethod
     def from_document(cls, document: Document) -> Self:
@@ -185,7 +189,13 @@ class Result:
             validation=JointErrors.from_rows(document["validation"]),
             verdict=diagnosis["verdict"],
             findings=tuple(Finding.from_document(finding) for finding in diagnosis["findings"]),
+            model=model_name(document),
         )
+
+    @property
+    def plain(self) -> Self:
+        """Give the same result with the numbers of the plain model, the one before any correction."""
+        return self.from_document(plain_document(self.document))
 
     @property
     def physically_consistent(self) -> bool:

@@ -45,6 +45,28 @@ class Body(Open):
     axes: Annotated[list[list[float]] | None, about("their directions, as columns of a rotation")]
 
 
+class ModelName(Open):
+    """Which model the parameters of a result are of."""
+
+    name: Annotated[Literal["plain", "extended"], about("extended by the findings of a diagnosis, or plain")]
+    statement: str
+
+
+class PlainModel(Open):
+    """The model of a diagnosis before any correction, with the fields of an identification."""
+
+    counts: dict[str, int | None]
+    base_parameters: list[BaseParameter]
+    terms: list[str]
+    standard_parameters: list[StandardParameter]
+    bodies: list[Body]
+    feasibility: dict[str, JsonValue]
+    solver: dict[str, JsonValue]
+    fit: list[JointFit]
+    validation: list[JointFit]
+    condition_number: float | None
+
+
 class ResultDocument(Open):
     """The identified robot: parameters, standard deviations, and prediction errors."""
 
@@ -54,6 +76,7 @@ class ResultDocument(Open):
     logs: list[dict[str, JsonValue]]
     provenance: dict[str, JsonValue]
     counts: Annotated[dict[str, int | None], Field(examples=[{"standard": 98, "base": 71, "essential": 57}])]
+    model: Annotated[ModelName | None, about("the model that all of this describes")] = None
     base_parameters: list[BaseParameter]
     terms: Annotated[
         list[str],
@@ -72,4 +95,7 @@ class ResultDocument(Open):
     defects: list[JsonValue]
     doubts: Annotated[list[str], about("warnings, as sentences; conflicts come first")]
     conflicts: Annotated[list[Conflict], about("what robot and logs disagree in")] = Field(default=[])
+    plain: Annotated[
+        PlainModel | None, about("beside the extended model, the one before; null where they are the same")
+    ] = None
     diagnosis: Annotated[Diagnosis | None, about("of a job of kind diagnose")] = None

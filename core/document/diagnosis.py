@@ -13,8 +13,9 @@ from ..extension.result import Extension
 from ..identification.reference_score import ReferenceScore
 from ..identification.result import Identification
 from ..simulation.multistep import Comparison, MultiStep
+from .extended import answer_fields, extended_rows
 from .finding import finding_row, not_identifiable_row
-from .identification import base_parameter_rows, held_out_spans, identification_document
+from .identification import held_out_spans, identification_document
 from .identified import BaseValue, IdentifiedRobot
 from .model_file import model_document
 from .numbers import plain
@@ -23,8 +24,9 @@ from .repairs import repaired_description
 
 
 def diagnosis_document(found: Extension, *, version: str, options: object) -> dict[str, object]:
-    """Compose the document; its identification is that of the model before the correction."""
+    """Compose the document; its model is the extended one where there is one."""
     document = identification_document(found.before, version=version, options=options)
+    document |= {key: plain(value) for key, value in answer_fields(found).items()}
     doubted = {"doubts": [*cast("list[str]", document["doubts"]), *_doubts(found.compared)]}
     return document | doubted | {"kind": "diagnose", "diagnosis": plain(_diagnosis(found))}
 
@@ -107,10 +109,9 @@ def _side(found: Identification | ReferenceScore) -> dict[str, object]:
 
 
 def _extension(before: Identification, after: Identification) -> dict[str, object]:
-    old = set(before.base.names)
     solution = after.estimate.solution
     return {
-        "base_parameters": [row | {"new": row["name"] not in old} for row in base_parameter_rows(after)],
+        "base_parameters": extended_rows(before, after),
         "feasible": after.feasible,
         "solver": {
             "status": "optimal" if solution is None else solution.status,

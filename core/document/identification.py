@@ -37,12 +37,31 @@ def identification_document(found: Identification, *, version: str, options: obj
             "log_sha256": [log.sha256 for log in found.logs],
             "options": options,
         },
+        **model_fields(found),
+        "rank": found.base.rank,
+        "held_out": held_out_spans(found, found.held_out),
+        "coulomb_smoothing_widths": found.widths,
+        "defects": [
+            {"log": number, **vars(defect)}
+            for number, log in enumerate(found.logs, start=1)
+            for defect in log.defects
+        ],
+        "doubts": doubts(found),
+        "model": {"name": "plain", "statement": "The plain model, as the robot's description states it"},
+        "plain": None,
+        "diagnosis": None,
+    }
+    return {key: plain(value) for key, value in document.items()}
+
+
+def model_fields(found: Identification) -> dict[str, object]:
+    """Give the fields that describe one model: its parameters, its consistency, its errors."""
+    return {
         "counts": {
             "standard": len(found.base.model.parameters),
             "base": len(found.base.kept),
             "essential": len(found.essential.kept),
         },
-        "rank": found.base.rank,
         "base_parameters": base_parameter_rows(found),
         "terms": named_terms(found.base.model),
         "standard_parameters": _standard_parameters(found),
@@ -53,21 +72,11 @@ def identification_document(found: Identification, *, version: str, options: obj
         "fit_total_percent": found.fit_total_percent,
         "validation": found.validation,
         "validation_total_percent": found.validation_total_percent if found.validation else None,
-        "held_out": held_out_spans(found, found.held_out),
         "condition_number": found.excitation.condition_number,
         "condition_number_scaled": found.excitation.condition_number_scaled,
         "precision": _precision(found),
         "essential_path": _path(found),
-        "coulomb_smoothing_widths": found.widths,
-        "defects": [
-            {"log": number, **vars(defect)}
-            for number, log in enumerate(found.logs, start=1)
-            for defect in log.defects
-        ],
-        "doubts": doubts(found),
-        "diagnosis": None,
     }
-    return {key: plain(value) for key, value in document.items()}
 
 
 def base_parameter_rows(found: Identification) -> list[dict[str, object]]:

@@ -12,10 +12,11 @@ from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.rotor_inertia_missing import MissingRotor
 from ..errors import RobotError
 from ..estimate.smoothing import with_widths
-from ..extension.fold import fold
+from ..extension.fold import fold, parts_of
 from ..robot.description import robot_from_description
 from ..robot.frames import nearest_rotation
 from ..robot.model import Coupling, RobotModel
+from .answer import EXTENDED, answer_remarks, model_name, plain_document
 from .identified import BaseValue, IdentifiedRobot
 from .model_file import model_from_document
 from .terms import named_terms
@@ -38,7 +39,9 @@ def identified_model(document: Document) -> IdentifiedRobot:
         If the document's robot or model cannot be used.
     """
     extended = _extended_model(document)
-    return _uncorrected_model(document) if extended is None else extended
+    if extended is None:
+        return _uncorrected_model(document)
+    return replace(extended, remarks=(*extended.remarks, *_kept_apart(extended.model)))
 
 
 def identified_robot(document: Document) -> IdentifiedRobot:
@@ -55,6 +58,7 @@ def identified_robot(document: Document) -> IdentifiedRobot:
     extended = _extended_model(document)
     if extended is None:
         return _uncorrected_model(document)
+    extended = replace(extended, base=_answer_base(document, extended))
     diagnosis = document["diagnosis"]
     repaired = diagnosis.get("repaired_robot") or document["robot"]
     corrected = [repair for repair in diagnosis.get("repairs", ()) if repair["mends"] == "robot"]
@@ -63,14 +67,14 @@ def identified_robot(document: Document) -> IdentifiedRobot:
 
 
 def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
-    """Build the model that a result was identified with, before any correction: the terms that it names.
+    """Build the plain model of a result, before any correction: the terms that it names.
 
     Raises
     ------
     RobotError
         If the result does not name them.
     """
-    names = document.get("terms")
+    names = plain_document(document).get("terms")
     if not names:
         raise RobotError(
             "the result does not name the torque terms of its model",
@@ -82,6 +86,7 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
 
 def _uncorrected_model(document: Document) -> IdentifiedRobot:
     """Give the model as it was identified, before any correction."""
+    document = plain_document(document)
     model = model_of_result(document, _robot(document["robot"]))
     rows = {row["name"]: row for row in document["standard_parameters"]}
     own = [rows[parameter.name] for parameter in model.parameters]
@@ -90,11 +95,8 @@ def _uncorrected_model(document: Document) -> IdentifiedRobot:
         model=model,
         standard=np.array([float(row["value"]) for row in own]),
         identifiable=tuple(row["identifiable"] for row in own),
-        base=tuple(
-            BaseValue(row["name"], row["unit"], row["value"], row["grouping"])
-            for row in document["base_parameters"]
-        ),
-        remarks=(ESSENTIAL,) if essential else (),
+        base=_base_values(document),
+        remarks=(*answer_remarks(document), *([ESSENTIAL] if essential else [])),
     )
 
 
@@ -106,7 +108,32 @@ def _extended_model(document: Document) -> IdentifiedRobot | None:
         return None
     extended = model_from_document(written)
     model = replace(extended.model, robot=_orthonormal(extended.robot))
-    return replace(extended, model=model)
+    remarks = (*answer_remarks(document), *extended.remarks)
+    return replace(extended, model=model, remarks=remarks)
+
+
+def _kept_apart(model: DynamicModel) -> tuple[str, ...]:
+    """Say which changes the model's file holds as terms of their own; everywhere else they are added."""
+    changed = sorted({name for names in parts_of(model).values() for name in names})
+    sentence = (
+        f"What the findings change of {', '.join(changed)} is in terms of its own in this file, and not in "
+        "these parameters; in every other file it is added to them."
+    )
+    return (sentence,) if changed else ()
+
+
+def _answer_base(document: Document, extended: IdentifiedRobot) -> tuple[BaseValue, ...]:
+    """Give the base parameters as the result states them; earlier results state those of the model's file."""
+    if model_name(document) != EXTENDED:
+        return extended.base
+    return _base_values(document)
+
+
+def _base_values(document: Document) -> tuple[BaseValue, ...]:
+    return tuple(
+        BaseValue(row["name"], row["unit"], row["value"], row["grouping"])
+        for row in document["base_parameters"]
+    )
 
 
 def _robot(description: object) -> RobotModel:

@@ -17,6 +17,7 @@ from ..reduction.base import base_model
 from ..robot.description import robot_from_description
 from ..robot.differences import differences
 from ..robot.model import RobotModel
+from .answer import plain_document
 from .reading import model_of_result
 
 Document = Mapping[str, Any]
@@ -38,6 +39,7 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
         If the result is another robot's, or does not say how well its parameters are known together.
     """
     _check_robot(document, robot, name)
+    document = plain_document(document)
     model = model_of_result(document, robot)
     base = base_model(model)
     rows = {row["name"]: row for row in document["base_parameters"]}

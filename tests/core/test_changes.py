@@ -11,6 +11,8 @@ from tests.plant.again import arm_of, logged, with_friction, with_gravity
 from tests.plant.effects.drive import TorqueGain
 from tests.plant.effects.surroundings import PayloadChange
 from veritorque.core import study
+from veritorque.core.document.reading import identified_model, identified_robot
+from veritorque.core.document.reference import reference_from_document
 from veritorque.core.errors import OptionError, RobotError
 from veritorque.core.robot.frames import rotation_x, rotation_y
 from veritorque.core.robot.model import RobotModel
@@ -154,9 +156,31 @@ def test_the_reference_is_told_beside_what_was_identified_anew():
 def test_the_extended_model_keeps_to_the_reference_where_nothing_has_changed():
     after = {one["name"]: one for one in compared("friction")["diagnosis"]["after"]["base_parameters"]}
     old = {one["name"]: one["value"] for one in earlier()["base_parameters"]}
-    assert after["FC2"]["value"] == pytest.approx(old["FC2"], rel=0.02)
-    assert after["delta_coulomb2"]["new"]
-    assert after["delta_coulomb2"]["value"] == pytest.approx(0.4, abs=0.05)
+    change = after["delta_coulomb2"]
+    assert after["FC2"]["value"] - change["value"] == pytest.approx(old["FC2"], rel=0.02)
+    assert change["new"]
+    assert change["part_of"] == ["FC2"]
+    assert change["value"] == pytest.approx(0.4, abs=0.05)
+
+
+def test_a_friction_that_changed_is_one_number_in_document_table_and_file():
+    document = json.loads(json.dumps(compared("friction")))
+    told = {row["name"]: row["value"] for row in document["base_parameters"]}
+    assert told["FC2"] == pytest.approx(identified_robot(document).values["FC2"], rel=1e-9)
+    assert told["FC2"] == {row["name"]: row["value"] for row in document["standard_parameters"]}["FC2"]
+    # The same by the extended model of model.json, in which the change is a term of its own.
+    whole = identified_model(document).values
+    assert told["FC2"] == pytest.approx(whole["FC2"] + whole["delta_coulomb2"], rel=1e-9)
+    rows = {row["name"]: row for row in document["base_parameters"]}
+    # A sum of two numbers that are known together is not better known than the friction measured alone.
+    anew = {row["name"]: row for row in document["plain"]["base_parameters"]}
+    assert rows["FC2"]["standard_deviation"] < 1.05 * anew["FC2"]["standard_deviation"]
+
+
+def test_a_result_with_findings_is_a_reference_by_its_plain_model():
+    document = json.loads(json.dumps(compared("friction")))
+    reference = reference_from_document(document, arm_of(NAME, SEED).robot, "job-2")
+    assert list(reference.base.names) == [row["name"] for row in document["plain"]["base_parameters"]]
 
 
 def test_a_description_with_true_bodies_is_compared_with_and_its_friction_is_filled_in():

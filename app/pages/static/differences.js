@@ -35,7 +35,7 @@ function summary(studies, rows) {
       ? `${real.length ? plural("parameter", real.length) : "No parameter"} of ${rows.length} ${real.length < 2 ? "differs" : "differ"} by more than ${REAL} standard deviations${worst ? `, ${worst.name} the most` : ""}.`
       : "The two models have no parameter in common."),
     element("p", {}, `The torque error on ${held(studies)} is ${relative(totals[0])} on the left and ${relative(totals[1])} on the right.`),
-    studies.some((one) => one.document.diagnosis) ? element("p", { class: "hint" }, "For a diagnosis, errors and parameters are those of the model before the correction.") : null,
+    studies.some((one) => one.document.diagnosis) ? element("p", { class: "hint" }, "For a diagnosis, errors and parameters are those of the extended model, the one that its files hold.") : null,
     sharedLogs(studies).length ? element("p", { class: "hint" }, "Both studies used the same log. Their errors are not independent, so the standard deviation of the difference is overestimated.") : null);
 }
 
@@ -61,6 +61,7 @@ function setting(studies) {
     ["Robot", ...studies.map((one) => one.document.robot.name ?? one.robot)],
     ["Logs", ...studies.map(logs)],
     ["Kind", ...studies.map((one) => one.document.kind)],
+    ["Model", ...studies.map((one) => one.document.model?.name ?? "plain")],
     ["Options", ...studies.map((one) => options(one.document.provenance.options))],
     ["Filter cut-off", ...studies.map(bands)],
     ["Base parameters", ...studies.map((one) => `${one.document.counts.base}, ${one.document.counts.essential ?? "–"} essential`)],

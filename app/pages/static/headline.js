@@ -17,15 +17,16 @@ export function showHeadline(container, { job, document, report }) {
 
 function figures(document) {
   const { counts, feasibility, base_parameters: base } = document;
-  const held = document.validation_total_percent;
+  const plain = document.diagnosis?.before ?? document;
+  const held = plain.validation_total_percent;
   const named = base.filter((row) => row.relative_deviation_percent !== null && row.essential !== false);
   const ranked = [...named].sort((a, b) => a.relative_deviation_percent - b.relative_deviation_percent);
   const [best, worst] = [ranked[0], ranked.at(-1)];
-  const errors = document.validation.length ? document.validation : document.fit;
+  const errors = plain.validation.length ? plain.validation : plain.fit;
   const byError = [...errors].sort((a, b) => a.nrmse_of_rms_percent - b.nrmse_of_rms_percent);
   const corrected = document.diagnosis?.after?.validation_total_percent ?? null;
   return [
-    figure(corrected === null ? relative(held ?? document.fit_total_percent) : `${relative(held)} → ${relative(corrected)}`,
+    figure(corrected === null ? relative(held ?? plain.fit_total_percent) : `${relative(held)} → ${relative(corrected)}`,
       `torque error on ${held === null || held === undefined ? "the fitted data" : "held-out data"}, RMS of residual over RMS of torque${corrected === null ? "" : ", before and after the correction"}${range(byError, corrected === null ? "" : "before: ")}`),
     figure(counts.essential === null ? counts.base : `${counts.essential} of ${counts.base}`,
       `base parameters are essential; they group ${plural("standard parameter", counts.standard)}`),

@@ -15,10 +15,9 @@ const COLUMNS = [
   { id: "grouping", title: "Grouping", of: (row) => row.grouping },
 ];
 
-/** Show the table of base parameters, those of the extended model where there is one. */
+/** Show the table of base parameters, those of the model that the result states. */
 export function showParameters(container, { job, document }) {
-  const after = document.diagnosis?.after?.base_parameters ?? [];
-  const rows = after.length ? after : document.base_parameters;
+  const rows = document.base_parameters;
   const state = { column: null, descending: false, joint: "all" };
   const body = element("tbody", {});
   const said = element("p", { class: "hint", role: "status" });
@@ -28,7 +27,7 @@ export function showParameters(container, { job, document }) {
     element("option", { value: "all" }, "all joints"),
     [...new Set(rows.map((row) => row.joint))].map((joint) => element("option", { value: joint }, `joint ${joint}`)));
   fill(container,
-    after.length ? element("p", { class: "hint" }, "Extended model; parameters added by findings are marked as new.") : null,
+    document.plain ? element("p", { class: "hint" }, `${document.model.statement}. Parameters added by findings are marked as new.`) : null,
     element("div", { class: "row spread toolbar" },
       element("span", { class: "row" }, element("label", { for: "joint-filter" }, "Show"), filter, said),
       element("span", { class: "row" },

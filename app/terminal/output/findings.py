@@ -43,6 +43,8 @@ def print_diagnosis(console: Console, result: Document) -> None:
             ],
         )
     console.print(remainder(diagnosis["unexplained"]))
+    if result.get("model"):
+        console.print(f"Parameters and files: {escape(result['model']['statement'])}.")
 
 
 def reasons(finding: Document, band_hz: float) -> list[str]:

@@ -5,6 +5,7 @@ The page holds no script and loads nothing from elsewhere.
 
 from collections.abc import Sequence
 
+from ...document.answer import EXTENDED, model_name
 from . import overview, remainder, robot
 from .conflicts import disagreements, other_warnings
 from .figures import dependence_figure
@@ -49,7 +50,7 @@ def compose_page(
 
 
 def _diagnosis(document: Document) -> dict[str, object]:
-    after = document["diagnosis"]["after"].get("base_parameters") or []
+    extended = model_name(document) == EXTENDED
     return {
         "headline": overview.headline(document),
         "overview_lines": overview.overview_lines(document),
@@ -60,8 +61,8 @@ def _diagnosis(document: Document) -> dict[str, object]:
         "residuals": remainder.residuals(document),
         "dependences": dependence_figure(remainder.clearest_dependences(document)),
         "not_identifiable": remainder.not_identifiable(document),
-        "parameters_heading": f"Parameters of the {'extended ' if after else ''}model",
-        "base_parameters": robot.base_parameters(after or document["base_parameters"]),
+        "parameters_heading": f"Parameters of the {'extended ' if extended else ''}model",
+        "base_parameters": robot.base_parameters(document["base_parameters"]),
     }
 
 

@@ -1,6 +1,9 @@
 """The document of a real diagnosis: an arm whose torque ripples, from its log to the page."""
 
+import csv
+import io
 import json
+import re
 
 import numpy as np
 import pytest
@@ -8,6 +11,7 @@ from pydantic import BaseModel
 
 from tests.app.planar_arm import columns, description
 from tests.core.report.page.test_page import Page
+from veritorque.app.client.result import Result
 from veritorque.app.schemas.results import ResultDocument
 from veritorque.core.document.model_file import read_model
 from veritorque.core.document.reading import identified_model, identified_robot
@@ -82,12 +86,50 @@ def test_the_search_holds_out_what_the_fit_does_where_nothing_happened_there_alo
 
 
 def test_the_extended_model_has_the_old_parameters_and_the_new_ones(document):
-    old = [row["name"] for row in document["base_parameters"]]
+    old = [row["name"] for row in document["plain"]["base_parameters"]]
     rows = document["diagnosis"]["after"]["base_parameters"]
     assert [row["name"] for row in rows if not row["new"]] == old
     new = [row for row in rows if row["new"]]
     assert np.hypot(*(row["value"] for row in new)) == pytest.approx(AMPLITUDE, rel=0.1)
     assert all(row["standard_deviation"] > 0.0 for row in new)
+
+
+def friction_of(text, attribute):
+    """Read a drive's number per joint out of an MJCF file."""
+    return [float(value) for value in re.findall(rf'<joint [^>]*{attribute}="([^"]+)"', text)]
+
+
+def test_every_surface_of_a_diagnosis_gives_the_extended_model_with_the_plain_one_beside_it(document):
+    written = json.loads(json.dumps(document))
+    after = {row["name"]: row["value"] for row in written["diagnosis"]["after"]["base_parameters"]}
+    plain = {row["name"]: row["value"] for row in written["plain"]["base_parameters"]}
+    base, standard = (
+        {row["name"]: row for row in csv.DictReader(io.StringIO(FORMATS[name].write(written).decode()))}
+        for name in ("parameters.csv", "standard_parameters.csv")
+    )
+    assert {name: float(row["value"]) for name, row in base.items()} == after
+    assert {name: float(row["value_plain"]) for name, row in base.items() if row["value_plain"]} == plain
+    assert abs(after["FC2"] - plain["FC2"]) > 0.001 * plain["FC2"]  # else nothing is shown here
+    mjcf, model = (
+        FORMATS["robot.xml"].write(written).decode(),
+        read_model(FORMATS["model.json"].write(written)),
+    )
+    client = Result.from_document(written)
+    for symbol, attribute in (("FC", "frictionloss"), ("FV", "damping")):
+        names = [f"{symbol}{joint}" for joint in (1, 2)]
+        told = [after[name] for name in names]
+        assert friction_of(mjcf, attribute) == told
+        assert [float(standard[name]["value"]) for name in names] == told
+        assert [model.values[name] for name in names] == told
+        assert [client.base.value[client.base.name.index(name)] for name in names] == told
+        own = [client.plain.base.value[client.plain.base.name.index(name)] for name in names]
+        assert own == [plain[name] for name in names]
+    assert {row["model"] for row in [*base.values(), *standard.values()]} == {client.model} == {"extended"}
+    statement = written["model"]["statement"]
+    for name in ("robot.urdf", "robot.sdf", "parameters.yaml", "parameters.h", "model.json"):
+        assert statement in " ".join(FORMATS[name].write(written).decode().replace("# ", "").split()), name
+    assert written["validation"] == written["diagnosis"]["after"]["validation"]
+    assert client.plain.model == "plain"
 
 
 def test_every_finding_has_its_repair_and_a_description_that_is_right_is_not_repaired(document):

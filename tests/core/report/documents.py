@@ -230,7 +230,13 @@ def diagnosis(**changes):
 
 
 def diagnosed(**changes):
-    return identified(kind="diagnose", diagnosis=diagnosis(**changes))
+    found = diagnosis(**changes)
+    rows = found["after"]["base_parameters"]
+    document = identified(kind="diagnose", diagnosis=found)
+    extended = {"name": "extended", "statement": "The extended model: the diagnosis added load_coefficient1"}
+    return (
+        document | {"model": extended, "plain": identified(), "base_parameters": rows} if rows else document
+    )
 
 
 def nothing_found():
