@@ -1,6 +1,6 @@
 """Declare what all models share: strict types, no unknown fields, finite numbers, bounded lengths."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
 from pydantic.fields import FieldInfo
@@ -53,6 +53,10 @@ class JointFit(Open):
     rms_residual: float
     nrmse_of_range_percent: float | None
     nrmse_of_rms_percent: float | None
+    quality: Annotated[
+        Literal["good", "fair", "poor", "failed"] | None,
+        about("of an error of up to 10, 25, 50 per cent of the RMS torque, and above"),
+    ] = None
 
 
 class HeldOutSpan(Open):

@@ -28,6 +28,11 @@ class Hypothesis:
     remedy: str
     """What to do, in the imperative."""
 
+    @property
+    def key(self) -> tuple[str, tuple[int, ...], Channel | None]:
+        """Give what it is about, without the size of the correction."""
+        return self.conflict, self.joints, self.channel
+
 
 class Conflict(ABC):
     """Describe one kind of conflict."""

@@ -1,8 +1,8 @@
 """Find the corrections under which description and logs agree.
 
-Every hypothesis is one set-up. Least squares bounds how good it can be. Those that can still win are fitted
-with the constraints, best bound first, and judged on rows that were not fitted. The best is applied and the
-search goes on from it, until none is better than chance and the number of hypotheses explain.
+Every hypothesis is one set-up. Least squares bounds how well it can fit. Those that can still fit as well as
+the best are fitted with the constraints, best bound first, and judged on rows that were not fitted. The best
+is applied and the search goes on from it, until none is better than chance and their number explain.
 """
 
 from dataclasses import dataclass
@@ -69,7 +69,7 @@ def _best(listed: list[_Bounded], present: Outcome, trials: Trials) -> FoundConf
     """Choose the hypothesis that predicts best, the most usual of those that predict alike."""
     independent = trials.samples.independent * len(present.errors)
     margin, equal = (0.5 * decided / independent for decided in (DECISION.undecided, DECISION.equal))
-    tried = _tried(listed, present, trials, margin)
+    tried = _tried(listed, present, trials)
     best = min((candidate.outcome.score for candidate in tried), default=present.score)
     chance = margin + np.log(max(len(listed), 1)) / independent
     if present.score - best < max(DECISION.least_gain, chance):
@@ -82,19 +82,21 @@ def _best(listed: list[_Bounded], present: Outcome, trials: Trials) -> FoundConf
 
     others = sum(likelihood(candidate.outcome) for candidate in tried if candidate not in near)
     confidence = 1.0 / (1.0 + others + len(listed) * likelihood(present))
-    equivalents = tuple(candidate.hypothesis for candidate in near if candidate is not chosen)
+    equivalents = tuple(
+        candidate.hypothesis for candidate in near if candidate.hypothesis.key != chosen.hypothesis.key
+    )
     return FoundConflict(chosen.hypothesis, present, chosen.outcome, confidence, equivalents)
 
 
-def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, margin: float) -> list[_Tried]:
+def _tried(listed: list[_Bounded], present: Outcome, trials: Trials) -> list[_Tried]:
     """Fit those that can still win, best bound first; give them in order of preference."""
     tried: list[tuple[int, _Tried]] = []
-    best = present.score
+    best = present.fitted
     for place, candidate in sorted(enumerate(listed), key=lambda pair: pair[1].bound):
-        if candidate.bound > best + margin:
+        if candidate.bound > best + DECISION.least_gain:
             break
         outcome = trials.outcome(candidate.equations)
         if outcome is not None:
             tried.append((place, _Tried(candidate.hypothesis, outcome)))
-            best = min(best, outcome.score)
+            best = min(best, outcome.fitted)
     return [candidate for _, candidate in sorted(tried, key=lambda pair: pair[0])]

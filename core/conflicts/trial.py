@@ -123,6 +123,8 @@ class Outcome:
 
     errors: JointVector
     """RMS residual over RMS torque per joint, on the rows that judge."""
+    fitted: float
+    """Mean logarithm of the same on the rows that were fitted."""
 
     @property
     def score(self) -> float:
@@ -168,7 +170,8 @@ class Trials:
             solution = solve(Programme(base, system, prior, Bounds()), "clarabel")
         except SolverError:
             return None
-        return Outcome(equations.judged_errors(base.base_of(solution.standard)))
+        values = base.base_of(solution.standard)
+        return Outcome(equations.judged_errors(values), mean_log(equations.fitted_errors(values)))
 
     def bound_of_gravity(self, setup: Setup) -> Callable[[Vector3], float]:
         """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear."""

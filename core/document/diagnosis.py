@@ -15,7 +15,7 @@ from ..identification.result import Identification
 from ..simulation.multistep import Comparison, MultiStep
 from .extended import answer_fields, extended_rows
 from .finding import finding_row, not_identifiable_row
-from .identification import held_out_spans, identification_document
+from .identification import held_out_spans, identification_document, score_rows
 from .identified import BaseValue, IdentifiedRobot
 from .model_file import model_document
 from .numbers import plain
@@ -101,9 +101,9 @@ def _doubts(compared: ReferenceScore | None) -> list[str]:
 
 def _side(found: Identification | ReferenceScore) -> dict[str, object]:
     return {
-        "fit": found.fit,
+        "fit": score_rows(found.fit),
         "fit_total_percent": found.fit_total_percent,
-        "validation": found.validation,
+        "validation": score_rows(found.validation),
         "validation_total_percent": found.validation_total_percent if found.validation else None,
     }
 

@@ -3,7 +3,7 @@
 Fields may be added, never renamed. Every estimated number stands beside its unit and its uncertainty.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..robot.writing import to_description
 from ..signals.condition import Motion
+from ..validation.scores import JointScore, quality
 from .bodies import body_rows
 from .numbers import plain
 from .reference import write_factor
@@ -68,15 +69,20 @@ def model_fields(found: Identification) -> dict[str, object]:
         "bodies": body_rows(found.base.model, found.estimate.standard),
         "feasibility": _feasibility(found),
         "solver": _solver(found),
-        "fit": found.fit,
+        "fit": score_rows(found.fit),
         "fit_total_percent": found.fit_total_percent,
-        "validation": found.validation,
+        "validation": score_rows(found.validation),
         "validation_total_percent": found.validation_total_percent if found.validation else None,
         "condition_number": found.excitation.condition_number,
         "condition_number_scaled": found.excitation.condition_number_scaled,
         "precision": _precision(found),
         "essential_path": _path(found),
     }
+
+
+def score_rows(scores: Sequence[JointScore]) -> list[dict[str, object]]:
+    """Tabulate the errors per joint, each with a word for it."""
+    return [{**vars(score), "quality": quality(score.nrmse_of_rms_percent)} for score in scores]
 
 
 def base_parameter_rows(found: Identification) -> list[dict[str, object]]:

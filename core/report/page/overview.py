@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from .robot import joints_predicted
 from .words import (
     Document,
     count,
@@ -19,7 +20,18 @@ from .words import (
 
 
 def headline(document: Document) -> str:
-    """Give the result in one or two sentences."""
+    """Give the result in one or two sentences; what the model does not predict at all comes last."""
+    after = document["diagnosis"]["after"].get("validation") or []
+    failed = joints_predicted({"validation": after} if after else document).get("failed")
+    rest = (
+        f" The model does not predict {joints(failed)}: more than half of the torque is left."
+        if failed
+        else ""
+    )
+    return _verdict(document) + rest
+
+
+def _verdict(document: Document) -> str:
     diagnosis, left = document["diagnosis"], document["diagnosis"]["unexplained"]["joints"]
     name, other = document["robot"]["name"], reference(document)
     if diagnosis["findings"]:

@@ -2,28 +2,53 @@
 
 from collections.abc import Iterator, Sequence
 
+from ...validation.scores import QUALITIES
 from .render import Table, element
 from .units import effort, unit_of_mass_matrix
 from .whisker import whisker
-from .words import Document, fit_band, number, percent, uncertain, unit
+from .words import Document, fit_band, joints, number, percent, series, uncertain, unit
 
 _PSEUDO_INERTIA_UNIT = "in SI units, with entries in kg m², kg m and kg; only its sign matters"
 
 
 def headline(document: Document) -> str:
-    """Give the result in one sentence."""
+    """Give the result in one sentence; a joint that the model does not predict comes before all else."""
     held_out = document.get("validation_total_percent")
     error, data = (
         (document.get("fit_total_percent"), "fitted data")
         if held_out is None
         else (held_out, "held-out data")
     )
+    name, failed = document["robot"]["name"], joints_predicted(document).get("failed")
+    if failed:
+        return (
+            f"{name}: identification failed on {joints(failed)}, more than half of the torque is left; "
+            f"torque error {percent(error)} on {data}."
+        )
     feasible = document["feasibility"].get("feasible")
     consistency = {True: ", physically consistent", False: ", physically inconsistent"}.get(feasible, "")
     return (
-        f"{document['robot']['name']}: {document['counts']['base']} base parameters identified{consistency}; "
-        f"torque error {percent(error)} on {data}."
+        f"{name}: {document['counts']['base']} base parameters identified{consistency}; "
+        f"torque error {percent(error)} on {data}{_in_words(document)}."
     )
+
+
+def joints_predicted(document: Document) -> dict[str, list[int]]:
+    """List the joints by the word for their error: on held-out data, where there are any."""
+    listed: dict[str, list[int]] = {}
+    for row in document.get("validation") or document.get("fit") or []:
+        if row.get("quality"):
+            listed.setdefault(row["quality"], []).append(int(row["joint"]))
+    return listed
+
+
+def _in_words(document: Document) -> str:
+    """Say how well the joints are predicted, the worst first."""
+    listed = joints_predicted(document)
+    words = [word for word, _ in reversed(QUALITIES) if word in listed]
+    if len(words) < 2:
+        return f" ({words[0]} on every joint)" if words else ""
+    return f" ({series([f'{word} on {joints(listed[word])}' for word in words])})"
 
 
 def scores(document: Document) -> Table:
