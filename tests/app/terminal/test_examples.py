@@ -6,6 +6,7 @@ import shlex
 import signal
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.main import get_command
 
@@ -94,6 +95,9 @@ def prepared(monkeypatch, desk):
     assert run("keys", "create", "lab").exit_code == 0
     assert run("backup", "backup-of-sunday").exit_code == 0
     assert run("export", "result.json", "robot.urdf").exit_code == 0
+    for name, prefix in (("positions.csv", "q"), ("torques.csv", "tau")):
+        rows = [f"{0.01 * row},{np.sin(0.03 * row)}" for row in range(500)]
+        Path(name).write_text("\n".join([f"time,{prefix}_1", *rows]))
     return {"3f2a91": run("keys", "list").stdout.split()[0]}
 
 

@@ -1,0 +1,1 @@
+"""Hold robots and logs against each other."""

@@ -1,0 +1,160 @@
+"""Hold the set-up check: what is spoilt in a sound robot and its log is named, and nothing else is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.conflicts.score import answer, mean_percent
+from tests.conflicts.spoil import SPOILERS
+from tests.core.estimate.worlds import FRICTION, swing, true_parameters
+from tests.measured import measured_log, measured_robot
+from veritorque.core.conflicts.registry import CONFLICTS
+from veritorque.core.conflicts.samples import sampled
+from veritorque.core.conflicts.search import find_conflicts
+from veritorque.core.conflicts.setup import Setup
+from veritorque.core.conflicts.trial import Trials
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.assignment import Assignment, assigned
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.writing import to_description
+from veritorque.core.signals.recipe import FilterOptions
+from veritorque.core.signals.several import condition_all
+from veritorque.core.study import IdentifyRequest, diagnose, identify
+from veritorque.core.validation.holdout import HoldOut
+
+PLAIN = {"bootstrap": {"draws": 0}}
+
+
+@pytest.fixture(scope="module")
+def arm():
+    """Give four skew joints with 1 % of noise, and what a sound study of them leaves."""
+    row = {"type": "revolute"}
+    rows = [
+        {**row, "alpha": 0.0, "d": 0.0, "r": 0.3, "theta_offset": 0.0},
+        {**row, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0, "theta_offset": 0.4},
+        {**row, "alpha": 0.0, "d": 0.4, "r": 0.1, "theta_offset": -0.3},
+        {**row, "alpha": np.pi / 2, "d": 0.05, "r": 0.3, "theta_offset": 0.0},
+    ]
+    robot = robot_from_description({"name": "arm", "joints": rows})
+    model = standard_model(robot)
+    truth = true_parameters(model, seed=3)
+    state = swing(4, seed=5)
+    torque = model.torque(truth, state)
+    noise = 0.01 * np.sqrt(np.mean(torque**2, axis=0)) * np.random.default_rng(8).normal(size=torque.shape)
+    log = log_from_arrays("swing", np.arange(len(torque)) / 100.0, state.position, torque + noise)
+    return robot, log, mean_percent(identify(IdentifyRequest(robot, (log,), PLAIN)))
+
+
+@pytest.mark.parametrize("way", sorted(SPOILERS))
+def test_what_is_spoilt_is_named_and_nothing_else(arm, way):
+    robot, log, sound = arm
+    found = answer(SPOILERS[way](robot, log, np.random.default_rng(14)), sound)
+    assert found.exact, found
+
+
+def test_two_things_that_are_spoilt_are_named_one_after_the_other(arm):
+    robot, log, sound = arm
+    plain = Assignment.as_measured(4)
+    spoilt = replace(plain, torque=plain.torque.scaled(-1.0, 1), position=plain.position.scaled(-1.0, 2))
+    document = identify(IdentifyRequest(robot, (assigned(log, spoilt),), PLAIN))
+    named = {(row["conflict"], *row["joints"]) for row in document["conflicts"]}
+    assert named == {("torque_sign", 2), ("position_sign", 3)}
+    assert mean_percent(document) < 1.05 * sound
+
+
+def test_a_robot_whose_table_is_in_the_standard_convention_is_read_so(arm):
+    robot, log, sound = arm
+    described = to_description(robot)
+    joints = [dict(joint) for joint in described["joints"]]
+    after = [*joints[1:], {"alpha": 0.0, "d": 0.0}]
+    for joint, later in zip(joints, after, strict=True):  # the twist and length that a standard row ends with
+        joint["alpha"], joint["d"] = later["alpha"], later["d"]
+    wrong = robot_from_description(described | {"joints": joints})
+    document = identify(IdentifyRequest(wrong, (log,), PLAIN))
+    (found,) = document["conflicts"]
+    assert found["conflict"] == "convention"
+    assert mean_percent(document) < 1.05 * sound
+    corrected = described | found["correction"]["robot"]
+    assert identify(IdentifyRequest(robot_from_description(corrected), (log,), PLAIN))["conflicts"] == []
+
+
+def test_a_log_without_gravity_is_named(arm):
+    robot, log, _ = arm
+    rows, model = whole_rows(log), standard_model(robot)
+    state = swing(4, seed=5)
+    held = replace(state, velocity=0.0 * state.velocity, acceleration=0.0 * state.acceleration)
+    inertial = np.array([one.symbol not in FRICTION for one in model.parameters])
+    only = true_parameters(model, seed=3) * inertial
+    without = log_from_arrays("free", rows.time, rows.position, rows.torque - model.torque(only, held))
+    (found,) = identify(IdentifyRequest(robot, (without,), PLAIN))["conflicts"]
+    assert found["conflict"] == "gravity_compensated"
+
+
+def test_a_study_of_what_was_corrected_is_that_of_what_was_right(arm):
+    robot, log, _ = arm
+    plain = Assignment.as_measured(4)
+    spoilt = assigned(log, replace(plain, torque=plain.torque.exchanged(1, 2)))
+    right, corrected = (
+        identify(IdentifyRequest(robot, (one,), PLAIN))["base_parameters"] for one in (log, spoilt)
+    )
+    np.testing.assert_allclose(
+        [row["value"] for row in corrected], [row["value"] for row in right], rtol=1e-9, atol=1e-12
+    )
+
+
+def test_a_conflict_that_is_only_reported_stays_open_and_no_cause_is_claimed(arm):
+    robot, log, _ = arm
+    plain = Assignment.as_measured(4)
+    spoilt = assigned(log, replace(plain, torque=plain.torque.scaled(-1.0, 1)))
+    document = diagnose(IdentifyRequest(robot, (spoilt,), PLAIN | {"conflicts": "report"}))
+    (found,) = document["conflicts"]
+    assert not found["applied"]
+    assert document["doubts"][0].startswith("Robot and log disagree")
+    assert document["diagnosis"]["verdict"] != "nothing_found"
+    assert all(one["confidence"] <= 0.5 for one in document["diagnosis"]["findings"])
+
+
+def test_a_log_that_its_model_explains_is_not_examined(arm, monkeypatch):
+    robot, log, _ = arm
+
+    def refuse(*_):
+        raise AssertionError("examined")
+
+    monkeypatch.setattr("veritorque.core.conflicts.check.find_conflicts", refuse)
+    assert identify(IdentifyRequest(robot, (log,), PLAIN))["conflicts"] == []
+
+
+@pytest.mark.parametrize("name", sorted(CONFLICTS))
+def test_every_hypothesis_is_another_set_up_and_says_what_to_do(arm, name):
+    robot, log, _ = arm
+    motions = condition_all((log,), robot, FilterOptions(), blocks=20)
+    setup, trials = Setup.as_described(robot), Trials(sampled(motions, HoldOut().chosen(1)))
+    listed = list(CONFLICTS[name].hypotheses(setup, trials))
+    assert listed or name == "mounting"
+    for one in listed:
+        other = one.setup
+        assert (
+            other.assignment != setup.assignment
+            or other.robot.links is not robot.links
+            or not np.array_equal(other.robot.gravity, robot.gravity)
+        )
+        assert one.conflict == name
+        assert one.statement
+        assert one.remedy
+        assert set(one.joints) <= {1, 2, 3, 4}
+
+
+def test_sound_measured_robots_have_no_conflict():
+    robot, log = measured_robot("ur10e_open"), measured_log("ur10e_open", "fourier_30s_12h")
+    motions = condition_all((log,), robot, FilterOptions(), blocks=20)
+    assert find_conflicts(Setup.as_described(robot), Trials(sampled(motions, HoldOut().chosen(1)))) == ()
+
+
+@pytest.mark.parametrize("way", ["channels_swapped", "mounting"])
+def test_what_is_spoilt_on_a_measured_robot_is_named(way):
+    robot, log = measured_robot("ur10e_open"), measured_log("ur10e_open", "fourier_30s_12h")
+    spoilt = SPOILERS[way](robot, log, np.random.default_rng(4))
+    assert answer(spoilt, 5.0).exact
